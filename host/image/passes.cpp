@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/passes/image.hpp>
+
+#include "opencl/launch.hpp"
+#include "opencl/program.hpp"
+
+namespace clgi {
+namespace {
+
+// Work-items of the kernels that go through the image cell by cell.
+std::size_t cell_items(const PassKernel& pass, const RefineParams& params) {
+    return packets(pass, (params.width + 1) / 2) * ((params.height + 1) / 2);
+}
+
+std::size_t blocks(std::size_t pixels) { return (pixels + COMPACT_BLOCK - 1) / COMPACT_BLOCK; }
+
+std::size_t pixels_of(const RefineParams& params) {
+    return static_cast<std::size_t>(params.width) * params.height;
+}
+
+std::size_t plane_bytes(std::size_t planes, std::size_t stride) {
+    return planes * stride * sizeof(float);
+}
+
+}  // namespace
+
+ImagePasses::ImagePasses(const cl::Context& context, const cl::Device& device,
+                         const BuildOptions& options) {
+    auto kernels = build_room(context, device, "image",
+                              {"gather", "discontinuity", "count", "compact", "upsample", "place",
+                               "combine", "tonemap"},
+                              options);
+    gather_ = kernels[0];
+    discontinuity_ = kernels[1];
+    count_ = kernels[2];
+    compact_ = kernels[3];
+    upsample_ = kernels[4];
+    place_ = kernels[5];
+    combine_ = kernels[6];
+    tonemap_ = kernels[7];
+    prefer_small_groups(count_, options);
+    prefer_small_groups(compact_, options);
+}
+
+cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams& params,
+                              std::size_t most, const cl::Buffer& point_count,
+                              const cl::Buffer& points, const cl::Buffer& lights,
+                              const cl::Buffer& negative, const cl::Buffer& irradiance,
+                              const WaitList& wait) const {
+    if (params.stride < most || params.stride % 16 != 0)
+        throw Error("image.gather: stride is " + std::to_string(params.stride) +
+                    ", a multiple of 16 of at least " + std::to_string(most) + " needed");
+    need(gather_, "point_count", point_count, sizeof(std::uint32_t));
+    need(gather_, "points", points, plane_bytes(POINT_PLANES, params.stride));
+    need(gather_, "lights", lights, params.light_count * sizeof(IndirectLight));
+    need(gather_, "negative", negative, params.negative_count * sizeof(IndirectLight));
+    need(gather_, "irradiance", irradiance,
+         plane_bytes(params.negative_count > 0 ? 6 : 3, params.stride));
+    return launch(gather_, queue, packets(gather_, most), wait, params, point_count, points, lights,
+                  negative, irradiance);
+}
+
+cl::Event ImagePasses::discontinuity(const cl::CommandQueue& queue, const RefineParams& params,
+                                     const cl::Buffer& planes, const cl::Buffer& points,
+                                     const cl::Buffer& flags, const WaitList& wait) const {
+    need(discontinuity_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
+    need(discontinuity_, "points", points, plane_bytes(POINT_PLANES, params.low_stride));
+    need(discontinuity_, "flags", flags, pixels_of(params));
+    return launch(discontinuity_, queue, cell_items(discontinuity_, params), wait, params, planes,
+                  points, flags);
+}
+
+cl::Event ImagePasses::count(const cl::CommandQueue& queue, std::uint32_t pixels,
+                             const cl::Buffer& flags, const cl::Buffer& counts,
+                             const WaitList& wait) const {
+    need(count_, "flags", flags, pixels);
+    need(count_, "counts", counts, blocks(pixels) * sizeof(std::uint32_t));
+    return launch(count_, queue, blocks(pixels), wait, pixels, flags, counts);
+}
+
+cl::Event ImagePasses::compact(const cl::CommandQueue& queue, const RefineParams& params,
+                               const cl::Buffer& flags, const cl::Buffer& counts,
+                               const cl::Buffer& planes, const cl::Buffer& listed,
+                               const cl::Buffer& points, const cl::Buffer& point_count,
+                               const WaitList& wait) const {
+    const std::size_t pixels = pixels_of(params);
+    need(compact_, "flags", flags, pixels);
+    need(compact_, "counts", counts, blocks(pixels) * sizeof(std::uint32_t));
+    need(compact_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
+    need(compact_, "listed", listed, plane_bytes(1, params.stride));
+    need(compact_, "points", points, plane_bytes(POINT_PLANES, params.stride));
+    need(compact_, "point_count", point_count, sizeof(std::uint32_t));
+    return launch(compact_, queue, blocks(pixels), wait, params, flags, counts, planes, listed,
+                  points, point_count);
+}
+
+cl::Event ImagePasses::upsample(const cl::CommandQueue& queue, const RefineParams& params,
+                                const cl::Buffer& planes, const cl::Buffer& points,
+                                const cl::Buffer& low, const cl::Buffer& irradiance,
+                                const WaitList& wait) const {
+    need(upsample_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
+    need(upsample_, "points", points, plane_bytes(POINT_PLANES, params.low_stride));
+    need(upsample_, "low", low, plane_bytes(params.planes, params.low_stride));
+    need(upsample_, "irradiance", irradiance, plane_bytes(params.planes, params.stride));
+    return launch(upsample_, queue, cell_items(upsample_, params), wait, params, planes, points,
+                  low, irradiance);
+}
+
+cl::Event ImagePasses::place(const cl::CommandQueue& queue, const RefineParams& params,
+                             const cl::Buffer& point_count, const cl::Buffer& listed,
+                             const cl::Buffer& refined, const cl::Buffer& irradiance,
+                             const WaitList& wait) const {
+    need(place_, "point_count", point_count, sizeof(std::uint32_t));
+    need(place_, "listed", listed, plane_bytes(1, params.stride));
+    need(place_, "refined", refined, plane_bytes(params.planes, params.stride));
+    need(place_, "irradiance", irradiance, plane_bytes(params.planes, params.stride));
+    return launch(place_, queue, packets(place_, pixels_of(params)), wait, params, point_count,
+                  listed, refined, irradiance);
+}
+
+cl::Event ImagePasses::combine(const cl::CommandQueue& queue, const CombineParams& params,
+                               const View& view, const DeviceScene& scene,
+                               const SourceBuffers& sources, const cl::Buffer& planes,
+                               const cl::Buffer& ids, const cl::Buffer& irradiance,
+                               const cl::Buffer& radiance, const cl::Buffer& non_finite,
+                               const WaitList& wait) const {
+    const std::size_t pixels = static_cast<std::size_t>(params.width) * params.height;
+    if (params.stride < pixels || params.stride % 16 != 0)
+        throw Error("image.combine: stride is " + std::to_string(params.stride) +
+                    ", a multiple of 16 of at least " + std::to_string(pixels) + " needed");
+    need(combine_, "emitters", sources.emitters, params.emitter_count * sizeof(Emitter));
+    need(combine_, "planes", planes, plane_bytes(GBUFFER_PLANES, params.stride));
+    need(combine_, "ids", ids, plane_bytes(GBUFFER_ID_PLANES, params.stride));
+    if (params.effects & COMBINE_INDIRECT)
+        need(combine_, "irradiance", irradiance,
+             plane_bytes(params.effects & COMBINE_NEGATIVE ? 6 : 3, params.stride));
+    need(combine_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
+    need(combine_, "non_finite", non_finite, sizeof(std::uint32_t));
+    return launch(combine_, queue, packets(combine_, pixels), wait, params, view, sources.emitters,
+                  sources.views, sources.visibility, scene.materials(), planes, ids, irradiance,
+                  radiance, non_finite);
+}
+
+cl::Event ImagePasses::tonemap(const cl::CommandQueue& queue, const TonemapParams& params,
+                               const cl::Buffer& radiance, const cl::Buffer& preview,
+                               const WaitList& wait) const {
+    const std::size_t pixels = static_cast<std::size_t>(params.width) * params.height;
+    need(tonemap_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
+    need(tonemap_, "preview", preview, pixels * sizeof(std::uint32_t));
+    return launch(tonemap_, queue, pixels, wait, params, radiance, preview);
+}
+
+}  // namespace clgi

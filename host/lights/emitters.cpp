@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/emitters.hpp>
+
+#include <algorithm>
+#include <clgi/error.hpp>
+#include <clgi/shared/halton.h>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <numeric>
+#include <string>
+
+namespace clgi {
+namespace {
+
+constexpr float widest_single_view = 1.0472f;  // 60 degrees
+constexpr double pi = glm::pi<double>();
+
+float luminance(const glm::vec3& rgb) {
+    return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+// Any unit vector across n.
+glm::vec3 across(const glm::vec3& n) {
+    const glm::vec3 helper = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    return glm::normalize(glm::cross(helper, n));
+}
+
+struct Source {
+    Emitter emitter{};
+    std::vector<View> views;
+    double power = 0.0;
+    double acceptance = 0.0;  // share of the sphere in a spot's cone
+};
+
+View window(const glm::vec3& eye, const glm::vec3& right, const glm::vec3& up,
+            const glm::vec3& forward, float extent_x, float extent_y, float near, int width,
+            int height) {
+    View view{};
+    view.eye = glm::vec4(eye, 0.0f);
+    view.right = glm::vec4(right, extent_x);
+    view.up = glm::vec4(up, extent_y);
+    view.forward = glm::vec4(forward, near);
+    view.width = static_cast<std::uint32_t>(width);
+    view.height = static_cast<std::uint32_t>(height);
+    return view;
+}
+
+std::vector<View> cube(const glm::vec3& eye, float near, int size) {
+    const glm::vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    std::vector<View> views;
+    for (int face = 0; face < 6; ++face) {
+        const glm::vec3 forward = face % 2 == 0 ? axes[face / 2] : -axes[face / 2];
+        const glm::vec3 up = axes[(face / 2 + 1) % 3];
+        views.push_back(window(eye, glm::cross(forward, up), up, forward, 1, 1, near, size, size));
+    }
+    return views;
+}
+
+// The face along the normal and the outer halves of the four around it.
+std::vector<View> hemicube(const glm::vec3& eye, const glm::vec3& normal, float near, int size) {
+    const glm::vec3 right = across(normal);
+    const glm::vec3 up = glm::cross(right, normal);
+    std::vector<View> views = {window(eye, right, up, normal, 1, 1, near, size, size)};
+    for (const glm::vec3& side : {right, up, -right, -up}) {
+        View half = window(eye, glm::cross(side, normal), normal, side, 1, 0.5f, near, size,
+                           std::max(size / 2, 1));
+        half.window.y = 0.5f;
+        views.push_back(half);
+    }
+    return views;
+}
+
+Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterOptions& options) {
+    Source out;
+    const bool spot = light.kind == Light::Kind::spot;
+    const glm::vec3 eye = frame.to_local(light.position);
+    const float near = 1e-4f * frame.radius;
+    // Candela keep their meaning when lengths are scaled: I / d^2 = (I s^2) / (d s)^2.
+    const glm::vec3 intensity =
+        glm::vec3(glm::dvec3(light.intensity) * (frame.scale * frame.scale / frame.exposure));
+    Emitter& e = out.emitter;
+    e.position = glm::vec4(eye, 0.0f);
+    e.intensity = glm::vec4(intensity, 0.0f);
+    e.range = static_cast<float>(light.range * frame.scale);
+    e.kind = spot ? EMITTER_SPOT : EMITTER_POINT;
+    const glm::vec3 axis = spot ? glm::normalize(light.direction) : glm::vec3(0, 0, -1);
+    const glm::vec3 right = across(axis);
+    const double outer = spot ? light.outer_angle : pi;
+    const double inner = spot ? std::min<double>(light.inner_angle, outer) : pi;
+    e.axis = glm::vec4(axis, static_cast<float>(std::cos(outer)));
+    e.right = glm::vec4(right, static_cast<float>(std::cos(inner)));
+    // sin^2 of half the angle keeps what 1 - cos loses for narrow cones.
+    out.acceptance = std::pow(std::sin(0.5 * outer), 2);
+    e.measure = static_cast<float>(4.0 * pi * out.acceptance);
+    out.power = luminance(intensity) * e.measure;
+    if (spot && outer <= widest_single_view) {
+        const float extent = static_cast<float>(std::tan(outer));
+        out.views = {window(eye, right, glm::cross(right, axis), axis, extent, extent, near,
+                            options.shadow_size, options.shadow_size)};
+    } else {
+        out.views = cube(eye, near, options.face_size);
+    }
+    return out;
+}
+
+Source directional(const Light& light, const SceneFrame& frame, const EmitterOptions& options) {
+    Source out;
+    const glm::vec3 axis = glm::normalize(light.direction);
+    const glm::vec3 right = across(axis);
+    const float radius = 1.001f * frame.radius;
+    const glm::vec3 lux = glm::vec3(glm::dvec3(light.intensity) / frame.exposure);
+    Emitter& e = out.emitter;
+    e.position = glm::vec4(-axis * (1.01f * radius), 0.0f);  // the disc touches the bounds
+    e.axis = glm::vec4(axis, 0.0f);
+    e.right = glm::vec4(right, 0.0f);
+    e.intensity = glm::vec4(lux, 0.0f);
+    e.kind = EMITTER_DIRECTIONAL;
+    e.measure = static_cast<float>(pi) * radius * radius;
+    out.power = luminance(lux) * e.measure;
+    View view = window(glm::vec3(e.position), right, glm::cross(right, axis), axis, radius, radius,
+                       0.0f, options.shadow_size, options.shadow_size);
+    view.eye.w = 1.0f;
+    view.window.z = 2.05f * radius;
+    out.views = {view};
+    return out;
+}
+
+// `count` points on the emissive triangles, each standing for an equal share of their power.
+std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions& options) {
+    const std::vector<EmissiveTriangle>& triangles = scene.emissive();
+    std::vector<Source> out;
+    if (triangles.empty() || options.area_samples < 1) return out;
+    std::vector<double> cumulative;
+    double total = 0.0;
+    for (const EmissiveTriangle& t : triangles)
+        cumulative.push_back(total += pi * t.area * luminance(t.radiance));
+    const SceneFrame& frame = scene.frame();
+    const double share = total / options.area_samples;
+    for (int k = 0; k < options.area_samples; ++k) {
+        const double target = (k + 0.5) * share;
+        const std::size_t pick = static_cast<std::size_t>(
+            std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
+        const EmissiveTriangle& t = triangles[std::min(pick, triangles.size() - 1)];
+        // Uniform on the triangle; the index runs on, so triangles picked often are covered evenly.
+        const float root = std::sqrt(radical_inverse(static_cast<std::uint32_t>(k) + 1, 2));
+        const float v = radical_inverse(static_cast<std::uint32_t>(k) + 1, 3);
+        const glm::vec3 on = t.corner[0] * (1.0f - root) + t.corner[1] * (root * (1.0f - v)) +
+                             t.corner[2] * (root * v);
+        const float lift = 1e-4f * frame.radius;
+        const float lum = luminance(t.radiance);
+        Source source;
+        Emitter& e = source.emitter;
+        e.position = glm::vec4(on + t.normal * lift, 0.0f);
+        e.axis = glm::vec4(t.normal, 0.0f);
+        e.right = glm::vec4(across(t.normal), 0.0f);
+        e.intensity = glm::vec4(t.radiance * static_cast<float>(share / lum), 0.0f);
+        e.area = static_cast<float>(share / (pi * lum));
+        e.kind = EMITTER_AREA;
+        e.measure = static_cast<float>(2.0 * pi);
+        source.power = share;
+        source.views = hemicube(glm::vec3(e.position), t.normal, 0.5f * lift, options.face_size);
+        out.push_back(source);
+    }
+    return out;
+}
+
+// Largest remainders: shares in proportion to power, their sum exactly `lights`.
+std::vector<std::uint32_t> divide(const std::vector<Source>& sources, int lights) {
+    double total = 0.0;
+    for (const Source& source : sources) total += source.power;
+    std::vector<std::uint32_t> shares;
+    std::vector<std::pair<double, std::size_t>> rests;
+    std::uint32_t given = 0;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const double exact = lights * (sources[i].power / total);
+        shares.push_back(static_cast<std::uint32_t>(exact));
+        given += shares.back();
+        rests.emplace_back(exact - shares.back(), i);
+    }
+    std::stable_sort(rests.begin(), rests.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (std::size_t i = 0; given < static_cast<std::uint32_t>(lights); ++i, ++given)
+        ++shares[rests[i % rests.size()].second];
+    return shares;
+}
+
+std::uint32_t candidate_count(const Source& source, std::uint32_t share) {
+    if (source.emitter.kind != EMITTER_SPOT || share == 0) return 0;
+    // Twice what is expected, and some more for few lights: the sequence's discrepancy is far less.
+    const double expected = share / std::max(source.acceptance, 1e-12);
+    const double tried = std::min(2.0 * expected + 1024.0, 4194304.0);
+    return (static_cast<std::uint32_t>(tried) + 31) / 32 * 32;
+}
+
+void check(const char* what, int value, int low, int high) {
+    if (value < low || value > high)
+        throw Error(std::string("emitters: ") + what + " is " + std::to_string(value) + ", " +
+                    std::to_string(low) + " to " + std::to_string(high) + " needed");
+}
+
+}  // namespace
+
+EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options) {
+    check("lights", options.lights, 0, 1 << 20);
+    check("shadow_size", options.shadow_size, 1, 8192);
+    check("face_size", options.face_size, 1, 4096);
+    check("area_samples", options.area_samples, 0, 4096);
+
+    std::vector<Source> sources;
+    if (scene.info().triangle_count > 0) {
+        for (const Light& light : scene.lights())
+            sources.push_back(light.kind == Light::Kind::directional
+                                  ? directional(light, scene.frame(), options)
+                                  : spot_or_point(light, scene.frame(), options));
+        const std::vector<Source> areas = area_samples(scene, options);
+        sources.insert(sources.end(), areas.begin(), areas.end());
+    }
+    std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
+
+    EmitterSet out;
+    if (sources.empty()) return out;
+    const std::vector<std::uint32_t> shares = divide(sources, options.lights);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        Source& source = sources[i];
+        source.emitter.first_view = static_cast<std::uint32_t>(out.views.size());
+        source.emitter.view_count = static_cast<std::uint32_t>(source.views.size());
+        source.emitter.first_light = static_cast<std::uint32_t>(out.light_count);
+        source.emitter.light_count = shares[i];
+        out.light_count += shares[i];
+        out.candidates.push_back(candidate_count(source, shares[i]));
+        out.emitters.push_back(source.emitter);
+        for (View& view : source.views) {
+            view.first_pixel = static_cast<std::uint32_t>(out.pixels);
+            out.pixels += static_cast<std::size_t>(view.width) * view.height;
+            out.views.push_back(view);
+        }
+    }
+    return out;
+}
+
+}  // namespace clgi

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "opencl/program.hpp"
+
+#include <algorithm>
+#include <clgi/device.hpp>
+#include <clgi/error.hpp>
+#include <cstring>
+#include <future>
+
+#include "opencl/embedded.hpp"
+
+namespace clgi {
+namespace {
+
+const char* find_source(const std::string& name) {
+    for (unsigned i = 0; i < embedded_kernel_count; ++i)
+        if (name == embedded_kernels[i].name) return embedded_kernels[i].source;
+    throw Error("program: no embedded kernel is called " + name);
+}
+
+std::string compiler_options(const cl::Device& device, const BuildOptions& options, int width) {
+    std::string text = "-cl-std=CL1.2 -DCLGI_WIDTH=" + std::to_string(width);
+    if (uses_atomics64(device, options)) text += " -DCLGI_ATOMIC64";
+    if (options.math == Math::fast) {
+        text += " -cl-fast-relaxed-math";
+    } else if (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() &
+               CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) {
+        text += " -cl-fp32-correctly-rounded-divide-sqrt";
+    }
+    return text;
+}
+
+PassKernel build_pass(const cl::Context& context, const cl::Device& device,
+                      const std::string& room, const std::string& pass,
+                      const BuildOptions& options) {
+    const int width = options.packet_width > 0 ? options.packet_width : packet_width(device);
+    if (width != 1 && width != 4 && width != 8 && width != 16)
+        throw Error("program: packet_width is " + std::to_string(width) + ", 1, 4, 8 or 16 needed");
+    cl::Program program(context, std::string(find_source(room + "/" + pass)));
+    try {
+        program.build(device, compiler_options(device, options, width).c_str());
+    } catch (const cl::Error& error) {
+        throw DeviceError("program: " + room + "/" + pass + ".cl does not build on " +
+                          describe(device) + " (OpenCL error " + std::to_string(error.err()) +
+                          ")\n" + program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device));
+    }
+    PassKernel out;
+    out.name = room + "." + pass;
+    out.kernel = cl::Kernel(program, (room + "_" + pass).c_str());
+    const std::size_t most = out.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device);
+    out.local_size = std::min(options.local_size > 0 ? options.local_size : 64, most);
+    out.packet_width = width;
+    return out;
+}
+
+}  // namespace
+
+bool uses_atomics64(const cl::Device& device, const BuildOptions& options) {
+    return options.atomics64 && device.getInfo<CL_DEVICE_EXTENSIONS>().find(
+                                    "cl_khr_int64_extended_atomics") != std::string::npos;
+}
+
+void prefer_small_groups(PassKernel& pass, const BuildOptions& options) {
+    constexpr std::size_t few = 4;
+    if (options.local_size == 0 && pass.packet_width > 1)
+        pass.local_size = std::min(pass.local_size, few);
+}
+
+std::vector<PassKernel> build_room(const cl::Context& context, const cl::Device& device,
+                                   const std::string& room,
+                                   std::initializer_list<const char*> passes,
+                                   const BuildOptions& options) {
+    std::vector<std::future<PassKernel>> builds;
+    for (const char* pass : passes)
+        builds.push_back(std::async(std::launch::async, [&, name = std::string(pass)] {
+            return build_pass(context, device, room, name, options);
+        }));
+    for (auto& build : builds) build.wait();  // context and device outlive every thread
+    std::vector<PassKernel> kernels;
+    for (auto& build : builds) kernels.push_back(build.get());
+    return kernels;
+}
+
+}  // namespace clgi

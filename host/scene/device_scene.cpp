@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/device_scene.hpp>
+
+#include <algorithm>
+#include <clgi/error.hpp>
+#include <cmath>
+#include <string>
+
+#include "scene/texture_pool.hpp"
+
+namespace clgi {
+namespace {
+
+float luminance(const glm::vec3& rgb) {
+    return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+SceneFrame local_frame(const Scene& scene) {
+    SceneFrame frame;
+    if (scene.triangles.empty()) return frame;
+    const Bounds box = bounds(scene);
+    frame.origin = 0.5 * (box.low + box.high);
+    const double radius = 0.5 * glm::length(box.high - box.low);
+    if (radius > 0.0) {
+        int exponent = 0;
+        std::frexp(radius, &exponent);
+        frame.scale = std::ldexp(1.0, -exponent);
+    }
+    frame.radius = static_cast<float>(std::max(radius * frame.scale, 1e-6));
+    return frame;
+}
+
+// The power of two that brings the brightest source near 1 in local units.
+double common_exposure(const Scene& scene, const SceneFrame& frame) {
+    double brightest = 0.0;
+    for (const Light& light : scene.lights) {
+        const double strongest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+        const bool directional = light.kind == Light::Kind::directional;
+        brightest =
+            std::max(brightest, strongest * (directional ? 1.0 : frame.scale * frame.scale));
+    }
+    for (const Material& material : scene.materials)
+        brightest = std::max(
+            {brightest, double{material.emission.x}, double{material.emission.y}, double{material.emission.z}});
+    if (!(brightest > 0.0)) return 1.0;
+    int exponent = 0;
+    std::frexp(brightest, &exponent);
+    return std::ldexp(1.0, exponent);
+}
+
+MaterialRecord record_of(const Material& material, double exposure) {
+    MaterialRecord out{};
+    const Reflectance shares = reflectance(material.metallic, material.roughness);
+    out.base_color = material.base_color;
+    out.emission = glm::vec4(glm::dvec3(material.emission) / exposure, material.alpha_cutoff);
+    out.reflectance = glm::vec4(shares.diffuse, shares.coat, shares.lobe, shares.exponent);
+    out.base_texture = material.base_texture.texture;
+    out.base_uv_set = material.base_texture.uv_set;
+    out.emission_texture = material.emission_texture.texture;
+    out.emission_uv_set = material.emission_texture.uv_set;
+    const auto row = [](const glm::mat3& m, int r) {
+        return glm::vec4(m[0][r], m[1][r], m[2][r], 0.0f);
+    };
+    out.base_u = row(material.base_texture.transform, 0);
+    out.base_v = row(material.base_texture.transform, 1);
+    out.emission_u = row(material.emission_texture.transform, 0);
+    out.emission_v = row(material.emission_texture.transform, 1);
+    return out;
+}
+
+class Uploader {
+public:
+    Uploader(const cl::Context& context, const cl::Device& device)
+        : context_(context), most_(device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()) {}
+
+    // A buffer is never empty: kernels take all of them, also those a scene has no use for.
+    template <typename T>
+    cl::Buffer operator()(const char* what, std::vector<T> values) {
+        if (values.empty()) values.resize(1);
+        const std::size_t size = values.size() * sizeof(T);
+        if (size > most_)
+            throw DeviceError(std::string("scene: ") + what + " need " + std::to_string(size) +
+                              " bytes in one buffer, the device allows " + std::to_string(most_));
+        bytes += size;
+        try {
+            return cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, size,
+                              values.data());
+        } catch (const cl::Error& error) {
+            throw DeviceError(std::string("scene: no room for ") + what + " (" +
+                              std::to_string(size) + " bytes, OpenCL error " +
+                              std::to_string(error.err()) + ")");
+        }
+    }
+
+    std::size_t bytes = 0;
+
+private:
+    cl::Context context_;
+    std::size_t most_;
+};
+
+struct Word4 {
+    std::uint32_t x, y, z, w;
+};
+
+}  // namespace
+
+Reflectance reflectance(float metallic, float roughness) {
+    const float a = std::max(roughness * roughness, 1e-3f);
+    const float smooth = 1.0f - a;
+    Reflectance out{};
+    out.coat = 0.04f * smooth * (1.0f - metallic);
+    out.diffuse = (1.0f - metallic) * (1.0f - 0.04f * smooth) + metallic * a;
+    out.lobe = metallic * smooth;
+    out.exponent = std::min(2.0f / (a * a) - 2.0f, 1e4f);
+    return out;
+}
+
+DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene) {
+    validate(scene);
+    frame_ = local_frame(scene);
+    frame_.exposure = common_exposure(scene, frame_);
+    lights_ = scene.lights;
+
+    std::vector<glm::vec4> positions(scene.positions.size());
+    std::vector<glm::vec4> normals(scene.normals.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        positions[i] = glm::vec4(frame_.to_local(scene.positions[i]), 0.0f);
+        normals[i] = glm::vec4(scene.normals[i], 0.0f);
+    }
+    std::vector<MaterialRecord> materials;
+    bool emits = false;
+    for (const Material& material : scene.materials) {
+        materials.push_back(record_of(material, frame_.exposure));
+        emits = emits || luminance(material.emission) > 0.0f;
+        const Reflectance shares = reflectance(material.metallic, material.roughness);
+        has_lobes_ = has_lobes_ || shares.coat + shares.lobe > 1e-4f;
+        has_masks_ = has_masks_ || material.alpha_mode == AlphaMode::mask;
+    }
+    std::vector<glm::vec3> emission_means(scene.materials.size());
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        const Material& material = scene.materials[m];
+        emission_means[m] = glm::vec3(glm::dvec3(material.emission) / frame_.exposure);
+        if (emits && material.emission_texture.texture >= 0)
+            emission_means[m] *= mean_color(scene.textures[material.emission_texture.texture]);
+    }
+
+    std::vector<Word4> triangles;
+    triangles.reserve(scene.triangles.size());
+    for (const SceneTriangle& triangle : scene.triangles) {
+        const Material& material = scene.materials[triangle.material];
+        std::uint32_t word = triangle.material;
+        if (material.double_sided) word |= static_cast<std::uint32_t>(TRIANGLE_DOUBLE_SIDED);
+        if (material.alpha_mode == AlphaMode::mask) word |= TRIANGLE_MASKED;
+        triangles.push_back({triangle.vertex[0], triangle.vertex[1], triangle.vertex[2], word});
+
+        const glm::vec3 radiance = emission_means[triangle.material];
+        if (!(luminance(radiance) > 0.0f)) continue;
+        EmissiveTriangle source;
+        for (int k = 0; k < 3; ++k) source.corner[k] = glm::vec3(positions[triangle.vertex[k]]);
+        const glm::vec3 normal = glm::cross(source.corner[1] - source.corner[0],
+                                            source.corner[2] - source.corner[0]);
+        const float twice_area = glm::length(normal);
+        if (!(twice_area > 0.0f)) continue;
+        source.normal = normal / twice_area;
+        source.area = 0.5f * twice_area;
+        source.radiance = radiance;
+        emissive_.push_back(source);
+        if (material.double_sided) {
+            source.normal = -source.normal;
+            emissive_.push_back(source);
+        }
+    }
+
+    TexturePool pool = make_texture_pool(scene.textures);
+    info_.vertex_count = static_cast<std::uint32_t>(positions.size());
+    info_.triangle_count = static_cast<std::uint32_t>(triangles.size());
+    if (!scene.uvs.empty()) info_.flags |= SCENE_HAS_UVS;
+    if (!scene.colors.empty()) info_.flags |= SCENE_HAS_COLORS;
+    if (!scene.textures.empty()) info_.flags |= SCENE_HAS_TEXTURES;
+    if (emits) info_.flags |= SCENE_HAS_EMISSION;
+
+    Uploader upload(context, device);
+    triangles_ = upload("triangles", std::move(triangles));
+    positions_ = upload("positions", std::move(positions));
+    normals_ = upload("normals", std::move(normals));
+    uvs_ = upload("texture coordinates", scene.uvs);
+    colors_ = upload("vertex colors", scene.colors);
+    materials_ = upload("materials", std::move(materials));
+    textures_ = upload("texture records", std::move(pool.records));
+    texels_ = upload("texels", std::move(pool.texels));
+    decode_ = upload("the sRGB table", srgb_decode_table());
+    bytes_ = upload.bytes;
+}
+
+void DeviceScene::set_light(std::size_t index, const Light& light) {
+    if (index >= lights_.size())
+        throw Error("scene: light " + std::to_string(index) + " was to be set, there are " +
+                    std::to_string(lights_.size()));
+    lights_[index] = light;
+}
+
+std::array<const cl::Buffer*, 9> DeviceScene::kernel_arguments() const {
+    return {&triangles_, &positions_, &normals_,  &uvs_,   &colors_,
+            &materials_, &textures_,  &texels_, &decode_};
+}
+
+View make_view(const Camera& camera, const SceneFrame& frame, int width, int height) {
+    if (width < 1 || height < 1 || width > 16384 || height > 16384)
+        throw Error("view: the image is " + std::to_string(width) + "x" + std::to_string(height) +
+                    ", 1x1 to 16384x16384 needed");
+    View view{};
+    const glm::vec3 eye = frame.to_local(camera.position);
+    const bool orthographic = camera.kind == Camera::Kind::orthographic;
+    const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    const float half_height = orthographic
+                                  ? static_cast<float>(camera.half_height * frame.scale)
+                                  : std::tan(0.5f * camera.vertical_fov);
+    float near = static_cast<float>(camera.near * frame.scale);
+    if (!orthographic && !(near > 0.0f)) near = 1e-3f * frame.radius;
+    view.eye = glm::vec4(eye, orthographic ? 1.0f : 0.0f);
+    view.right = glm::vec4(camera.right, half_height * aspect);
+    view.up = glm::vec4(camera.up, half_height);
+    view.forward = glm::vec4(camera.forward, near);
+    // Beyond everything: the eye's distance from the centre and the scene's radius.
+    view.window.z = near + 1.01f * (glm::length(eye) + frame.radius) + 1e-3f;
+    view.width = static_cast<std::uint32_t>(width);
+    view.height = static_cast<std::uint32_t>(height);
+    view.flags = VIEW_CULL_BACK_FACES;
+    return view;
+}
+
+}  // namespace clgi

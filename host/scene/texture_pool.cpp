@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "scene/texture_pool.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clgi {
+namespace {
+
+double decode_srgb(double s) {
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+std::uint32_t encode_srgb(double linear) {
+    const double s =
+        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint32_t>(std::clamp(s * 255.0 + 0.5, 0.0, 255.0));
+}
+
+// Encoding by table: nearest of 4096 steps is well within half a byte's width.
+class Encoder {
+public:
+    Encoder() : bytes_(4097) {
+        for (int i = 0; i <= 4096; ++i) bytes_[i] = encode_srgb(i / 4096.0);
+    }
+    std::uint32_t operator()(float linear) const {
+        return bytes_[static_cast<int>(std::clamp(linear, 0.0f, 1.0f) * 4096.0f + 0.5f)];
+    }
+
+private:
+    std::vector<std::uint32_t> bytes_;
+};
+
+struct Level {
+    int width, height;
+    std::vector<std::uint32_t> texels;
+};
+
+Level halve(const Level& level, const std::vector<float>& decode, const Encoder& encode) {
+    Level out{std::max(level.width / 2, 1), std::max(level.height / 2, 1), {}};
+    out.texels.resize(static_cast<std::size_t>(out.width) * out.height);
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x) {
+            float rgb[3] = {0, 0, 0};
+            std::uint32_t alpha = 2;
+            for (int k = 0; k < 4; ++k) {
+                const int sx = std::min(2 * x + (k & 1), level.width - 1);
+                const int sy = std::min(2 * y + (k >> 1), level.height - 1);
+                const std::uint32_t t =
+                    level.texels[static_cast<std::size_t>(sy) * level.width + sx];
+                for (int c = 0; c < 3; ++c) rgb[c] += 0.25f * decode[t >> (8 * c) & 255];
+                alpha += t >> 24;
+            }
+            out.texels[static_cast<std::size_t>(y) * out.width + x] =
+                encode(rgb[0]) | encode(rgb[1]) << 8 | encode(rgb[2]) << 16 | (alpha / 4) << 24;
+        }
+    return out;
+}
+
+std::uint32_t wrap_bits(Wrap wrap) {
+    return wrap == Wrap::repeat ? 0 : wrap == Wrap::mirrored_repeat ? 1 : 2;
+}
+
+// Linear pictures are stored as sRGB too: one table decodes all of them.
+Level first_level(const Texture& texture, const Encoder& encode) {
+    Level level{texture.width, texture.height, {}};
+    level.texels.resize(static_cast<std::size_t>(texture.width) * texture.height);
+    for (std::size_t i = 0; i < level.texels.size(); ++i) {
+        std::uint32_t t = 0;
+        for (int c = 0; c < 4; ++c) {
+            std::uint32_t byte = texture.rgba[4 * i + c];
+            if (!texture.srgb && c < 3) byte = encode(static_cast<float>(byte) / 255.0f);
+            t |= byte << (8 * c);
+        }
+        level.texels[i] = t;
+    }
+    return level;
+}
+
+}  // namespace
+
+std::vector<float> srgb_decode_table() {
+    std::vector<float> table(256);
+    for (int i = 0; i < 256; ++i) table[i] = static_cast<float>(decode_srgb(i / 255.0));
+    return table;
+}
+
+TexturePool make_texture_pool(const std::vector<Texture>& textures) {
+    TexturePool pool;
+    if (textures.empty()) return pool;
+    const std::vector<float> decode = srgb_decode_table();
+    const Encoder encode;
+    for (const Texture& texture : textures) {
+        TextureRecord record{};
+        record.first_texel = static_cast<std::uint32_t>(pool.texels.size());
+        record.width = texture.width;
+        record.height = texture.height;
+        std::uint32_t levels = 0;
+        Level level = first_level(texture, encode);
+        while (true) {
+            pool.texels.insert(pool.texels.end(), level.texels.begin(), level.texels.end());
+            ++levels;
+            if (level.width == 1 && level.height == 1) break;
+            level = halve(level, decode, encode);
+        }
+        record.flags = wrap_bits(texture.wrap_s) | wrap_bits(texture.wrap_t) << 2 |
+                       (texture.nearest ? std::uint32_t{TEXTURE_NEAREST} : 0u) | levels << TEXTURE_LEVELS_SHIFT;
+        pool.records.push_back(record);
+    }
+    return pool;
+}
+
+glm::vec3 mean_color(const Texture& texture) {
+    const std::vector<float> decode = srgb_decode_table();
+    glm::dvec3 sum(0.0);
+    const std::size_t texels = static_cast<std::size_t>(texture.width) * texture.height;
+    for (std::size_t i = 0; i < texels; ++i)
+        for (int c = 0; c < 3; ++c) {
+            const std::uint8_t byte = texture.rgba[4 * i + c];
+            sum[c] += texture.srgb ? decode[byte] : byte / 255.0;
+        }
+    return glm::vec3(sum / std::max(1.0, static_cast<double>(texels)));
+}
+
+}  // namespace clgi

@@ -1,0 +1,25 @@
+// All textures of a scene in one row of texels, with their mip levels.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/scene.hpp>
+#include <clgi/shared/scene.h>
+#include <vector>
+
+namespace clgi {
+
+struct TexturePool {
+    std::vector<TextureRecord> records;
+    std::vector<std::uint32_t> texels;  // RGBA8, red in the lowest byte
+};
+
+// Mip levels are averaged in linear light.
+TexturePool make_texture_pool(const std::vector<Texture>& textures);
+
+// Linear value of every sRGB byte, IEC 61966-2-1. [256]
+std::vector<float> srgb_decode_table();
+
+// Mean linear color of a texture.
+glm::vec3 mean_color(const Texture& texture);
+
+}  // namespace clgi

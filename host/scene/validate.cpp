@@ -1,0 +1,236 @@
+// What a Scene promises, and the questions that need only its arrays.
+// SPDX-License-Identifier: MIT
+#include <clgi/error.hpp>
+#include <clgi/scene.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace clgi {
+
+namespace {
+
+constexpr double farthest = 1e18;           // metres; the square of a distance is still a float
+constexpr float unit_tolerance = 1e-3f;     // of a length; quantised normals are that far off
+constexpr float right_angle = std::numbers::pi_v<float> / 2.0f;
+
+[[noreturn]] void fail(const std::string& what) { throw InputError("scene: " + what); }
+
+std::string entry(const char* array, std::size_t i) {
+    return std::string(array) + " " + std::to_string(i);
+}
+
+template <typename Vector>
+bool is_finite(const Vector& v) {
+    for (int i = 0; i < Vector::length(); ++i) {
+        if (!std::isfinite(v[i])) return false;
+    }
+    return true;
+}
+
+template <typename Vector>
+bool is_unit(const Vector& v) {
+    return std::abs(glm::length(v) - 1.0f) <= unit_tolerance;  // false for NaN
+}
+
+bool is_place(const glm::dvec3& p) { return glm::length(p) <= farthest; }
+
+bool is_within(float value, float low, float high) { return value >= low && value <= high; }
+
+void check_length(const char* array, std::size_t length, std::size_t vertices, bool optional) {
+    if (length == vertices || (optional && length == 0)) return;
+    fail("there are " + std::to_string(length) + " " + array + ", but " +
+         std::to_string(vertices) + " positions");
+}
+
+void check_vertices(const Scene& scene) {
+    const std::size_t vertices = scene.positions.size();
+    check_length("normals", scene.normals.size(), vertices, false);
+    check_length("uvs", scene.uvs.size(), vertices, true);
+    check_length("colors", scene.colors.size(), vertices, true);
+    for (std::size_t i = 0; i < vertices; ++i) {
+        if (!is_place(scene.positions[i])) {
+            fail(entry("position", i) + " is not finite or beyond 1e18 m");
+        }
+        if (!is_unit(scene.normals[i])) {
+            fail(entry("normal", i) + " has length " +
+                 std::to_string(glm::length(scene.normals[i])));
+        }
+    }
+    for (std::size_t i = 0; i < scene.uvs.size(); ++i) {
+        if (!is_finite(scene.uvs[i])) fail(entry("uv", i) + " is not finite");
+    }
+    for (std::size_t i = 0; i < scene.colors.size(); ++i) {
+        for (int c = 0; c < 4; ++c) {
+            if (!is_within(scene.colors[i][c], 0.0f, 1.0f)) {
+                fail(entry("color", i) + " has a channel outside 0..1");
+            }
+        }
+    }
+}
+
+void check_triangles(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const SceneTriangle& triangle = scene.triangles[i];
+        for (const std::uint32_t vertex : triangle.vertex) {
+            if (vertex >= scene.positions.size()) {
+                fail(entry("triangle", i) + " names vertex " + std::to_string(vertex) +
+                     ", there are " + std::to_string(scene.positions.size()));
+            }
+        }
+        if (triangle.material >= scene.materials.size()) {
+            fail(entry("triangle", i) + " names material " + std::to_string(triangle.material) +
+                 ", there are " + std::to_string(scene.materials.size()));
+        }
+    }
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const Part& part = scene.parts[i];
+        const std::size_t end = std::size_t{part.first_triangle} + part.triangle_count;
+        if (end > scene.triangles.size()) {
+            fail(entry("part", i) + " ends at triangle " + std::to_string(end) + ", there are " +
+                 std::to_string(scene.triangles.size()));
+        }
+    }
+}
+
+void check_textures(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const Texture& texture = scene.textures[i];
+        if (texture.width <= 0 || texture.height <= 0) {
+            fail(entry("texture", i) + " is of " + std::to_string(texture.width) + "x" +
+                 std::to_string(texture.height) + " texels");
+        }
+        const std::size_t bytes =
+            static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height) * 4;
+        if (texture.rgba.size() != bytes) {
+            fail(entry("texture", i) + " has " + std::to_string(texture.rgba.size()) +
+                 " bytes, needs " + std::to_string(bytes));
+        }
+    }
+}
+
+void check_slot(const Scene& scene, const TextureSlot& slot, const std::string& name) {
+    if (slot.texture < -1 || slot.texture >= static_cast<int>(scene.textures.size())) {
+        fail(name + " names texture " + std::to_string(slot.texture) + ", there are " +
+             std::to_string(scene.textures.size()));
+    }
+    if (slot.texture < 0) return;
+    if (slot.uv_set != 0 && slot.uv_set != 1) {
+        fail(name + " reads uv set " + std::to_string(slot.uv_set) + ", there are 0 and 1");
+    }
+    for (int column = 0; column < 3; ++column) {
+        if (!is_finite(slot.transform[column])) fail(name + " has a uv transform not finite");
+    }
+    if (scene.uvs.empty() && !scene.positions.empty()) {
+        fail(name + " is textured, but there are no uvs");
+    }
+}
+
+void check_materials(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        const std::string name = entry("material", i);
+        for (int c = 0; c < 4; ++c) {
+            if (!is_within(material.base_color[c], 0.0f, 1.0f)) {
+                fail(name + " has a base color outside 0..1");
+            }
+        }
+        for (int c = 0; c < 3; ++c) {
+            if (!(material.emission[c] >= 0.0f) || !std::isfinite(material.emission[c])) {
+                fail(name + " has an emission that is negative or not finite");
+            }
+        }
+        if (!is_within(material.metallic, 0.0f, 1.0f)) fail(name + " is metallic outside 0..1");
+        if (!is_within(material.roughness, 0.0f, 1.0f)) fail(name + " is rough outside 0..1");
+        if (!(material.alpha_cutoff >= 0.0f) || !std::isfinite(material.alpha_cutoff)) {
+            fail(name + " has an alpha cutoff that is negative or not finite");
+        }
+        check_slot(scene, material.base_texture, name);
+        check_slot(scene, material.emission_texture, name);
+    }
+}
+
+void check_lights(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        const std::string name = entry("light", i);
+        if (!is_place(light.position)) fail(name + " has a position that is not finite");
+        for (int c = 0; c < 3; ++c) {
+            if (!(light.intensity[c] >= 0.0f) || !std::isfinite(light.intensity[c])) {
+                fail(name + " has an intensity that is negative or not finite");
+            }
+        }
+        if (!(light.range >= 0.0f) || !std::isfinite(light.range)) {
+            fail(name + " has a range that is negative or not finite");
+        }
+        if (light.kind == Light::Kind::point) continue;
+        if (!is_unit(light.direction)) fail(name + " has a direction that is not unit");
+        if (light.kind != Light::Kind::spot) continue;
+        if (!(light.outer_angle > 0.0f && light.outer_angle <= right_angle + 1e-6f)) {
+            fail(name + " has an outer cone angle outside 0..pi/2");
+        }
+        if (!is_within(light.inner_angle, 0.0f, light.outer_angle)) {
+            fail(name + " has an inner cone angle outside 0..its outer one");
+        }
+    }
+}
+
+void check_cameras(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const Camera& camera = scene.cameras[i];
+        const std::string name = entry("camera", i);
+        if (!is_place(camera.position)) fail(name + " has a position that is not finite");
+        if (!is_unit(camera.right) || !is_unit(camera.up) || !is_unit(camera.forward)) {
+            fail(name + " has an axis that is not unit");
+        }
+        const bool orthogonal = std::abs(glm::dot(camera.right, camera.up)) <= unit_tolerance &&
+                                std::abs(glm::dot(camera.up, camera.forward)) <= unit_tolerance &&
+                                std::abs(glm::dot(camera.forward, camera.right)) <= unit_tolerance;
+        if (!orthogonal) fail(name + " has axes that are not orthogonal");
+        if (camera.kind == Camera::Kind::perspective &&
+            !(camera.vertical_fov > 0.0f && camera.vertical_fov < std::numbers::pi_v<float>)) {
+            fail(name + " has a field of view outside 0..pi");
+        }
+        if (camera.kind == Camera::Kind::orthographic &&
+            !(camera.half_height > 0.0f && std::isfinite(camera.half_height))) {
+            fail(name + " has a half height that is not above 0");
+        }
+        if (!(camera.near >= 0.0f) || !std::isfinite(camera.near)) {
+            fail(name + " has a near distance that is negative or not finite");
+        }
+    }
+}
+
+}  // namespace
+
+void validate(const Scene& scene) {
+    check_vertices(scene);
+    check_triangles(scene);
+    check_textures(scene);
+    check_materials(scene);
+    check_lights(scene);
+    check_cameras(scene);
+}
+
+Bounds bounds(const Scene& scene) {
+    Bounds box;
+    bool first = true;
+    for (const SceneTriangle& triangle : scene.triangles) {
+        for (const std::uint32_t vertex : triangle.vertex) {
+            const glm::dvec3& p = scene.positions[vertex];
+            box.low = first ? p : glm::min(box.low, p);
+            box.high = first ? p : glm::max(box.high, p);
+            first = false;
+        }
+    }
+    return box;
+}
+
+bool has_emission(const Scene& scene) {
+    for (const SceneTriangle& triangle : scene.triangles) {
+        if (scene.materials[triangle.material].emission != glm::vec3(0.0f)) return true;
+    }
+    return false;
+}
+
+}  // namespace clgi

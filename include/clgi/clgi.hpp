@@ -1,0 +1,14 @@
+// Everything of the library proper; files are in clgi/io/.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/emitters.hpp>
+#include <clgi/error.hpp>
+#include <clgi/passes/gbuffer.hpp>
+#include <clgi/passes/image.hpp>
+#include <clgi/passes/lights.hpp>
+#include <clgi/procedural.hpp>
+#include <clgi/scene.hpp>
+#include <clgi/solvers/second_order.hpp>

@@ -1,0 +1,90 @@
+// A scene's buffers on the device, in the local frame.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <clgi/opencl.hpp>
+#include <clgi/scene.hpp>
+#include <clgi/shared/gbuffer.h>
+#include <clgi/shared/scene.h>
+
+namespace clgi {
+
+// local = (world - origin) * scale. The scale is a power of two that brings the scene's radius
+// into [0.5, 1), so neither size nor place of a scene costs precision: a scene moved or scaled by
+// powers of two gives the same bits.
+// Light is exposed by a power of two as well: radiance on the device is radiance / exposure.
+struct SceneFrame {
+    glm::dvec3 origin = glm::dvec3(0.0);
+    double scale = 1.0;
+    double exposure = 1.0;
+    float radius = 1.0f;  // of the sphere around the local bounds
+
+    glm::vec3 to_local(const glm::dvec3& world) const {
+        return glm::vec3((world - origin) * scale);
+    }
+};
+
+// A triangle that emits, in the local frame.
+struct EmissiveTriangle {
+    glm::vec3 corner[3];
+    glm::vec3 normal;    // unit, the side that emits
+    float area = 0.0f;   // local units squared
+    glm::vec3 radiance = glm::vec3(0.0f);  // exposed
+};
+
+class DeviceScene {
+public:
+    // Validates and uploads; the scene itself is not needed afterwards.
+    // Throws InputError for a broken scene, DeviceError when the device has no room for it.
+    DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene);
+
+    const SceneFrame& frame() const { return frame_; }
+    const SceneInfo& info() const { return info_; }
+    const std::vector<Light>& lights() const { return lights_; }
+    const std::vector<EmissiveTriangle>& emissive() const { return emissive_; }
+    bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
+    bool has_masks() const { return has_masks_; }  // some triangle is alpha-masked
+    std::size_t bytes() const { return bytes_; }
+
+    // Replaces a light, for scenes that move; the exposure stays as it was.
+    // Throws Error when there is no such light.
+    void set_light(std::size_t index, const Light& light);
+
+    // In the order of SCENE_ARGUMENTS in kernels/scene/buffers.clh.
+    std::array<const cl::Buffer*, 9> kernel_arguments() const;
+    const cl::Buffer& triangles() const { return triangles_; }
+    const cl::Buffer& positions() const { return positions_; }
+    const cl::Buffer& materials() const { return materials_; }
+
+private:
+    SceneFrame frame_;
+    SceneInfo info_{};
+    std::vector<Light> lights_;
+    std::vector<EmissiveTriangle> emissive_;
+    bool has_lobes_ = false;
+    bool has_masks_ = false;
+    std::size_t bytes_ = 0;
+    cl::Buffer triangles_, positions_, normals_, uvs_, colors_, materials_, textures_, texels_,
+        decode_;
+};
+
+// The reflectance that a material stands for (docs/materials.md).
+//
+//   a = roughness^2
+//   coat = 0.04 (1 - a) (1 - metallic)       white gloss of a smooth dielectric
+//   diffuse share of base = (1 - metallic)(1 - coat') + metallic a,  coat' = 0.04 (1 - a)
+//   lobe share of base    = metallic (1 - a)
+//   Phong exponent        = 2 / a^2 - 2, at most 10000
+//
+// A fully rough material is Lambert with the base colour itself, metal or not: there the lobe's
+// exponent is 0, and the normalised lobe of exponent 0 is Lambert.
+struct Reflectance {
+    float diffuse, coat, lobe, exponent;
+};
+Reflectance reflectance(float metallic, float roughness);
+
+// The view of a camera for an image of this size, in the scene's local frame.
+View make_view(const Camera& camera, const SceneFrame& frame, int width, int height);
+
+}  // namespace clgi

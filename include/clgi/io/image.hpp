@@ -1,0 +1,46 @@
+// Pictures in and out: OpenEXR, PNG, Radiance HDR. Files appear whole or not at all.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace clgi::io {
+
+// Float planes of one size, row 0 at the top.
+struct Image {
+    struct Channel {
+        std::string name;           // "R", "G", "B", "A", "normal.X" ...
+        std::vector<float> values;  // [height][width]
+    };
+    int width = 0;
+    int height = 0;
+    std::vector<Channel> channels;
+    std::map<std::string, std::string> attributes;  // e.g. {"clgi:quantity", "radiance"}
+
+    const Channel* find(const std::string& name) const;  // null when there is none
+};
+
+enum class Storage { half, full };
+
+struct LoadReport {
+    std::size_t non_finite = 0;  // samples that were NaN or infinite, now 0 or the largest float
+};
+
+// Reads .exr (scanline or tiled, first part) or .hdr (told apart by content). Non-finite samples
+// are replaced and counted in report. Throws InputError: "file: what is wrong".
+Image load_image(const std::filesystem::path& path, LoadReport* report = nullptr);
+
+// Writes EXR, ZIP-compressed. half saturates at 65504 instead of becoming infinite.
+// Attributes become string attributes of the header.
+void save_exr(const Image& image, const std::filesystem::path& path, Storage storage);
+
+// Writes an 8-bit sRGB PNG from RGBA bytes, row 0 at the top. rgba: [height][width][4]
+void save_png(int width, int height, const std::vector<std::uint8_t>& rgba,
+              const std::filesystem::path& path);
+
+}  // namespace clgi::io

@@ -1,0 +1,28 @@
+// What all passes have in common: how kernels are built and one kernel ready to be enqueued.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/opencl.hpp>
+#include <string>
+
+namespace clgi {
+
+enum class Math { strict, fast };
+
+// How a room's kernels are built. Results do not depend on packet_width or local_size.
+struct BuildOptions {
+    Math math = Math::strict;
+    int packet_width = 0;       // lanes of a packet: 1, 4, 8 or 16; 0: what suits the device
+    std::size_t local_size = 0;  // work-items of a group; 0: 64, or what the device allows
+    bool atomics64 = true;       // use 64-bit atomics where the device has them
+};
+
+// One kernel of a room.
+struct PassKernel {
+    std::string name;  // "gbuffer.raster"
+    cl::Kernel kernel;
+    std::size_t local_size = 64;
+    int packet_width = 1;
+};
+
+}  // namespace clgi

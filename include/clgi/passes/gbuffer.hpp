@@ -1,0 +1,65 @@
+// The rasteriser and what follows it, one method a kernel. Buffers and layouts: clgi/shared/gbuffer.h.
+//
+// Every method checks sizes, enqueues one kernel on the caller's queue and returns its event. It
+// allocates nothing and never waits. Throws Error for a buffer too small or a value out of range.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+#include <clgi/pass.hpp>
+#include <clgi/shared/gbuffer.h>
+
+namespace clgi {
+
+// What drawing a view works with besides the scene. visibility may hold several views.
+struct RasterBuffers {
+    cl::Buffer visibility;     // [pixels of all views] ulong
+    cl::Buffer vertices;       // [vertex_count] ScreenVertex
+    cl::Buffer polygons;       // [triangle_count] RasterPolygon
+    cl::Buffer polygon_count;  // [1] uint
+};
+
+class GBufferPasses {
+public:
+    GBufferPasses(const cl::Context& context, const cl::Device& device,
+                  const BuildOptions& options = {});
+
+    // Empties the view's part of visibility, and the polygon list.
+    cl::Event clear(const cl::CommandQueue& queue, const View& view, const RasterBuffers& buffers,
+                    const WaitList& wait = {}) const;
+
+    // Projects every vertex.
+    cl::Event transform(const cl::CommandQueue& queue, const View& view, const DeviceScene& scene,
+                        const RasterBuffers& buffers, const WaitList& wait = {}) const;
+
+    // Draws small triangles and lists the others. stage: RASTER_FUSED where fused() says so, else
+    // once with RASTER_DEPTH and once with RASTER_IDENTITY.
+    cl::Event raster(const cl::CommandQueue& queue, const View& view, const DeviceScene& scene,
+                     std::uint32_t stage, const RasterBuffers& buffers,
+                     const WaitList& wait = {}) const;
+
+    // Draws the listed polygons.
+    cl::Event raster_large(const cl::CommandQueue& queue, const View& view,
+                           const DeviceScene& scene, const RasterBuffers& buffers,
+                           const WaitList& wait = {}) const;
+
+    // visibility -> planes [GBUFFER_PLANES][stride] float, ids [GBUFFER_ID_PLANES][stride] int.
+    cl::Event resolve(const cl::CommandQueue& queue, const View& view, const DeviceScene& scene,
+                      const ResolveParams& params, const cl::Buffer& visibility,
+                      const cl::Buffer& planes, const cl::Buffer& ids,
+                      const WaitList& wait = {}) const;
+
+    // planes [>= POINT_PLANES][stride] -> points [POINT_PLANES][low_stride] float.
+    cl::Event downsample(const cl::CommandQueue& queue, const DownsampleParams& params,
+                         const cl::Buffer& planes, const cl::Buffer& points,
+                         const WaitList& wait = {}) const;
+
+    bool fused() const { return fused_; }
+    int packet_width() const { return resolve_.packet_width; }
+
+private:
+    PassKernel clear_, transform_, raster_, raster_large_, resolve_, downsample_;
+    bool fused_;
+};
+
+}  // namespace clgi

@@ -1,0 +1,69 @@
+// From lights and points to a picture, one method a kernel. Structs: clgi/shared/image.h.
+// Rules for all methods: clgi/passes/gbuffer.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+#include <clgi/pass.hpp>
+#include <clgi/passes/lights.hpp>
+#include <clgi/shared/image.h>
+
+namespace clgi {
+
+class ImagePasses {
+public:
+    ImagePasses(const cl::Context& context, const cl::Device& device,
+                const BuildOptions& options = {});
+
+    // points [POINT_PLANES][stride] lit by lights and negative lights into irradiance
+    // [3 or 6 planes][stride], for the first *point_count points, of at most `most`.
+    cl::Event gather(const cl::CommandQueue& queue, const GatherParams& params, std::size_t most,
+                     const cl::Buffer& point_count, const cl::Buffer& points,
+                     const cl::Buffer& lights, const cl::Buffer& negative,
+                     const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+
+    // flags: [width * height] uchar, 1 where low resolution does not suit.
+    cl::Event discontinuity(const cl::CommandQueue& queue, const RefineParams& params,
+                            const cl::Buffer& planes, const cl::Buffer& points,
+                            const cl::Buffer& flags, const WaitList& wait = {}) const;
+
+    // counts: [pixels / COMPACT_BLOCK, rounded up] uint.
+    cl::Event count(const cl::CommandQueue& queue, std::uint32_t pixels, const cl::Buffer& flags,
+                    const cl::Buffer& counts, const WaitList& wait = {}) const;
+
+    // Flagged pixels in a row: listed [stride] uint, points [POINT_PLANES][stride], point_count [1].
+    cl::Event compact(const cl::CommandQueue& queue, const RefineParams& params,
+                      const cl::Buffer& flags, const cl::Buffer& counts, const cl::Buffer& planes,
+                      const cl::Buffer& listed, const cl::Buffer& points,
+                      const cl::Buffer& point_count, const WaitList& wait = {}) const;
+
+    // low [planes][low_stride] -> irradiance [planes][stride].
+    cl::Event upsample(const cl::CommandQueue& queue, const RefineParams& params,
+                       const cl::Buffer& planes, const cl::Buffer& points, const cl::Buffer& low,
+                       const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+
+    // refined [planes][stride] of listed pixels -> irradiance [planes][stride].
+    cl::Event place(const cl::CommandQueue& queue, const RefineParams& params,
+                    const cl::Buffer& point_count, const cl::Buffer& listed,
+                    const cl::Buffer& refined, const cl::Buffer& irradiance,
+                    const WaitList& wait = {}) const;
+
+    // radiance: [RADIANCE_PLANES][stride] cd/m^2; non_finite [1] uint is only added to.
+    cl::Event combine(const cl::CommandQueue& queue, const CombineParams& params, const View& view,
+                      const DeviceScene& scene, const SourceBuffers& sources,
+                      const cl::Buffer& planes, const cl::Buffer& ids,
+                      const cl::Buffer& irradiance, const cl::Buffer& radiance,
+                      const cl::Buffer& non_finite, const WaitList& wait = {}) const;
+
+    // preview: [width * height] uint, RGBA8.
+    cl::Event tonemap(const cl::CommandQueue& queue, const TonemapParams& params,
+                      const cl::Buffer& radiance, const cl::Buffer& preview,
+                      const WaitList& wait = {}) const;
+
+    int packet_width() const { return gather_.packet_width; }
+
+private:
+    PassKernel gather_, discontinuity_, count_, compact_, upsample_, place_, combine_, tonemap_;
+};
+
+}  // namespace clgi

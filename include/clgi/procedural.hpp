@@ -1,0 +1,74 @@
+// Scenes made from numbers: known geometry for tests, benches and first pictures.
+//
+// Every scene has at least one camera and one light. All surfaces are diffuse (metallic 0,
+// roughness 1). Lengths in metres, angles in radians. An option out of range throws Error.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/scene.hpp>
+#include <glm/glm.hpp>
+
+namespace clgi {
+
+// What lights a scene. area: an emissive surface instead of a lamp.
+enum class Lamp { spot, area, point };
+
+// The Cornell box by its published measurements; the camera stands in front of the open side.
+struct CornellOptions {
+    Lamp lamp = Lamp::area;
+    glm::vec3 radiance = glm::vec3(17.0f, 12.0f, 4.0f);   // cd/m^2; area
+    glm::vec3 intensity = glm::vec3(1.5f, 1.35f, 1.15f);  // cd; spot and point
+    float cone_angle = 0.6f;                              // from the axis; spot
+};
+Scene cornell(const CornellOptions& options = {});
+
+// A closed room of 12 triangles with a mesh floating in its middle, one lamp near the front of
+// the ceiling and the camera before the front wall: the test scene of [Cochran07].
+struct BoxOptions {
+    Lamp lamp = Lamp::spot;                           // spot or point
+    glm::dvec3 size = glm::dvec3(2.0, 2.0, 3.0);      // width, height, depth
+    double mesh_height = 0.45;                        // share of the box's height, (0,0.9]
+    glm::vec3 left = glm::vec3(0.72f, 0.09f, 0.07f);  // reflectances, each in [0,1]
+    glm::vec3 right = glm::vec3(0.10f, 0.42f, 0.12f);
+    glm::vec3 walls = glm::vec3(0.75f, 0.75f, 0.73f);  // back, front, floor, ceiling
+    glm::vec3 mesh = glm::vec3(0.78f, 0.77f, 0.74f);
+    glm::vec3 intensity = glm::vec3(28.0f, 27.0f, 25.0f);  // cd, for the default size
+    float cone_angle = 0.6f;                               // from the axis; spot
+};
+// Takes the shape of mesh alone: its materials, lights and cameras are left behind. Intensity is
+// scaled with the square of the box's height, so that a box of any size looks the same.
+Scene box(const Scene& mesh, const BoxOptions& options = {});
+Scene box(const BoxOptions& options = {});  // with bumpy_mesh()
+
+// A star-shaped solid, about 2 m across, of 69,451 triangles: as many as the Stanford bunny has.
+Scene bumpy_mesh();
+
+// A sphere seen from inside, one reflectance everywhere, its light at the centre. The closed
+// form: with a spot or point of flux Phi, indirect irradiance is rho Phi / (4 pi R^2 (1 - rho))
+// everywhere; with an area lamp (the whole wall glows) radiosity is pi L / (1 - rho).
+struct FurnaceOptions {
+    Lamp lamp = Lamp::spot;
+    float albedo = 0.5f;             // [0,1)
+    int subdivisions = 4;            // 0 to 8; 20 * 4^subdivisions triangles
+    double radius = 1.0;             // of the sphere through all vertices
+    float cone_angle = 0.52359878f;  // from the axis (30 degrees), hard edge; spot, aimed at -Y
+    float intensity = 1.0f;          // cd; spot and point
+    float radiance = 1.0f;           // cd/m^2; area
+};
+Scene furnace(const FurnaceOptions& options = {});
+
+// A corridor with rooms behind doors on both sides; a spot near one end shines along it, so that
+// the rooms are lit by what comes through their doors alone. No edge ends on another's middle.
+struct CorridorOptions {
+    int rooms = 3;                                            // on either side, 1 to 64
+    float door_angle = 1.2f;                                  // 0: closed, up to 2.6
+    double width = 2.0;                                       // of the corridor, at least 0.5
+    double height = 2.5;                                      // at least 2.2 (doors are 2.05 high)
+    double room_length = 4.0;                                 // along the corridor, at least 3
+    double room_depth = 3.0;                                  // away from it, at least 1.5
+    glm::vec3 intensity = glm::vec3(180.0f, 172.0f, 155.0f);  // cd
+    float cone_angle = 0.6f;                                  // from the axis
+};
+Scene corridor(const CorridorOptions& options = {});
+
+}  // namespace clgi

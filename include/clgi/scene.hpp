@@ -1,0 +1,130 @@
+// The scene as the host sees it: one world-space triangle list and what lights and looks at it.
+//
+// Right-handed, +Y up, metres, linear Rec.709. Light units are those of KHR_lights_punctual and
+// KHR_materials_emissive_strength: candela, lux, candela per square metre.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace clgi {
+
+enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
+
+// An 8-bit picture, row 0 at the top, four bytes a texel.
+struct Texture {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba;  // [height][width][4]
+    Wrap wrap_s = Wrap::repeat;
+    Wrap wrap_t = Wrap::repeat;
+    bool nearest = false;  // sample without interpolation
+    bool srgb = true;      // rgb is sRGB-encoded; alpha is always linear
+};
+
+// How a material reads a texture: KHR_texture_transform applied to one of two UV sets.
+struct TextureSlot {
+    int texture = -1;  // index into Scene::textures; -1: none
+    int uv_set = 0;    // 0 or 1
+    glm::mat3 transform = glm::mat3(1.0f);  // uv' = transform * (u, v, 1)
+};
+
+enum class AlphaMode { opaque, mask };
+
+// glTF metallic-roughness. docs/materials.md says which reflectance follows from it.
+struct Material {
+    std::string name;
+    glm::vec4 base_color = glm::vec4(1.0f);  // linear rgb in [0,1], alpha
+    TextureSlot base_texture;
+    float metallic = 0.0f;                // [0,1]
+    float roughness = 1.0f;               // [0,1]
+    glm::vec3 emission = glm::vec3(0.0f);  // radiance, cd/m^2 (factor times strength)
+    TextureSlot emission_texture;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+};
+
+// Vertices of a triangle in Scene's vertex arrays, counter-clockwise seen from the front.
+struct SceneTriangle {
+    std::uint32_t vertex[3];
+    std::uint32_t material;
+};
+
+struct Light {
+    enum class Kind { spot, point, directional };
+    std::string name;
+    Kind kind = Kind::point;
+    glm::dvec3 position = glm::dvec3(0.0);
+    glm::vec3 direction = glm::vec3(0.0f, 0.0f, -1.0f);  // unit; spot and directional
+    glm::vec3 intensity = glm::vec3(1.0f);  // color times intensity: candela, directional lux
+    float range = 0.0f;        // metres where the light ends; 0: unlimited
+    float inner_angle = 0.0f;  // radians from the axis, full intensity inside; spot
+    float outer_angle = 0.78539816f;  // radians from the axis, none outside; spot
+};
+
+struct Camera {
+    enum class Kind { perspective, orthographic };
+    std::string name;
+    Kind kind = Kind::perspective;
+    glm::dvec3 position = glm::dvec3(0.0);
+    glm::vec3 right = glm::vec3(1.0f, 0.0f, 0.0f);  // unit, orthogonal
+    glm::vec3 up = glm::vec3(0.0f, 1.0f, 0.0f);
+    glm::vec3 forward = glm::vec3(0.0f, 0.0f, -1.0f);
+    float vertical_fov = 0.8f;  // radians, whole angle; perspective
+    float half_height = 1.0f;   // metres; orthographic
+    float near = 0.0f;          // metres; 0: derived from the scene's size
+};
+
+// A range of triangles that moves as one: a glTF primitive placed by a node.
+struct Part {
+    std::string name;
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+};
+
+struct Bounds {
+    glm::dvec3 low = glm::dvec3(0.0);
+    glm::dvec3 high = glm::dvec3(0.0);
+};
+
+struct Scene {
+    std::string name;
+
+    // One entry a vertex. uv: set 0 in xy, set 1 in zw; color: linear, empty when no vertex has one.
+    std::vector<glm::dvec3> positions;  // metres
+    std::vector<glm::vec3> normals;     // unit, world space
+    std::vector<glm::vec4> uvs;         // empty when nothing is textured
+    std::vector<glm::vec4> colors;      // rgba multiplier; empty: all white
+
+    std::vector<SceneTriangle> triangles;
+    std::vector<Material> materials;  // at least one when there is a triangle
+    std::vector<Texture> textures;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::vector<Part> parts;
+
+    std::vector<std::string> warnings;  // one line each: what was ignored, mended or assumed
+};
+
+// Box around every vertex that a triangle uses; both corners zero for a scene without triangles.
+Bounds bounds(const Scene& scene);
+
+// Throws InputError naming the first array, index and value that breaks Scene's contract:
+// array lengths, indices in range, finite positions, unit-length normals, materials and lights
+// in their ranges.
+void validate(const Scene& scene);
+
+// A camera looking at (or, in a room, through) the scene, for files that have none.
+Camera default_camera(const Scene& scene);
+
+// A light for files without any lamp or emissive surface: a directional light, pi lux.
+Light default_light(const Scene& scene);
+
+bool has_emission(const Scene& scene);
+
+}  // namespace clgi

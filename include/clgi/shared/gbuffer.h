@@ -1,0 +1,120 @@
+// What the rasteriser takes and gives: views, the visibility buffer, the planes of a G-buffer.
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_GBUFFER_H
+#define CLGI_SHARED_GBUFFER_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+// A window onto the scene from an eye. A point p at depth z = forward.(p - eye) is seen at
+//   x = right.(p - eye) / z,  y = up.(p - eye) / z    (not divided when orthographic)
+// and the image spans center +- extent. Row 0 is at the top.
+typedef struct {
+    float4 eye;      // xyz; w: 1 when orthographic, else 0
+    float4 right;    // xyz unit; w: half extent in x, tangent of an angle (orthographic: length)
+    float4 up;       // xyz unit; w: half extent in y
+    float4 forward;  // xyz unit; w: near depth
+    float4 window;   // x, y: center; z: far depth (orthographic only)
+    uint width;
+    uint height;
+    uint first_pixel;  // where this view's pixels begin in a visibility buffer of several views
+    uint flags;        // VIEW_...
+} View;
+
+enum { VIEW_CULL_BACK_FACES = 1 };
+
+// Visibility buffer: one 64-bit word a pixel, (~closeness bits) << 32 | triangle, the smallest
+// wins: the nearest surface, ties to the smaller triangle index. Closeness is linear on the
+// screen and grows towards the eye: 1/z, or (far - z)/(far - near) when orthographic.
+// Nothing there: all bits set.
+
+// A vertex projected to 1/256 of a pixel.
+typedef struct {
+    int x;  // 24.8 fixed point, pixel (0,0) spans [0,256)
+    int y;
+    float closeness;
+    uint outside;  // 1: nearer than the near plane, 2: beyond the guard band
+} ScreenVertex;
+
+enum { VERTEX_BEFORE_NEAR = 1, VERTEX_BEYOND_GUARD = 2 };
+enum { SUBPIXELS = 256, GUARD_PIXELS = 32000 };
+
+// A triangle that is large on the screen or was clipped: a convex polygon for raster_large.
+typedef struct {
+    int x[8];  // 24.8 fixed point, counter-clockwise on screen (y down: positive area)
+    int y[8];
+    float closeness;  // at pixel position (origin_x, origin_y)
+    float slope_x;    // closeness per pixel
+    float slope_y;
+    float closest;  // largest closeness of a corner
+    float farthest;
+    float origin_x;  // pixels
+    float origin_y;
+    uint triangle;
+    int left;  // pixels covered, inclusive
+    int top;
+    int right;
+    int bottom;
+    uint count;     // corners, 3 to 8
+    uint material;  // fourth word of the triangle
+    uint pad0_;
+    uint pad1_;
+} RasterPolygon;
+
+typedef struct {
+    uint triangle_count;
+    uint stage;       // RASTER_...
+    uint small_size;  // a triangle at most this many pixels wide and high is drawn at once
+    uint pad_;
+} RasterParams;
+
+// Devices with 64-bit atomics draw in one stage; others find depth first, then triangles.
+enum { RASTER_FUSED = 0, RASTER_DEPTH = 1, RASTER_IDENTITY = 2 };
+
+enum { RASTER_TILE = 32 };  // pixels; side of the squares that raster_large works in
+
+// Planes of a G-buffer, each `stride` floats: three for every vector, y and z behind x.
+enum {
+    GBUFFER_POSITION = 0,   // local frame
+    GBUFFER_NORMAL = 3,     // shading normal, unit, towards the viewer; 0 where nothing is
+    GBUFFER_GEOMETRIC = 6,  // of the triangle, unit, towards the viewer
+    GBUFFER_ALBEDO = 9,     // diffuse reflectance, [0,1]
+    GBUFFER_EMISSION = 12,  // radiance, exposed
+    GBUFFER_DEPTH = 15,     // along the view's axis, local frame; 0 where nothing is
+    GBUFFER_PLANES = 16
+};
+
+// Integer planes beside them.
+enum { GBUFFER_MATERIAL = 0, GBUFFER_TRIANGLE = 1, GBUFFER_ID_PLANES = 2 };  // -1: nothing
+
+// Which groups of planes `resolve` writes.
+enum {
+    RESOLVE_GEOMETRIC = 1,
+    RESOLVE_EMISSION = 2,
+    RESOLVE_DEPTH = 4,
+    RESOLVE_TRIANGLE = 8,
+    RESOLVE_ALL = 15
+};
+
+typedef struct {
+    uint stride;  // floats between planes, a multiple of 16, at least width * height
+    uint write;   // RESOLVE_...
+    uint pad0_;
+    uint pad1_;
+} ResolveParams;
+
+// Every second pixel of every second row, as the low-resolution points S_locam.
+typedef struct {
+    uint width;  // of the full image
+    uint height;
+    uint stride;      // of the full planes
+    uint low_stride;  // of the low-resolution planes
+} DownsampleParams;
+
+// A set of points to be lit: position and shading normal, six planes in G-buffer order.
+enum { POINT_PLANES = 6 };
+
+CLGI_SHARED_END
+
+#endif

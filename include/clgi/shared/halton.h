@@ -1,0 +1,33 @@
+// Radical inverses, the coordinates of the Halton sequence.
+//
+//   Phi_b(i) = sum_k a_k b^(-k-1),  i = sum_k a_k b^k            [Cochran07, section 3.1]
+//
+// The digits are reversed in integers, exactly, and divided once: at most 1.5 ulp for every
+// 32-bit index, and never 1.
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_HALTON_H
+#define CLGI_SHARED_HALTON_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+// The largest float32 below 1.
+#define CLGI_BELOW_ONE 0.99999994f
+
+CLGI_INLINE float radical_inverse(uint index, uint base) {
+    ulong reversed = 0;
+    ulong scale = 1;
+    while (index != 0) {
+        uint rest = index / base;
+        reversed = reversed * base + (index - rest * base);
+        scale *= base;  // at most 2^32 * base: no overflow for the bases in use (2, 3, 5)
+        index = rest;
+    }
+    float value = (float)reversed / (float)scale;
+    return value < CLGI_BELOW_ONE ? value : CLGI_BELOW_ONE;
+}
+
+CLGI_SHARED_END
+
+#endif

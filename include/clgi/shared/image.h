@@ -1,0 +1,65 @@
+// From lights to picture: gather, upsample, combine, tone map.
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_IMAGE_H
+#define CLGI_SHARED_IMAGE_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+// Irradiance planes: indirect light rgb, then negative indirect light rgb.
+enum { IRRADIANCE_POSITIVE = 0, IRRADIANCE_NEGATIVE = 3, IRRADIANCE_PLANES = 6 };
+
+typedef struct {
+    uint stride;          // of the point planes and the irradiance planes
+    uint light_count;     // indirect lights
+    uint negative_count;  // negative indirect lights
+    float footprint;      // multiplies the disc area that bounds each light; 1
+} GatherParams;
+
+// Full and low-resolution image side by side (upsample, discontinuity, compact).
+typedef struct {
+    uint width;  // of the full image
+    uint height;
+    uint stride;      // of the full planes
+    uint low_stride;  // of the low-resolution planes
+    float threshold;  // discontinuity threshold; 0: every pixel is computed in full
+    float position_scale;  // 1 / distance from a tangent plane that weighs as much as a right angle
+    uint planes;           // irradiance planes in use: 3, or 6 with negative lights
+    uint pad_;
+} RefineParams;
+
+enum { COMPACT_BLOCK = 512 };  // pixels that one work-item counts and lists
+
+typedef struct {
+    uint width;
+    uint height;
+    uint stride;
+    uint emitter_count;
+    float exposure;    // multiplies radiance on the way out: undoes the scene's exposure
+    float texel_bias;  // shadow bias, in texels of the shadow map
+    uint effects;      // COMBINE_...
+    uint pad_;
+} CombineParams;
+
+enum {
+    COMBINE_DIRECT = 1,
+    COMBINE_INDIRECT = 2,
+    COMBINE_NEGATIVE = 4,
+    COMBINE_EMISSION = 8,
+    COMBINE_SPECULAR = 16
+};
+
+// Radiance planes: rgb, stride apart.
+enum { RADIANCE_PLANES = 3 };
+
+typedef struct {
+    uint width;
+    uint height;
+    uint stride;
+    float exposure;  // multiplies radiance before encoding
+} TonemapParams;
+
+CLGI_SHARED_END
+
+#endif

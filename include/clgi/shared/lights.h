@@ -1,0 +1,59 @@
+// Light sources as they are sampled, and the indirect lights that come of it.
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_LIGHTS_H
+#define CLGI_SHARED_LIGHTS_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+enum { EMITTER_SPOT = 0, EMITTER_POINT = 1, EMITTER_DIRECTIONAL = 2, EMITTER_AREA = 3 };
+
+// One source of direct light: a lamp, or one sample of the emissive surfaces.
+typedef struct {
+    float4 position;   // xyz; directional: centre of the lit disc
+    float4 axis;       // xyz unit: spot axis, light direction, surface normal; w: cos(outer angle)
+    float4 right;      // xyz unit, completes a frame with axis; w: cos(inner angle)
+    float4 intensity;  // rgb: candela; directional lux; area: flux, lumen. All exposed
+    float range;       // where the light ends; 0: unlimited
+    float measure;     // what the samples share: steradians; directional: area of the disc
+    float area;        // of the emitting surface that this sample stands for; area lights
+    uint kind;         // EMITTER_...
+    uint first_view;   // its images of the scene: 1 (spot, directional), 5 (area) or 6 (point)
+    uint view_count;
+    uint first_light;  // its share of the indirect lights
+    uint light_count;
+} Emitter;
+
+// A point light with a cosine lobe, standing for a disc of `area` around it:
+// irradiance it gives = flux * cos * cos' / (pi d^2 + area).
+typedef struct {
+    float4 position;  // xyz; w: area of the disc
+    float4 normal;    // xyz unit; w: 0
+    float4 flux;      // rgb reflected flux, lumen, exposed; w: 1 when the light is on a surface
+} IndirectLight;
+
+typedef struct {
+    uint emitter;          // index of the spotlight
+    uint candidate_count;  // Halton indices 1 .. candidate_count are tried; a multiple of 32
+    uint pad0_;
+    uint pad1_;
+} AcceptParams;
+
+typedef struct {
+    uint light_count;  // of all emitters together
+    uint emitter_count;
+    float scale;  // multiplies every flux; 1
+    uint pad_;
+} FetchParams;
+
+typedef struct {
+    uint light_count;     // positive indirect lights
+    uint negative_count;  // samples of the camera image
+    uint stride;          // of the G-buffer planes
+    float back_facing;    // least cosine * distance that counts as behind; float spacing
+} NegativeParams;
+
+CLGI_SHARED_END
+
+#endif

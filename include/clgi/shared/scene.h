@@ -1,0 +1,62 @@
+// The scene on the device. Geometry is in the local frame: the world moved by a double-precision
+// origin and scaled by a power of two, so that every scene is of size 1 (DeviceScene::frame).
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_SCENE_H
+#define CLGI_SHARED_SCENE_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+// The fourth word of a triangle: material index and what the rasteriser must know of it.
+enum {
+    TRIANGLE_MATERIAL = 0x3fffffff,
+    TRIANGLE_MASKED = 0x40000000,        // alpha decides about each pixel
+    TRIANGLE_DOUBLE_SIDED = (int)0x80000000
+};
+
+// One material, reduced to what light transport reads (docs/materials.md).
+typedef struct {
+    float4 base_color;   // linear rgb, alpha; all in [0,1]
+    float4 emission;     // rgb radiance, exposed; w: alpha cutoff
+    float4 reflectance;  // x: diffuse share of base, y: coat, z: lobe share of base, w: exponent
+    int base_texture;    // index or -1
+    int base_uv_set;
+    int emission_texture;
+    int emission_uv_set;
+    float4 base_u;  // u' = dot(base_u.xyz, (u, v, 1))
+    float4 base_v;
+    float4 emission_u;
+    float4 emission_v;  //--- 128 B
+} MaterialRecord;
+
+enum { MATERIAL_ROWS = 8 };  // float4 rows of a MaterialRecord
+enum { MATERIAL_BASE = 0, MATERIAL_EMISSION = 1, MATERIAL_REFLECTANCE = 2 };
+
+// One texture in the texel pool: RGBA8, mip levels one after the other, each half the size.
+typedef struct {
+    uint first_texel;  // of level 0
+    int width;
+    int height;
+    uint flags;
+} TextureRecord;
+
+enum {
+    TEXTURE_WRAP_S = 0x3,   // 0 repeat, 1 mirrored, 2 clamp
+    TEXTURE_WRAP_T = 0xc,   // the same, shifted by 2
+    TEXTURE_NEAREST = 0x10,
+    TEXTURE_LEVELS_SHIFT = 8
+};
+
+enum { SCENE_HAS_UVS = 1, SCENE_HAS_COLORS = 2, SCENE_HAS_TEXTURES = 4, SCENE_HAS_EMISSION = 8 };
+
+typedef struct {
+    uint vertex_count;
+    uint triangle_count;
+    uint flags;  // SCENE_HAS_...
+    uint pad_;
+} SceneInfo;
+
+CLGI_SHARED_END
+
+#endif

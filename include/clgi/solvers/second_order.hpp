@@ -1,0 +1,130 @@
+// Second-order illumination: one diffuse bounce of every light, approximately shadowed by
+// negative lights.                                                            [Cochran07]
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+#include <clgi/emitters.hpp>
+#include <clgi/passes/gbuffer.hpp>
+#include <clgi/passes/image.hpp>
+#include <clgi/passes/lights.hpp>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace clgi {
+
+struct SecondOrderOptions {
+    int width = 640;  // pixels
+    int height = 480;
+    EmitterOptions sources;     // sources.lights is N, the number of indirect lights
+    int negative_lights = 100;  // samples of the image that take light away; 0: none
+    bool low_resolution = true;  // light every fourth pixel and interpolate where that suits
+    // Differences from the interpolation points at which a pixel is lit in full: 1 is a right
+    // angle between normals. 0: every pixel; infinity: none.
+    float discontinuity_threshold = 0.02f;
+    float footprint = 1.0f;  // scales the disc that bounds each indirect light; 0: bare 1/d^2
+    bool direct = true;
+    bool indirect = true;
+    BuildOptions build;
+};
+
+// What a frame will take, before any of it is allocated.
+struct Estimate {
+    std::size_t bytes = 0;      // on the device, the scene left out
+    double milliseconds = 0.0;  // a rough guess from the device's nominal rate
+};
+
+// What a frame found out.
+struct FrameStatus {
+    std::uint32_t non_finite = 0;      // packets of pixels that had to be mended, since the start
+    std::uint32_t refined_pixels = 0;  // lit in full by the discontinuity test
+    double low_resolution_share = 0.0;  // of all pixels, [0,1]
+};
+
+struct PassEvent {
+    std::string name;   // "image.gather"
+    std::size_t items;  // what it worked on: triangles, pixels, lights
+    cl::Event event;
+};
+
+// Called between the parts of a frame with the share done, [0,1]; false cancels the frame.
+using Progress = std::function<bool(double done)>;
+
+Estimate estimate(const DeviceScene& scene, const SecondOrderOptions& options);
+
+// Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
+// outlive the solver. One solver is used by one thread at a time.
+class SecondOrderSolver {
+public:
+    // Builds kernels and allocates. Throws Error for options out of range, DeviceError when the
+    // device cannot.
+    SecondOrderSolver(const cl::CommandQueue& queue, const DeviceScene& scene,
+                      const SecondOrderOptions& options = {});
+
+    // Reads the scene's lights again, after DeviceScene::set_light.
+    void lights_changed();
+
+    // Enqueues a whole frame; the event is its end. Where nothing can be lit no kernel runs.
+    cl::Event render(const Camera& camera);
+
+    // The same, waiting after each part to report. False when progress cancelled.
+    bool run(const Camera& camera, const Progress& progress);
+
+    // Passes of the last frame, for profiling.
+    const std::vector<PassEvent>& events() const { return events_; }
+
+    // Waits for the queue and reads a few words back.
+    FrameStatus status() const;
+
+    const SecondOrderOptions& options() const { return options_; }
+    const EmitterSet& sources() const { return set_; }
+    std::size_t bytes() const { return bytes_; }  // allocated
+    std::uint32_t stride() const { return stride_; }  // floats between planes
+
+    // Results, valid when the frame's event is complete. Planes are `stride` floats apart.
+    const cl::Buffer& radiance() const { return radiance_; }      // [RADIANCE_PLANES][stride] cd/m^2
+    const cl::Buffer& irradiance() const { return irradiance_; }  // [IRRADIANCE_PLANES][stride], exposed
+    const cl::Buffer& planes() const { return planes_; }          // [GBUFFER_PLANES][stride]
+    const cl::Buffer& ids() const { return ids_; }                // [GBUFFER_ID_PLANES][stride]
+    const cl::Buffer& indirect_lights() const { return lights_; }  // [N] IndirectLight
+    const cl::Buffer& negative_lights() const { return negative_; }
+    const ImagePasses& image_passes() const { return image_; }
+
+private:
+    class Recorder;
+    void allocate();
+    void draw_view(Recorder& record, const View& view, const cl::Buffer& visibility);
+    void place_lights(Recorder& record);
+    void draw_camera(Recorder& record, const View& view);
+    void light_points(Recorder& record, const View& view);
+    void combine(Recorder& record, const View& view);
+    GatherParams gather_params(std::uint32_t stride) const;
+    cl::Event frame(const Camera& camera, const Progress& progress, bool& cancelled);
+
+    cl::CommandQueue queue_;
+    const DeviceScene& scene_;
+    SecondOrderOptions options_;
+    GBufferPasses gbuffer_;
+    LightPasses light_passes_;
+    ImagePasses image_;
+    EmitterSet set_;
+    std::vector<PassEvent> events_;
+    std::size_t bytes_ = 0;
+    std::uint32_t stride_ = 0;
+    std::uint32_t low_stride_ = 0;
+    bool refine_ = false;    // low resolution and discontinuity test
+    bool indirect_ = false;  // there is a source and something to light
+
+    RasterBuffers raster_;  // shared by all views, each with its own visibility
+    cl::Buffer camera_visibility_;
+    SourceBuffers sources_;
+    cl::Buffer planes_, ids_;
+    cl::Buffer mask_, accepted_, lights_, negative_;
+    cl::Buffer low_points_, low_irradiance_, low_count_, all_count_;
+    cl::Buffer flags_, counts_, listed_, listed_points_, listed_irradiance_, listed_count_;
+    cl::Buffer irradiance_, radiance_, non_finite_;
+};
+
+}  // namespace clgi

@@ -1,0 +1,37 @@
+// The low-resolution points S_locam: every second pixel of every second row.
+//
+// Points are picked, not averaged: the mean of two surfaces lies on neither, and a picked point's
+// illumination is exact for its own pixel.                          [Cochran07, section 3.5]
+//
+// Work size    1D, one work-item for every CLGI_WIDTH low-resolution points of a row, rows padded
+//              to whole packets; any local size
+// Writes       its own points
+#include "packet.clh"
+#include "clgi/shared/gbuffer.h"
+
+kernel void gbuffer_downsample(
+    const DownsampleParams  params,
+    global const float*     restrict planes,  // [>= POINT_PLANES][stride]
+    global float*           restrict points)  // [POINT_PLANES][low_stride]
+{
+    uint low_width = (params.width + 1) / 2;
+    uint low_height = (params.height + 1) / 2;
+    uint packets = (low_width + CLGI_WIDTH - 1) / CLGI_WIDTH;
+    uint row = (uint)get_global_id(0) / packets;
+    uint column = (uint)get_global_id(0) % packets * CLGI_WIDTH;
+    if (row >= low_height) return;
+
+    uint from = 2 * row * params.width + 2 * column;
+    uint to = row * low_width + column;
+    int whole = column + CLGI_WIDTH <= low_width && 2 * (column + CLGI_WIDTH) <= params.width;
+    for (int plane = 0; plane < POINT_PLANES; ++plane) {
+        global const float* source = planes + plane * params.stride + from;
+        global float* target = points + plane * params.low_stride + to;
+        if (whole) {
+            packet_store(packet_even(source), target);
+        } else {
+            for (uint k = 0; column + k < low_width && k < CLGI_WIDTH; ++k)
+                target[k] = source[2 * k];
+        }
+    }
+}

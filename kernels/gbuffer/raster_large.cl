@@ -1,0 +1,135 @@
+// Draws the large, clipped and alpha-masked triangles, tile by tile, a packet of pixels at a time.
+//
+// A tile of 32x32 pixels belongs to one work-item, so nothing here is atomic. Edge functions are
+// brought to whole pixels, floor(E / 256), which keeps their sign at pixel centres and fits 32
+// bits wherever the sign changes inside the tile; elsewhere the edge covers the tile or misses it.
+// [derived: as raster.cl, which set the polygons up]
+//
+// Work size    1D, one work-item a tile; any local size; tail guarded
+// Writes       visibility of its own tile
+#include "gbuffer/surface.clh"
+#include "gbuffer/visibility.clh"
+
+typedef struct {
+    int base[8];  // floor(E / 256) at the tile's first pixel
+    int step_x[8];
+    int step_y[8];
+    int count;  // edges that cut the tile
+} TileEdges;
+
+// The edges of a polygon seen from one tile. Returns 0 when the polygon misses the tile.
+static int tile_edges(global const RasterPolygon* polygon, int tile_x, int tile_y,
+                      TileEdges* edges) {
+    edges->count = 0;
+    int corners = (int)polygon->count;
+    for (int i = 0; i < corners; ++i) {
+        int next = i + 1 < corners ? i + 1 : 0;
+        int px = polygon->x[i], py = polygon->y[i];
+        int dx = polygon->x[next] - px, dy = polygon->y[next] - py;
+        if (dx == 0 && dy == 0) continue;
+        long x = (long)tile_x * SUBPIXELS + SUBPIXELS / 2 - px;
+        long y = (long)tile_y * SUBPIXELS + SUBPIXELS / 2 - py;
+        long owned = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
+        long first = ((long)dx * y - (long)dy * x + owned) >> 8;
+        long across = -(long)dy * (RASTER_TILE - 1);
+        long down = (long)dx * (RASTER_TILE - 1);
+        long least = first + min(across, 0L) + min(down, 0L);
+        long most = first + max(across, 0L) + max(down, 0L);
+        if (most < 0) return 0;
+        if (least >= 0) continue;
+        edges->base[edges->count] = (int)first;
+        edges->step_x[edges->count] = -dy;
+        edges->step_y[edges->count] = dx;
+        edges->count += 1;
+    }
+    return 1;
+}
+
+// Lanes of a masked triangle that its texture leaves opaque.
+static intp opaque(const View* view, int x, int y, intp covered, uint triangle,
+                   const SceneBuffers* scene, uint flags) {
+    int lanes[CLGI_WIDTH];
+    packet_store(covered, lanes);
+    for (int k = 0; k < CLGI_WIDTH; ++k) lanes[k] = lanes[k] ? (int)triangle : -1;
+    floatp wx = (packet_float(x + packet_lanes) + 0.5f) * (2.0f / (float)view->width) - 1.0f;
+    float wy = 1.0f - ((float)y + 0.5f) * (2.0f / (float)view->height);
+    Surface surface = gbuffer_surface(view, wx * view->right.w + view->window.x,
+                                      packet_float(0 * packet_lanes) +
+                                          (wy * view->up.w + view->window.y),
+                                      lanes, scene, flags);
+    uint material = scene->triangles[triangle].w & TRIANGLE_MATERIAL;
+    return covered & (surface.alpha >= scene->materials[material].emission.w);
+}
+
+kernel void gbuffer_raster_large(
+    const View                    view,
+    const uint                    scene_flags,
+    global const RasterPolygon*   restrict polygons,       // [triangle_count]
+    global const uint*            restrict polygon_count,  // [1]
+    SCENE_ARGUMENTS,
+    global ulong*                 restrict visibility)     // [pixels of all views]
+{
+    int tiles_across = ((int)view.width + RASTER_TILE - 1) / RASTER_TILE;
+    int tiles_down = ((int)view.height + RASTER_TILE - 1) / RASTER_TILE;
+    int tile = (int)get_global_id(0);
+    if (tile >= tiles_across * tiles_down) return;
+    int tile_x = tile % tiles_across * RASTER_TILE;
+    int tile_y = tile / tiles_across * RASTER_TILE;
+    int tile_right = min(tile_x + RASTER_TILE, (int)view.width) - 1;
+    int tile_bottom = min(tile_y + RASTER_TILE, (int)view.height) - 1;
+    SceneBuffers scene = SCENE_BUFFERS;
+
+    uint count = polygon_count[0];
+    for (uint p = 0; p < count; ++p) {
+        global const RasterPolygon* polygon = polygons + p;
+        if (polygon->left > tile_right || polygon->right < tile_x || polygon->top > tile_bottom ||
+            polygon->bottom < tile_y)
+            continue;
+        TileEdges edges;
+        if (!tile_edges(polygon, tile_x, tile_y, &edges)) continue;
+
+        int first_x = max(polygon->left, tile_x);
+        first_x = tile_x + (first_x - tile_x) / CLGI_WIDTH * CLGI_WIDTH;
+        int last_x = min(polygon->right, tile_right);
+        int last_y = min(polygon->bottom, tile_bottom);
+        for (int y = max(polygon->top, tile_y); y <= last_y; ++y) {
+            float row_closeness = polygon->closeness +
+                                  ((float)y + 0.5f - polygon->origin_y) * polygon->slope_y;
+            for (int x = first_x; x <= last_x; x += CLGI_WIDTH) {
+                intp column = x + packet_lanes;
+                intp covered = (column >= polygon->left) & (column <= last_x);
+                for (int e = 0; e < edges.count; ++e)
+                    covered &= (edges.base[e] + edges.step_y[e] * (y - tile_y) +
+                                edges.step_x[e] * (column - tile_x)) >= 0;
+                if (!packet_any(covered)) continue;
+                if (polygon->material & TRIANGLE_MASKED) {
+                    covered = opaque(&view, x, y, covered, polygon->triangle, &scene, scene_flags);
+                    if (!packet_any(covered)) continue;
+                }
+                floatp closeness = row_closeness +
+                                   (packet_float(column) + 0.5f - polygon->origin_x) *
+                                       polygon->slope_x;
+                closeness = packet_min(packet_max(closeness, polygon->farthest +
+                                                  packet_float(0 * packet_lanes)),
+                                       polygon->closest + packet_float(0 * packet_lanes));
+                ulongp word = (packet_ulong(~packet_bits(closeness)) << 32) | polygon->triangle;
+
+                uint pixel = view.first_pixel + (uint)y * view.width + (uint)x;
+                if (x + CLGI_WIDTH - 1 <= tile_right) {
+                    ulongp old = packet_load(visibility + pixel);
+                    packet_store(packet_select(old, min(old, word),
+                                               packet_ulong(packet_wide_mask(covered))),
+                                 visibility + pixel);
+                } else {  // the last packet of a row that is no multiple of the width
+                    int lane_covered[CLGI_WIDTH];
+                    ulong lane_word[CLGI_WIDTH];
+                    packet_store(covered, lane_covered);
+                    packet_store(word, lane_word);
+                    for (int k = 0; x + k <= tile_right; ++k)
+                        if (lane_covered[k])
+                            visibility[pixel + k] = min(visibility[pixel + k], lane_word[k]);
+                }
+            }
+        }
+    }
+}

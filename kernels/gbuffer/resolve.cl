@@ -1,0 +1,66 @@
+// Turns a visibility buffer into the planes of a G-buffer: the set of surface points S_cam.
+//
+// Every pixel's ray is met with the plane of its triangle, which gives perspective-correct
+// attributes without any per-triangle set-up.                       [Cochran07, section 3.2]
+//
+// Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
+// Writes       its own pixels of the planes asked for; past the last pixel of the view, inside
+//              the stride, zeros
+#include "gbuffer/surface.clh"
+#include "gbuffer/visibility.clh"
+
+static void store3(floatp x, floatp y, floatp z, global float* planes, int plane, uint stride,
+                   uint pixel) {
+    packet_store(x, planes + plane * stride + pixel);
+    packet_store(y, planes + (plane + 1) * stride + pixel);
+    packet_store(z, planes + (plane + 2) * stride + pixel);
+}
+
+kernel void gbuffer_resolve(
+    const View             view,
+    const ResolveParams    params,
+    const SceneInfo        info,
+    SCENE_ARGUMENTS,
+    global const ulong*    restrict visibility,  // [pixels of all views]
+    global float*          restrict planes,      // [GBUFFER_PLANES][stride]
+    global int*            restrict ids)         // [GBUFFER_ID_PLANES][stride]
+{
+    uint pixel = (uint)get_global_id(0) * CLGI_WIDTH;
+    uint pixels = view.width * view.height;
+    if (pixel >= pixels) return;
+
+    SceneBuffers scene = SCENE_BUFFERS;
+    int triangle[CLGI_WIDTH];
+    int material[CLGI_WIDTH];
+    float across[CLGI_WIDTH];
+    float down[CLGI_WIDTH];
+    for (int k = 0; k < CLGI_WIDTH; ++k) {
+        uint at = min(pixel + k, pixels - 1);
+        triangle[k] = pixel + k < pixels ? visibility_triangle(visibility[view.first_pixel + at]) : -1;
+        material[k] = triangle[k] < 0 ? -1 : (int)(triangles[triangle[k]].w & TRIANGLE_MATERIAL);
+        across[k] = (float)(at % view.width);
+        down[k] = (float)(at / view.width);
+    }
+    floatp x = (packet_load(across) + 0.5f) * (2.0f / (float)view.width) - 1.0f;
+    floatp y = 1.0f - (packet_load(down) + 0.5f) * (2.0f / (float)view.height);
+    Surface surface = gbuffer_surface(&view, x * view.right.w + view.window.x,
+                                      y * view.up.w + view.window.y, triangle, &scene, info.flags);
+
+    uint stride = params.stride;
+    store3(surface.x, surface.y, surface.z, planes, GBUFFER_POSITION, stride, pixel);
+    store3(surface.normal_x, surface.normal_y, surface.normal_z, planes, GBUFFER_NORMAL, stride,
+           pixel);
+    if (params.write & RESOLVE_GEOMETRIC)
+        store3(surface.geometric_x, surface.geometric_y, surface.geometric_z, planes,
+               GBUFFER_GEOMETRIC, stride, pixel);
+    store3(surface.albedo_r, surface.albedo_g, surface.albedo_b, planes, GBUFFER_ALBEDO, stride,
+           pixel);
+    if (params.write & RESOLVE_EMISSION)
+        store3(surface.emission_r, surface.emission_g, surface.emission_b, planes,
+               GBUFFER_EMISSION, stride, pixel);
+    if (params.write & RESOLVE_DEPTH)
+        packet_store(surface.depth, planes + GBUFFER_DEPTH * stride + pixel);
+    packet_store(packet_load(material), ids + GBUFFER_MATERIAL * stride + pixel);
+    if (params.write & RESOLVE_TRIANGLE)
+        packet_store(packet_load(triangle), ids + GBUFFER_TRIANGLE * stride + pixel);
+}

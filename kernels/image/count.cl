@@ -1,0 +1,20 @@
+// How many pixels of each block are flagged.
+// [derived: first half of a stream compaction; compact.cl is the second]
+//
+// Work size    1D, one work-item a block of COMPACT_BLOCK pixels; any local size; tail guarded
+// Writes       its own count
+#include "clgi/shared/image.h"
+
+kernel void image_count(
+    const uint           pixels,
+    global const uchar*  restrict flags,   // [pixels]
+    global uint*         restrict counts)  // [blocks]
+{
+    uint block = (uint)get_global_id(0);
+    uint first = block * COMPACT_BLOCK;
+    if (first >= pixels) return;
+    uint last = min(first + COMPACT_BLOCK, pixels);
+    uint count = 0;
+    for (uint pixel = first; pixel < last; ++pixel) count += flags[pixel];
+    counts[block] = count;
+}

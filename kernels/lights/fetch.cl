@@ -1,0 +1,89 @@
+// The indirect lights: each sample of a source is followed to the surface its image shows.
+//
+//   dPhi = I(w) dw          light of the share (directional: E dA, area: Phi / N)
+//   Phi  = rho dPhi         what the surface sends on, as a cosine lobe of intensity Phi cos / pi
+//   E(p) = sum Phi cos cos' / (pi d^2)  ->  integral of rho E cos cos' / (pi d^2) dA
+//
+// because dPhi = E dA on the lit surface: with N the sum becomes the one-bounce unshadowed
+// integral. The share's footprint A = dw d^2 / cos bounds the kernel: cos cos' / (pi d^2 + A) is
+// the form factor of a disc of that size, and A goes to 0 as N grows. [Cochran07, section 3.1]
+//
+// Unlike paper  the surface is met at the sample itself, not at the centre of its pixel, so a
+//               light stays put when its source turns
+// Work size     1D, one work-item a light; any local size; tail guarded
+// Writes        its own light; flux 0 where the sample leaves the scene or meets a back face
+#include "gbuffer/locate.clh"
+#include "gbuffer/surface.clh"
+#include "gbuffer/visibility.clh"
+#include "lights/sample.clh"
+
+kernel void lights_fetch(
+    const FetchParams      params,
+    const SceneInfo        info,
+    global const Emitter*  restrict emitters,    // [emitter_count]
+    global const View*     restrict views,       // of all emitters
+    global const ulong*    restrict visibility,  // [pixels of all views]
+    global const uint*     restrict accepted,    // [light_count] from lights_accept_list
+    SCENE_ARGUMENTS,
+    global IndirectLight*  restrict lights)      // [light_count]
+{
+    uint light = (uint)get_global_id(0);
+    if (light >= params.light_count) return;
+    SceneBuffers scene = SCENE_BUFFERS;
+
+    uint e = 0;
+    while (e + 1 < params.emitter_count && light >= emitters[e + 1].first_light) ++e;
+    global const Emitter* emitter = emitters + e;
+    uint rank = light - emitter->first_light;
+    uint index = emitter->kind == EMITTER_SPOT ? accepted[light] : rank + 1;
+
+    IndirectLight out;
+    out.position = (float4)(0.0f);
+    out.normal = (float4)(0.0f);
+    out.flux = (float4)(0.0f);
+    if (index != 0) {
+        LightSample sample = sample_emitter(emitter, index);
+        ViewPoint seen = gbuffer_locate(views, emitter->first_view, emitter->view_count,
+                                        sample.origin + sample.direction);
+        if (seen.view >= 0) {
+            View view = views[seen.view];
+            uint x = min((uint)seen.pixel.x, view.width - 1);
+            uint y = min((uint)seen.pixel.y, view.height - 1);
+            int triangle[CLGI_WIDTH];
+            for (int lane = 0; lane < CLGI_WIDTH; ++lane)
+                triangle[lane] =
+                    visibility_triangle(visibility[view.first_pixel + y * view.width + x]);
+            floatp zero = packet_float(0 * packet_lanes);
+            Surface surface = gbuffer_surface(&view, seen.plane.x + zero, seen.plane.y + zero,
+                                              triangle, &scene, info.flags);
+            float lanes[11][CLGI_WIDTH];
+            int front[CLGI_WIDTH];
+            packet_store(surface.x, lanes[0]);
+            packet_store(surface.y, lanes[1]);
+            packet_store(surface.z, lanes[2]);
+            packet_store(surface.normal_x, lanes[3]);
+            packet_store(surface.normal_y, lanes[4]);
+            packet_store(surface.normal_z, lanes[5]);
+            packet_store(surface.albedo_r, lanes[6]);
+            packet_store(surface.albedo_g, lanes[7]);
+            packet_store(surface.albedo_b, lanes[8]);
+            packet_store(surface.front, front);
+            int sends = triangle[0] >= 0 &&
+                        (front[0] || (triangles[triangle[0]].w & (uint)TRIANGLE_DOUBLE_SIDED));
+            if (sends) {
+                float3 position = (float3)(lanes[0][0], lanes[1][0], lanes[2][0]);
+                float3 normal = (float3)(lanes[3][0], lanes[4][0], lanes[5][0]);
+                float3 albedo = (float3)(lanes[6][0], lanes[7][0], lanes[8][0]);
+                float distance = length(position - sample.origin);
+                float cosine = max(-dot(normal, sample.direction), 0.01f);
+                int parallel = emitter->kind == EMITTER_DIRECTIONAL;
+                float area = sample.spread * (parallel ? 1.0f : distance * distance) / cosine;
+                float falloff = parallel ? 1.0f : range_falloff(distance, emitter->range);
+                out.position = (float4)(position, area);
+                out.normal = (float4)(normal, 0.0f);
+                out.flux = (float4)(albedo * sample.flux * (falloff * params.scale), 1.0f);
+            }
+        }
+    }
+    lights[light] = out;
+}

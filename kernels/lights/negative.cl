@@ -1,0 +1,80 @@
+// Negative indirect lights: at points of the camera image, the light that reaches the back of the
+// surface and that a light without shadow would let through.
+//
+//   back_l(p) = Phi_l cos_l max(0, -n_p.t_l) / (pi d^2 + A_l),  t_l from p to light l
+//   E_n(p)    = sum_l back_l,   Phi_n = E_n(p) A_p
+//   direction = - sum_l w_l t_l / |sum_l w_l t_l|,  w_l = luminance of back_l
+//                                                              [Cochran07, section 3.3]
+//
+// A_p is the surface that the sample stands for: image pixels / samples times the footprint of a
+// pixel, whose slant is bounded at 0.1. Lights in front of the surface carry no weight: the mean
+// is over the light that the surface stops.
+//
+// Unlike paper  only the sampled points are evaluated, not every pixel of the image
+// Work size     1D, one work-item a sample; any local size; tail guarded
+// Writes        its own negative light; flux 0 where nothing is stopped
+#include "clgi/shared/gbuffer.h"
+#include "clgi/shared/halton.h"
+#include "clgi/shared/lights.h"
+
+kernel void lights_negative(
+    const NegativeParams         params,
+    const View                   view,
+    global const float*          restrict planes,    // [GBUFFER_PLANES][stride]
+    global const IndirectLight*  restrict lights,    // [light_count]
+    global IndirectLight*        restrict negative)  // [negative_count]
+{
+    uint sample = (uint)get_global_id(0);
+    if (sample >= params.negative_count) return;
+
+    uint x = min((uint)(radical_inverse(sample + 1, 2) * (float)view.width), view.width - 1);
+    uint y = min((uint)(radical_inverse(sample + 1, 3) * (float)view.height), view.height - 1);
+    global const float* at = planes + y * view.width + x;
+    uint stride = params.stride;
+    float3 p = (float3)(at[0], at[stride], at[2 * stride]);
+    global const float* facing = at + GBUFFER_GEOMETRIC * stride;
+    float3 n = (float3)(facing[0], facing[stride], facing[2 * stride]);
+
+    float3 stopped = (float3)(0.0f);
+    float3 toward = (float3)(0.0f);
+    if (dot(n, n) > 0.0f) {
+        for (uint l = 0; l < params.light_count; ++l) {
+            float4 position = lights[l].position;
+            float3 t = position.xyz - p;
+            float behind = -dot(n, t);
+            float leaving = -dot(lights[l].normal.xyz, t);
+            if (!(behind > params.back_facing) || !(leaving > 0.0f)) continue;
+            float square = dot(t, t);
+            float factor = behind * leaving / (square * fma(CLGI_PI, square, position.w));
+            float3 light = lights[l].flux.xyz * factor;
+            stopped += light;
+            float weight = dot(light, (float3)(0.2126f, 0.7152f, 0.0722f));
+            toward += t * (weight / sqrt(square));
+        }
+    }
+
+    IndirectLight out;
+    out.position = (float4)(0.0f);
+    out.normal = (float4)(0.0f);
+    out.flux = (float4)(0.0f);
+    float length_square = dot(toward, toward);
+    if (length_square > 0.0f) {
+        float3 d = p - view.eye.xyz;
+        float z = dot(d, view.forward.xyz);
+        float pixel = 4.0f * view.right.w * view.up.w;
+        float slant = 1.0f;
+        if (view.eye.w == 0.0f) {
+            // The pixel's ray with forward component 1, and its cosine with the surface.
+            float ray = length(d) / z;
+            slant = max(fabs(dot(n, d)) / z, 0.1f * ray);
+            pixel *= z * z;
+        } else {
+            slant = max(fabs(dot(n, view.forward.xyz)), 0.1f);
+        }
+        float area = pixel / (slant * (float)params.negative_count);
+        out.position = (float4)(p, area);
+        out.normal = (float4)(toward * (-1.0f / sqrt(length_square)), 0.0f);
+        out.flux = (float4)(stopped * area, 1.0f);
+    }
+    negative[sample] = out;
+}
