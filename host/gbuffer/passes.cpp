@@ -71,7 +71,7 @@ cl::Event GBufferPasses::raster(const cl::CommandQueue& queue, const View& view,
     need(raster_, "polygons", buffers.polygons, info.triangle_count * sizeof(RasterPolygon));
     need(raster_, "polygon_count", buffers.polygon_count, sizeof(std::uint32_t));
     const RasterParams params{info.triangle_count, stage, small_triangle, 0};
-    return launch(raster_, queue, info.triangle_count, wait, view, params, scene.triangles(),
+    return launch(raster_, queue, packets(raster_, info.triangle_count), wait, view, params, scene.triangles(),
                   buffers.vertices, scene.positions(), buffers.visibility, buffers.polygons,
                   buffers.polygon_count);
 }

@@ -27,17 +27,16 @@ std::size_t plane_bytes(std::size_t planes, std::size_t stride) {
 ImagePasses::ImagePasses(const cl::Context& context, const cl::Device& device,
                          const BuildOptions& options) {
     auto kernels = build_room(context, device, "image",
-                              {"gather", "discontinuity", "count", "compact", "upsample", "place",
+                              {"gather", "count", "compact", "upsample", "place",
                                "combine", "tonemap"},
                               options);
     gather_ = kernels[0];
-    discontinuity_ = kernels[1];
-    count_ = kernels[2];
-    compact_ = kernels[3];
-    upsample_ = kernels[4];
-    place_ = kernels[5];
-    combine_ = kernels[6];
-    tonemap_ = kernels[7];
+    count_ = kernels[1];
+    compact_ = kernels[2];
+    upsample_ = kernels[3];
+    place_ = kernels[4];
+    combine_ = kernels[5];
+    tonemap_ = kernels[6];
     prefer_small_groups(count_, options);
     prefer_small_groups(compact_, options);
 }
@@ -58,16 +57,6 @@ cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams&
          plane_bytes(params.negative_count > 0 ? 6 : 3, params.stride));
     return launch(gather_, queue, packets(gather_, most), wait, params, point_count, points, lights,
                   negative, irradiance);
-}
-
-cl::Event ImagePasses::discontinuity(const cl::CommandQueue& queue, const RefineParams& params,
-                                     const cl::Buffer& planes, const cl::Buffer& points,
-                                     const cl::Buffer& flags, const WaitList& wait) const {
-    need(discontinuity_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
-    need(discontinuity_, "points", points, plane_bytes(POINT_PLANES, params.low_stride));
-    need(discontinuity_, "flags", flags, pixels_of(params));
-    return launch(discontinuity_, queue, cell_items(discontinuity_, params), wait, params, planes,
-                  points, flags);
 }
 
 cl::Event ImagePasses::count(const cl::CommandQueue& queue, std::uint32_t pixels,
@@ -97,13 +86,14 @@ cl::Event ImagePasses::compact(const cl::CommandQueue& queue, const RefineParams
 cl::Event ImagePasses::upsample(const cl::CommandQueue& queue, const RefineParams& params,
                                 const cl::Buffer& planes, const cl::Buffer& points,
                                 const cl::Buffer& low, const cl::Buffer& irradiance,
-                                const WaitList& wait) const {
+                                const cl::Buffer& flags, const WaitList& wait) const {
     need(upsample_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
     need(upsample_, "points", points, plane_bytes(POINT_PLANES, params.low_stride));
     need(upsample_, "low", low, plane_bytes(params.planes, params.low_stride));
     need(upsample_, "irradiance", irradiance, plane_bytes(params.planes, params.stride));
+    need(upsample_, "flags", flags, pixels_of(params));
     return launch(upsample_, queue, cell_items(upsample_, params), wait, params, planes, points,
-                  low, irradiance);
+                  low, irradiance, flags);
 }
 
 cl::Event ImagePasses::place(const cl::CommandQueue& queue, const RefineParams& params,

@@ -24,11 +24,11 @@ struct Ring {
     std::uint32_t count;
 };
 
-// Distance of the surface from the centre. Star-shaped: it stays between 0.6 and 1.4.
+// Distance of the surface from the centre. Star-shaped: it stays between 0.69 and 1.31.
 double radius(const glm::dvec3& d) {
-    return 1.0 + 0.22 * std::sin(3.1 * d.x + 1.3) * std::sin(2.7 * d.y + 0.4) +
-           0.12 * std::sin(6.0 * d.z + 5.0 * d.y) +
-           0.03 * std::sin(23.0 * d.x) * std::sin(21.0 * d.y) * std::sin(22.0 * d.z);
+    return 1.0 + 0.15 * std::sin(4.0 * d.x + 0.8) * std::sin(3.6 * d.y + 0.9) +
+           0.10 * std::sin(5.0 * d.z + 3.0 * d.y) +
+           0.06 * std::sin(11.0 * d.x) * std::sin(9.0 * d.y + 1.0) * std::sin(10.0 * d.z + 0.6);
 }
 
 double polar_angle(int ring) { return pi * (ring + 1) / (ring_count + 1); }

@@ -159,7 +159,7 @@ Scene corridor(const CorridorOptions& options) {
         add_door(scene, options, rooms[i], materials.door);
     }
     const double top = options.height - 0.1;
-    scene.lights.push_back(generated::spot("spot", {0.0, top, -0.4}, {0.15, 0.0, -5.0},
+    scene.lights.push_back(generated::spot("spot", {-0.3, top, -0.5}, {0.2, 0.0, -5.5},
                                            options.intensity, options.cone_angle));
     scene.cameras.push_back(
         generated::look_at("camera", {0.0, 1.5, -0.2}, {0.0, 1.25, -6.0}, 1.0f));

@@ -39,8 +39,7 @@ std::vector<Hit> first_hits(const Scene& scene, const glm::dvec3& origin,
             const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
             const double distance = volume / (u + v + w);
             if (!inside || !(distance > 0.0) || distance >= hits[i].distance) continue;
-            const bool front = volume < 0.0;  // the origin is on the side of the normal
-            hits[i] = {distance, front || scene.materials[triangle.material].double_sided};
+            hits[i] = {distance, volume < 0.0};  // front: the origin is where the normal points
         }
     }
     return hits;
@@ -70,10 +69,31 @@ struct Stand {  // where a camera inside a room could be
     bool open_above = false;
 };
 
+// The mean distance that a picture would show; 0 when much of it looks out of an open side.
+double view_length(const Scene& scene, const Stand& stand) {
+    constexpr double seen = 0.8;
+    const glm::dvec3 right = glm::cross(stand.forward, glm::dvec3(0.0, 1.0, 0.0));
+    std::vector<glm::dvec3> rays;
+    for (const double x : {-0.36, -0.18, 0.0, 0.18, 0.36}) {
+        for (const double y : {-0.36, -0.18, 0.0, 0.18, 0.36}) {
+            rays.push_back(stand.forward + x * right + y * glm::dvec3(0.0, 1.0, 0.0));
+        }
+    }
+    double sum = 0.0;
+    double ended = 0.0;
+    for (const Hit& hit : first_hits(scene, stand.position, rays)) {
+        if (!std::isfinite(hit.distance)) continue;
+        sum += hit.distance;
+        ended += 1.0;
+    }
+    return ended < seen * static_cast<double>(rays.size()) ? 0.0 : sum / ended;
+}
+
 // A place is inside a room when most directions end on the front of something. A centre alone
 // would not do: a table may stand there, and walls modelled as solids face both ways.
 Stand find_stand(const Scene& scene) {
-    constexpr double enclosed = 0.7;  // a floor alone gives one half, a box without a wall 5/6
+    constexpr double enclosed = 0.72;  // a floor alone gives one half, a box without a wall 5/6
+    constexpr double shortest_view = 0.2;  // of the length; among many objects it is shorter
     const Bounds box = bounds(scene);
     const glm::dvec3 size = box.high - box.low;
     const int axis = size.x > size.z ? 0 : 2;
@@ -83,7 +103,7 @@ Stand find_stand(const Scene& scene) {
     const std::vector<glm::dvec3> around =
         even_directions(static_cast<int>(std::clamp(work, 16.0, 96.0)));
     Stand best;
-    double longest_view = -1.0;
+    double longest_view = shortest_view * size[axis];
     for (const double inset : {0.1, 0.2, 0.3}) {
         for (const double side : {1.0, -1.0}) {  // from the far end first: it looks along -axis
             Stand stand;
@@ -94,13 +114,12 @@ Stand find_stand(const Scene& scene) {
 
             const std::vector<Hit> hits = first_hits(scene, stand.position, around);
             if (front_share(hits) < enclosed) continue;
-            // Looking out of an open side would show nothing, so a miss counts as no view at all.
-            const Hit ahead = first_hits(scene, stand.position, {stand.forward})[0];
-            const double view = std::isfinite(ahead.distance) ? ahead.distance : 0.0;
+            const double view = view_length(scene, stand);
             if (view <= longest_view) continue;
             longest_view = view;
             stand.found = true;
-            stand.open_above = !std::isfinite(hits.front().distance);  // the direction nearest +Y
+            const Hit above = first_hits(scene, stand.position, {glm::dvec3(0.0, 1.0, 0.0)})[0];
+            stand.open_above = !std::isfinite(above.distance);
             best = stand;
         }
     }

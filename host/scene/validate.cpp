@@ -187,6 +187,9 @@ void check_cameras(const Scene& scene) {
                                 std::abs(glm::dot(camera.up, camera.forward)) <= unit_tolerance &&
                                 std::abs(glm::dot(camera.forward, camera.right)) <= unit_tolerance;
         if (!orthogonal) fail(name + " has axes that are not orthogonal");
+        if (glm::dot(glm::cross(camera.right, camera.up), camera.forward) > 0.0f) {
+            fail(name + " has axes that are not right-handed");
+        }
         if (camera.kind == Camera::Kind::perspective &&
             !(camera.vertical_fov > 0.0f && camera.vertical_fov < std::numbers::pi_v<float>)) {
             fail(name + " has a field of view outside 0..pi");

@@ -302,12 +302,9 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
     });
     record("image.upsample", pixels, [&](const WaitList& wait) {
         return image_.upsample(queue_, params, planes_, low_points_, low_irradiance_, irradiance_,
-                               wait);
+                               flags_, wait);
     });
     if (std::isinf(options_.discontinuity_threshold)) return;
-    record("image.discontinuity", pixels, [&](const WaitList& wait) {
-        return image_.discontinuity(queue_, params, planes_, low_points_, flags_, wait);
-    });
     record("image.count", pixels, [&](const WaitList& wait) {
         return image_.count(queue_, width * height, flags_, counts_, wait);
     });

@@ -32,8 +32,8 @@ struct BoxOptions {
     glm::vec3 right = glm::vec3(0.10f, 0.42f, 0.12f);
     glm::vec3 walls = glm::vec3(0.75f, 0.75f, 0.73f);  // back, front, floor, ceiling
     glm::vec3 mesh = glm::vec3(0.78f, 0.77f, 0.74f);
-    glm::vec3 intensity = glm::vec3(28.0f, 27.0f, 25.0f);  // cd, for the default size
-    float cone_angle = 0.6f;                               // from the axis; spot
+    glm::vec3 intensity = glm::vec3(9.0f, 8.7f, 8.1f);  // cd, for the default size
+    float cone_angle = 0.6f;                            // from the axis; spot
 };
 // Takes the shape of mesh alone: its materials, lights and cameras are left behind. Intensity is
 // scaled with the square of the box's height, so that a box of any size looks the same.
@@ -60,14 +60,14 @@ Scene furnace(const FurnaceOptions& options = {});
 // A corridor with rooms behind doors on both sides; a spot near one end shines along it, so that
 // the rooms are lit by what comes through their doors alone. No edge ends on another's middle.
 struct CorridorOptions {
-    int rooms = 3;                                            // on either side, 1 to 64
-    float door_angle = 1.2f;                                  // 0: closed, up to 2.6
-    double width = 2.0;                                       // of the corridor, at least 0.5
-    double height = 2.5;                                      // at least 2.2 (doors are 2.05 high)
-    double room_length = 4.0;                                 // along the corridor, at least 3
-    double room_depth = 3.0;                                  // away from it, at least 1.5
-    glm::vec3 intensity = glm::vec3(180.0f, 172.0f, 155.0f);  // cd
-    float cone_angle = 0.6f;                                  // from the axis
+    int rooms = 3;                                         // on either side, 1 to 64
+    float door_angle = 1.2f;                               // 0: closed, up to 2.6
+    double width = 2.0;                                    // of the corridor, at least 0.5
+    double height = 2.5;                                   // at least 2.2 (doors are 2.05 high)
+    double room_length = 4.0;                              // along the corridor, at least 3
+    double room_depth = 3.0;                               // away from it, at least 1.5
+    glm::vec3 intensity = glm::vec3(60.0f, 57.0f, 52.0f);  // cd
+    float cone_angle = 0.5f;                               // from the axis
 };
 Scene corridor(const CorridorOptions& options = {});
 

@@ -54,11 +54,34 @@ static intp opaque(const View* view, int x, int y, intp covered, uint triangle,
     floatp wx = (packet_float(x + packet_lanes) + 0.5f) * (2.0f / (float)view->width) - 1.0f;
     float wy = 1.0f - ((float)y + 0.5f) * (2.0f / (float)view->height);
     Surface surface = gbuffer_surface(view, wx * view->right.w + view->window.x,
-                                      packet_float(0 * packet_lanes) +
-                                          (wy * view->up.w + view->window.y),
+                                      packet_splat(wy * view->up.w + view->window.y),
                                       lanes, scene, flags);
     uint material = scene->triangles[triangle].w & TRIANGLE_MATERIAL;
     return covered & (surface.alpha >= scene->materials[material].emission.w);
+}
+
+// Puts (key, triangle) into the covered pixels where it wins. Words are 64 bits wide, so half a
+// packet fills a vector.
+static void put_packet(uintp key, uint triangle, intp covered, global ulong* pixels) {
+#if CLGI_WIDTH == 1
+    ulong word = ((ulong)key << 32) | triangle;
+    if (covered) *pixels = min(*pixels, word);
+#else
+#define HALF_ PACKET_JOIN(PACKET_HALF_OF_, CLGI_WIDTH)
+#define PACKET_HALF_OF_4 2
+#define PACKET_HALF_OF_8 4
+#define PACKET_HALF_OF_16 8
+    typedef PACKET_JOIN(ulong, HALF_) ulong_half;
+    typedef PACKET_JOIN(long, HALF_) long_half;
+    ulong_half old = PACKET_JOIN(vload, HALF_)(0, pixels);
+    ulong_half word = (PACKET_JOIN(convert_ulong, HALF_)(key.lo) << 32) | triangle;
+    long_half wins = PACKET_JOIN(convert_long, HALF_)(covered.lo) & (word < old);
+    PACKET_JOIN(vstore, HALF_)(select(old, word, wins), 0, pixels);
+    old = PACKET_JOIN(vload, HALF_)(1, pixels);
+    word = (PACKET_JOIN(convert_ulong, HALF_)(key.hi) << 32) | triangle;
+    wins = PACKET_JOIN(convert_long, HALF_)(covered.hi) & (word < old);
+    PACKET_JOIN(vstore, HALF_)(select(old, word, wins), 1, pixels);
+#endif
 }
 
 kernel void gbuffer_raster_large(
@@ -109,25 +132,23 @@ kernel void gbuffer_raster_large(
                 floatp closeness = row_closeness +
                                    (packet_float(column) + 0.5f - polygon->origin_x) *
                                        polygon->slope_x;
-                closeness = packet_min(packet_max(closeness, polygon->farthest +
-                                                  packet_float(0 * packet_lanes)),
-                                       polygon->closest + packet_float(0 * packet_lanes));
-                ulongp word = (packet_ulong(~packet_bits(closeness)) << 32) | polygon->triangle;
+                closeness = packet_min(packet_max(closeness, packet_splat(polygon->farthest)),
+                                       packet_splat(polygon->closest));
+                uintp key = ~packet_bits(closeness);
 
                 uint pixel = view.first_pixel + (uint)y * view.width + (uint)x;
                 if (x + CLGI_WIDTH - 1 <= tile_right) {
-                    ulongp old = packet_load(visibility + pixel);
-                    packet_store(packet_select(old, min(old, word),
-                                               packet_ulong(packet_wide_mask(covered))),
-                                 visibility + pixel);
+                    put_packet(key, polygon->triangle, covered, visibility + pixel);
                 } else {  // the last packet of a row that is no multiple of the width
                     int lane_covered[CLGI_WIDTH];
-                    ulong lane_word[CLGI_WIDTH];
+                    uint lane_key[CLGI_WIDTH];
                     packet_store(covered, lane_covered);
-                    packet_store(word, lane_word);
+                    packet_store(key, lane_key);
                     for (int k = 0; x + k <= tile_right; ++k)
                         if (lane_covered[k])
-                            visibility[pixel + k] = min(visibility[pixel + k], lane_word[k]);
+                            visibility[pixel + k] =
+                                min(visibility[pixel + k],
+                                    ((ulong)lane_key[k] << 32) | polygon->triangle);
                 }
             }
         }

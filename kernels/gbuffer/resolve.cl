@@ -32,17 +32,28 @@ kernel void gbuffer_resolve(
     SceneBuffers scene = SCENE_BUFFERS;
     int triangle[CLGI_WIDTH];
     int material[CLGI_WIDTH];
-    float across[CLGI_WIDTH];
-    float down[CLGI_WIDTH];
+    int some = 0;
     for (int k = 0; k < CLGI_WIDTH; ++k) {
-        uint at = min(pixel + k, pixels - 1);
-        triangle[k] = pixel + k < pixels ? visibility_triangle(visibility[view.first_pixel + at]) : -1;
-        material[k] = triangle[k] < 0 ? -1 : (int)(triangles[triangle[k]].w & TRIANGLE_MATERIAL);
-        across[k] = (float)(at % view.width);
-        down[k] = (float)(at / view.width);
+        ulong word = pixel + k < pixels ? visibility[view.first_pixel + pixel + k] : (ulong)-1;
+        triangle[k] = visibility_triangle(word);
+        material[k] = -1;
+        some |= triangle[k] >= 0;
     }
-    floatp x = (packet_load(across) + 0.5f) * (2.0f / (float)view.width) - 1.0f;
-    floatp y = 1.0f - (packet_load(down) + 0.5f) * (2.0f / (float)view.height);
+    if (some)
+        for (int k = 0; k < CLGI_WIDTH; ++k)
+            if (triangle[k] >= 0) material[k] = (int)(triangles[triangle[k]].w & TRIANGLE_MATERIAL);
+
+    // Pixel coordinates; a packet may run on into the next rows.
+    uint row = pixel / view.width;
+    intp column = (int)(pixel - row * view.width) + packet_lanes;
+    intp line = (intp)((int)row);
+    for (intp past = column >= (int)view.width; packet_any(past);
+         past = column >= (int)view.width) {
+        column = packet_select(column, column - (int)view.width, past);
+        line = packet_select(line, line + 1, past);
+    }
+    floatp x = (packet_float(column) + 0.5f) * (2.0f / (float)view.width) - 1.0f;
+    floatp y = 1.0f - (packet_float(line) + 0.5f) * (2.0f / (float)view.height);
     Surface surface = gbuffer_surface(&view, x * view.right.w + view.window.x,
                                       y * view.up.w + view.window.y, triangle, &scene, info.flags);
 

@@ -16,19 +16,19 @@
 #define LARGEST_FLOAT 3.40282347e38f
 
 static floatp dot3(floatp x, floatp y, floatp z, float4 v) {
-    floatp zero = packet_float(0 * packet_lanes);
-    return packet_dot(x, y, z, v.x + zero, v.y + zero, v.z + zero);
+    floatp zero = packet_zero;
+    return packet_dot(x, y, z, packet_splat(v.x), packet_splat(v.y), packet_splat(v.z));
 }
 
 // Not a number and not finite become 0 and the largest float; counted, so never in silence.
 static floatp finite(floatp value, volatile global uint* non_finite) {
-    floatp zero = packet_float(0 * packet_lanes);
+    floatp zero = packet_zero;
     intp bad = (fabs(value) <= LARGEST_FLOAT) == 0;
     if (packet_any(bad)) {
         atomic_inc(non_finite);
         value = packet_select(value, zero, value != value);
     }
-    return packet_min(packet_max(value, zero), zero + LARGEST_FLOAT);
+    return packet_min(packet_max(value, zero), packet_splat(LARGEST_FLOAT));
 }
 
 kernel void image_combine(
@@ -47,8 +47,8 @@ kernel void image_combine(
     uint pixel = (uint)get_global_id(0) * CLGI_WIDTH;
     if (pixel >= params.width * params.height) return;
     uint stride = params.stride;
-    floatp zero = packet_float(0 * packet_lanes);
-    floatp one = zero + 1.0f;
+    floatp zero = packet_zero;
+    floatp one = packet_splat(1.0f);
     global const float* at = planes + pixel;
 
     floatp nx = packet_load(at + 3 * stride);
@@ -101,7 +101,7 @@ kernel void image_combine(
             global const Emitter* emitter = emitters + e;
             uint kind = emitter->kind;
             float4 axis = emitter->axis;
-            floatp tx = zero - axis.x, ty = zero - axis.y, tz = zero - axis.z;
+            floatp tx = packet_splat(-axis.x), ty = packet_splat(-axis.y), tz = packet_splat(-axis.z);
             floatp strength = one;  // times the intensity: irradiance at normal incidence
             if (kind != EMITTER_DIRECTIONAL) {
                 float4 position = emitter->position;
@@ -117,7 +117,7 @@ kernel void image_combine(
                 floatp along = -dot3(tx, ty, tz, axis);  // cosine at the source
                 if (kind == EMITTER_AREA) {
                     strength = packet_max(along, zero) /
-                               fma(square, zero + CLGI_PI, zero + emitter->area);
+                               fma(square, packet_splat(CLGI_PI), packet_splat(emitter->area));
                 } else {
                     strength = packet_select(zero, per_distance * per_distance, square > 0.0f);
                     if (kind == EMITTER_SPOT) {
@@ -143,17 +143,17 @@ kernel void image_combine(
             if (!packet_any(facing)) continue;
             floatp lit = shadow_lit(emitter, views, visibility, &point, facing, params.texel_bias);
             floatp arriving = packet_select(zero, strength * cosine * lit, facing);
-            direct[0] = fma(arriving, zero + emitter->intensity.x, direct[0]);
-            direct[1] = fma(arriving, zero + emitter->intensity.y, direct[1]);
-            direct[2] = fma(arriving, zero + emitter->intensity.z, direct[2]);
+            direct[0] = fma(arriving, packet_splat(emitter->intensity.x), direct[0]);
+            direct[1] = fma(arriving, packet_splat(emitter->intensity.y), direct[1]);
+            direct[2] = fma(arriving, packet_splat(emitter->intensity.z), direct[2]);
             if (params.effects & COMBINE_SPECULAR) {
                 floatp alpha = packet_max(packet_dot(mx, my, mz, tx, ty, tz), zero);
                 floatp lobe = (exponent + 2.0f) * (0.5f / CLGI_PI) *
                               packet_select(zero, pow(alpha, exponent), alpha > 0.0f) * arriving;
                 lobe = packet_select(zero, lobe, coat + share > 0.0f);
-                glossy[0] = fma(lobe, zero + emitter->intensity.x, glossy[0]);
-                glossy[1] = fma(lobe, zero + emitter->intensity.y, glossy[1]);
-                glossy[2] = fma(lobe, zero + emitter->intensity.z, glossy[2]);
+                glossy[0] = fma(lobe, packet_splat(emitter->intensity.x), glossy[0]);
+                glossy[1] = fma(lobe, packet_splat(emitter->intensity.y), glossy[1]);
+                glossy[2] = fma(lobe, packet_splat(emitter->intensity.z), glossy[2]);
             }
         }
         for (int c = 0; c < 3; ++c)

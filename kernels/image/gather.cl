@@ -32,10 +32,11 @@ kernel void image_gather(
     floatp px = packet_load(points + point);
     floatp py = packet_load(points + stride + point);
     floatp pz = packet_load(points + 2 * stride + point);
-    floatp nx = packet_load(points + 3 * stride + point);
-    floatp ny = packet_load(points + 4 * stride + point);
-    floatp nz = packet_load(points + 5 * stride + point);
-    floatp zero = packet_float(0 * packet_lanes);
+    // Away from the surface, since t below runs from light to point.
+    floatp nx = -packet_load(points + 3 * stride + point);
+    floatp ny = -packet_load(points + 4 * stride + point);
+    floatp nz = -packet_load(points + 5 * stride + point);
+    floatp zero = packet_zero;
 
     for (int sign = 0; sign < 2; ++sign) {
         uint count = sign == 0 ? params.light_count : params.negative_count;
@@ -46,18 +47,20 @@ kernel void image_gather(
             float4 position = light->position;
             float4 normal = light->normal;
             float4 flux = light->flux;
-            floatp tx = position.x - px;
-            floatp ty = position.y - py;
-            floatp tz = position.z - pz;
+            floatp tx = px - packet_splat(position.x);
+            floatp ty = py - packet_splat(position.y);
+            floatp tz = pz - packet_splat(position.z);
             floatp square = packet_dot(tx, ty, tz, tx, ty, tz);
             floatp receive = packet_dot(nx, ny, nz, tx, ty, tz);
-            floatp send = -packet_dot(normal.x + zero, normal.y + zero, normal.z + zero, tx, ty, tz);
-            floatp bound = fma(square, CLGI_PI + zero, params.footprint * position.w + zero);
+            floatp send = packet_dot(packet_splat(normal.x), packet_splat(normal.y),
+                                     packet_splat(normal.z), tx, ty, tz);
+            floatp bound = fma(square, packet_splat(CLGI_PI),
+                               packet_splat(params.footprint * position.w));
             floatp factor = packet_max(receive, zero) * packet_max(send, zero) /
-                            fma(square, bound, SMALLEST_NORMAL + zero);
-            red = fma(factor, flux.x + zero, red);
-            green = fma(factor, flux.y + zero, green);
-            blue = fma(factor, flux.z + zero, blue);
+                            fma(square, bound, packet_splat(SMALLEST_NORMAL));
+            red = fma(factor, packet_splat(flux.x), red);
+            green = fma(factor, packet_splat(flux.y), green);
+            blue = fma(factor, packet_splat(flux.z), blue);
         }
         global float* target = irradiance + (uint)sign * IRRADIANCE_NEGATIVE * stride + point;
         packet_store(red, target);

@@ -1,11 +1,13 @@
-// Brings low-resolution irradiance to every pixel, without bleeding across edges.
+// Brings low-resolution irradiance to every pixel without bleeding across edges, and marks the
+// pixels that it does not suit: the discontinuity buffer.
 //
 // Between two or four points, each weighs by how well it stands in for the pixel; on one plane
-// that is plain bilinear interpolation.                        [Cochran07, section 3.5]
+// that is plain bilinear interpolation. Where the weighted mean of the differences reaches the
+// threshold, the pixel is to be lit in full.                   [Cochran07, section 3.5]
 //
 // Work size    1D, one work-item for every CLGI_WIDTH low-resolution points of a row, rows padded
 //              to whole packets; any local size
-// Writes       irradiance of the pixels of its cells
+// Writes       irradiance and flags of the pixels of its cells
 #include "image/cell.clh"
 
 static void put_row(const Cell* cell, const RefineParams* params, uint down, floatp even_lanes,
@@ -24,12 +26,47 @@ static void put_row(const Cell* cell, const RefineParams* params, uint down, flo
         target[k] = lanes[k & 1][k / 2];
 }
 
+static void put_flags(const Cell* cell, const RefineParams* params, uint down, floatp even_lanes,
+                      floatp odd_lanes, global uchar* flags) {
+    uint y = 2 * cell->row + down;
+    if (y >= params->height) return;
+    int lanes[2][CLGI_WIDTH];
+    packet_store(even_lanes >= params->threshold, lanes[0]);
+    packet_store(odd_lanes >= params->threshold, lanes[1]);
+    global uchar* target = flags + y * params->width + 2 * cell->column;
+    uint last = min(2u * CLGI_WIDTH, params->width - 2 * cell->column);
+    for (uint k = 0; k < last; ++k) target[k] = lanes[k & 1][k / 2] != 0;
+}
+
+typedef struct {
+    floatp weight[4];   // sum 1
+    floatp difference;  // weighted mean
+} Blend;
+
+static Blend blend(const CellPoint* pixel, const CellPoint* points, int count,
+                   float position_scale) {
+    Blend out;
+    floatp sum = packet_zero;
+    floatp difference = packet_zero;
+    for (int i = 0; i < count; ++i) {
+        floatp d = cell_difference(pixel, points + i, position_scale);
+        out.weight[i] = cell_weight(d);
+        sum += out.weight[i];
+        difference = fma(out.weight[i], d, difference);
+    }
+    floatp per_sum = 1.0f / sum;
+    for (int i = 0; i < count; ++i) out.weight[i] *= per_sum;
+    out.difference = difference * per_sum;
+    return out;
+}
+
 kernel void image_upsample(
     const RefineParams   params,
     global const float*  restrict planes,      // [>= POINT_PLANES][stride]
     global const float*  restrict points,      // [POINT_PLANES][low_stride]
     global const float*  restrict low,         // [params.planes][low_stride] irradiance
-    global float*        restrict irradiance)  // [params.planes][stride]
+    global float*        restrict irradiance,  // [params.planes][stride]
+    global uchar*        restrict flags)       // [width * height] 1: light in full
 {
     Cell cell = cell_of_item(&params, (uint)get_global_id(0));
     if (cell.row >= cell.low_height) return;
@@ -41,21 +78,17 @@ kernel void image_upsample(
     point[3] = cell_low_point(&cell, &params, points, 1, 1);
     float scale = params.position_scale;
 
-    // Weights: odd column of the even row, even column of the odd row, odd column of the odd row.
     CellPoint pixel = cell_full_point(&cell, &params, planes, 1, 0);
-    floatp right0 = cell_weight(cell_difference(&pixel, point + 0, scale));
-    floatp right1 = cell_weight(cell_difference(&pixel, point + 1, scale));
-    floatp per_right = 1.0f / (right0 + right1);
+    Blend right = blend(&pixel, point, 2, scale);
+    CellPoint column[2] = {point[0], point[2]};
     pixel = cell_full_point(&cell, &params, planes, 0, 1);
-    floatp down0 = cell_weight(cell_difference(&pixel, point + 0, scale));
-    floatp down2 = cell_weight(cell_difference(&pixel, point + 2, scale));
-    floatp per_down = 1.0f / (down0 + down2);
+    Blend below = blend(&pixel, column, 2, scale);
     pixel = cell_full_point(&cell, &params, planes, 1, 1);
-    floatp cross0 = cell_weight(cell_difference(&pixel, point + 0, scale));
-    floatp cross1 = cell_weight(cell_difference(&pixel, point + 1, scale));
-    floatp cross2 = cell_weight(cell_difference(&pixel, point + 2, scale));
-    floatp cross3 = cell_weight(cell_difference(&pixel, point + 3, scale));
-    floatp per_cross = 1.0f / (cross0 + cross1 + cross2 + cross3);
+    Blend across = blend(&pixel, point, 4, scale);
+
+    // An even column of an even row is its point itself.
+    put_flags(&cell, &params, 0, packet_zero, right.difference, flags);
+    put_flags(&cell, &params, 1, below.difference, across.difference, flags);
 
     for (uint plane = 0; plane < params.planes; ++plane) {
         global const float* source = low + plane * params.low_stride;
@@ -64,9 +97,11 @@ kernel void image_upsample(
         floatp v1 = cell_low(&cell, source, 1, 0);
         floatp v2 = cell_low(&cell, source, 0, 1);
         floatp v3 = cell_low(&cell, source, 1, 1);
-        put_row(&cell, &params, 0, v0, fma(right0, v0, right1 * v1) * per_right, target);
-        put_row(&cell, &params, 1, fma(down0, v0, down2 * v2) * per_down,
-                fma(cross0, v0, fma(cross1, v1, fma(cross2, v2, cross3 * v3))) * per_cross,
+        put_row(&cell, &params, 0, v0, fma(right.weight[0], v0, right.weight[1] * v1), target);
+        put_row(&cell, &params, 1, fma(below.weight[0], v0, below.weight[1] * v2),
+                fma(across.weight[0], v0,
+                    fma(across.weight[1], v1,
+                        fma(across.weight[2], v2, across.weight[3] * v3))),
                 target);
     }
 }

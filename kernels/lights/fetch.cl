@@ -53,8 +53,8 @@ kernel void lights_fetch(
             for (int lane = 0; lane < CLGI_WIDTH; ++lane)
                 triangle[lane] =
                     visibility_triangle(visibility[view.first_pixel + y * view.width + x]);
-            floatp zero = packet_float(0 * packet_lanes);
-            Surface surface = gbuffer_surface(&view, seen.plane.x + zero, seen.plane.y + zero,
+            floatp zero = packet_zero;
+            Surface surface = gbuffer_surface(&view, packet_splat(seen.plane.x), packet_splat(seen.plane.y),
                                               triangle, &scene, info.flags);
             float lanes[11][CLGI_WIDTH];
             int front[CLGI_WIDTH];

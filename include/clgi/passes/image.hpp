@@ -22,11 +22,6 @@ public:
                      const cl::Buffer& lights, const cl::Buffer& negative,
                      const cl::Buffer& irradiance, const WaitList& wait = {}) const;
 
-    // flags: [width * height] uchar, 1 where low resolution does not suit.
-    cl::Event discontinuity(const cl::CommandQueue& queue, const RefineParams& params,
-                            const cl::Buffer& planes, const cl::Buffer& points,
-                            const cl::Buffer& flags, const WaitList& wait = {}) const;
-
     // counts: [pixels / COMPACT_BLOCK, rounded up] uint.
     cl::Event count(const cl::CommandQueue& queue, std::uint32_t pixels, const cl::Buffer& flags,
                     const cl::Buffer& counts, const WaitList& wait = {}) const;
@@ -37,10 +32,12 @@ public:
                       const cl::Buffer& listed, const cl::Buffer& points,
                       const cl::Buffer& point_count, const WaitList& wait = {}) const;
 
-    // low [planes][low_stride] -> irradiance [planes][stride].
+    // low [planes][low_stride] -> irradiance [planes][stride], and flags [width * height] uchar,
+    // 1 where low resolution does not suit.
     cl::Event upsample(const cl::CommandQueue& queue, const RefineParams& params,
                        const cl::Buffer& planes, const cl::Buffer& points, const cl::Buffer& low,
-                       const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+                       const cl::Buffer& irradiance, const cl::Buffer& flags,
+                       const WaitList& wait = {}) const;
 
     // refined [planes][stride] of listed pixels -> irradiance [planes][stride].
     cl::Event place(const cl::CommandQueue& queue, const RefineParams& params,
@@ -63,7 +60,7 @@ public:
     int packet_width() const { return gather_.packet_width; }
 
 private:
-    PassKernel gather_, discontinuity_, count_, compact_, upsample_, place_, combine_, tonemap_;
+    PassKernel gather_, count_, compact_, upsample_, place_, combine_, tonemap_;
 };
 
 }  // namespace clgi

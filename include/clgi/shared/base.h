@@ -7,7 +7,7 @@
 #ifdef __OPENCL_VERSION__
 #define CLGI_SHARED_BEGIN
 #define CLGI_SHARED_END
-#define CLGI_INLINE static inline
+#define CLGI_INLINE static inline __attribute__((always_inline))
 // Every fused multiply-add in clgi is written out as fma(): the same bits from every compiler.
 #pragma OPENCL FP_CONTRACT OFF
 #else
