@@ -37,8 +37,10 @@ std::vector<Hit> first_hits(const Scene& scene, const glm::dvec3& origin,
             const double v = glm::dot(directions[i], ca);
             const double w = glm::dot(directions[i], ab);
             const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-            const double distance = volume / (u + v + w);
-            if (!inside || !(distance > 0.0) || distance >= hits[i].distance) continue;
+            const double sum = u + v + w;  // 0: in the plane of the ray, which then sees nothing
+            if (!inside || sum == 0.0) continue;
+            const double distance = volume / sum;
+            if (!(distance > 0.0) || distance >= hits[i].distance) continue;
             hits[i] = {distance, volume < 0.0};  // front: the origin is where the normal points
         }
     }

@@ -35,7 +35,9 @@ kernel void lights_fetch(
     while (e + 1 < params.emitter_count && light >= emitters[e + 1].first_light) ++e;
     global const Emitter* emitter = emitters + e;
     uint rank = light - emitter->first_light;
-    uint index = emitter->kind == EMITTER_SPOT ? accepted[light] : rank + 1;
+    // Samples of the emissive surfaces go on along one sequence: each alone has too few directions.
+    uint index = emitter->kind == EMITTER_AREA ? light + 1 : rank + 1;
+    if (emitter->kind == EMITTER_SPOT) index = accepted[light];
 
     IndirectLight out;
     out.position = (float4)(0.0f);

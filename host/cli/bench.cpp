@@ -1,0 +1,95 @@
+// clgi bench TABLE: a paper's table, run again on this device.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/io/gltf.hpp>
+#include <clgi/procedural.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/session.hpp"
+#include "report/bench.hpp"
+
+namespace clgi::cli {
+namespace {
+
+struct BenchFlags {
+    DeviceFlags device;
+    std::string table;
+    std::string mesh;
+    int repeats = 30;
+    bool json = false;
+};
+
+void print_json(const report::BenchTable& table) {
+    nlohmann::ordered_json out = {{"table", table.table},
+                                  {"device", table.device},
+                                  {"scene", table.scene},
+                                  {"peak_gflops", table.peak_gflops},
+                                  {"gather_gflops", table.gather_gflops},
+                                  {"gather_fraction", table.gather_fraction},
+                                  {"rows", nlohmann::ordered_json::array()}};
+    for (const report::BenchRow& row : table.rows) {
+        nlohmann::ordered_json item = {{"name", row.name},   {"paper", row.paper},
+                                       {"clgi", row.clgi},   {"ratio", row.ratio},
+                                       {"error", nullptr},   {"unit", row.unit}};
+        if (row.error) item["error"] = *row.error;
+        if (row.paper_error) item["paper_error"] = *row.paper_error;
+        if (row.low_res_share) item["low_res_share"] = *row.low_res_share;
+        if (row.threshold && *row.threshold < 1e30) item["threshold"] = *row.threshold;
+        out["rows"].push_back(item);
+    }
+    fmt::print("{}\n", out.dump(2));
+}
+
+void print_text(const report::BenchTable& table) {
+    fmt::print("{} on {}\n{}, peak {:.0f} GFLOP/s; gather {:.0f} GFLOP/s, {:.0f} % of it\n\n",
+               table.table, table.device, table.scene, table.peak_gflops, table.gather_gflops,
+               100.0 * table.gather_fraction);
+    fmt::print("{:<12}{:>12}{:>12}{:>9}{:>10}{:>12}{:>12}\n", "row", "paper fps", "clgi fps",
+               "ratio", "low-res", "RMS %", "paper RMS %");
+    for (const report::BenchRow& row : table.rows)
+        fmt::print("{:<12}{:>12.1f}{:>12.1f}{:>9.2f}{:>9.1f}%{:>12}{:>12}\n", row.name, row.paper,
+                   row.clgi, row.ratio, 100.0 * row.low_res_share.value_or(0.0),
+                   row.error ? fmt::format("{:.4f}", *row.error) : "-",
+                   row.paper_error ? fmt::format("{:.4f}", *row.paper_error) : "-");
+}
+
+void run_bench(const BenchFlags& flags) {
+    const Session session = open_session(flags.device);
+    report::BenchSetup setup;
+    setup.queue = session.queue;
+    setup.scene = flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh));
+    setup.repeats = flags.repeats;
+    catch_interrupts();
+    const auto bar = progress_bar(flags.table, flags.device.quiet);
+    setup.progress = [&](double done) {
+        if (!bar(done)) throw Interrupted();
+        return true;
+    };
+    const report::BenchTable table =
+        flags.table == "cochran1" ? report::bench_cochran1(setup) : report::bench_cochran2(setup);
+    bar(1.0);
+    flags.json ? print_json(table) : print_text(table);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bench", "Run a paper's table again");
+    const auto flags = std::make_shared<BenchFlags>();
+    command->add_option("table", flags->table, "cochran1 or cochran2")
+        ->required()
+        ->check(CLI::IsMember({"cochran1", "cochran2"}));
+    command->add_option("--mesh", flags->mesh,
+                        "Mesh in the box, such as the Stanford bunny; default: a generated one");
+    command->add_option("--repeats", flags->repeats, "Frames measured of each row")
+        ->check(CLI::Range(1, 10000));
+    command->add_flag("--json", flags->json, "Print JSON");
+    add_device_flags(*command, flags->device);
+    command->callback([flags] { run_bench(*flags); });
+}
+
+}  // namespace clgi::cli

@@ -1,0 +1,15 @@
+// The commands of the program; each adds its flags to app and runs when it is chosen.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace clgi::cli {
+
+void add_devices(CLI::App& app);
+void add_scene(CLI::App& app);
+void add_render(CLI::App& app);
+void add_compare(CLI::App& app);
+void add_bench(CLI::App& app);
+
+}  // namespace clgi::cli

@@ -1,0 +1,52 @@
+// clgi devices: what there is to run on, and which one would be taken.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/device.hpp>
+#include <memory>
+
+#include "cli/commands.hpp"
+
+namespace clgi::cli {
+namespace {
+
+const char* kind_of(const cl::Device& device) {
+    const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+    return type & CL_DEVICE_TYPE_GPU ? "GPU" : type & CL_DEVICE_TYPE_CPU ? "CPU" : "other";
+}
+
+bool has(const cl::Device& device, const char* extension) {
+    return device.getInfo<CL_DEVICE_EXTENSIONS>().find(extension) != std::string::npos;
+}
+
+void run_devices(const std::string& choice) {
+    const cl::Device taken = choose_device(choice);
+    for (const cl::Device& device : all_devices()) {
+        fmt::print("{} {}\n", device() == taken() ? "*" : " ", describe(device));
+        fmt::print("    {}, {} compute units at {} MHz, packets of {} floats\n", kind_of(device),
+                   device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(),
+                   device.getInfo<CL_DEVICE_MAX_CLOCK_FREQUENCY>(), packet_width(device));
+        fmt::print("    memory {} MiB, largest buffer {} MiB, local {} KiB, work-group up to {}\n",
+                   device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>() >> 20,
+                   device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>() >> 20,
+                   device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() >> 10,
+                   device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>());
+        fmt::print("    64-bit atomics {}, double {}, half {}, GL sharing {}\n",
+                   has(device, "cl_khr_int64_extended_atomics") ? "yes" : "no",
+                   has(device, "cl_khr_fp64") ? "yes" : "no",
+                   has(device, "cl_khr_fp16") ? "yes" : "no",
+                   has(device, "cl_khr_gl_sharing") ? "yes" : "no");
+    }
+}
+
+}  // namespace
+
+void add_devices(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("devices", "List OpenCL devices; * is taken");
+    const auto choice = std::make_shared<std::string>();
+    command->add_option("--device", *choice, "platform:CPU|GPU:name-or-index");
+    command->callback([choice] { run_devices(*choice); });
+}
+
+}  // namespace clgi::cli

@@ -1,0 +1,76 @@
+// The program: one command a run, one line on stderr when it fails.
+//
+// Exit code 0 done, 1 wrong use, 2 bad input, 3 device or memory, 130 cancelled by Ctrl-C.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/error.hpp>
+#include <cstdio>
+#include <new>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/session.hpp"
+
+#ifndef CLGI_VERSION
+#define CLGI_VERSION "unversioned"
+#endif
+
+namespace {
+
+enum Exit { done = 0, wrong_use = 1, bad_input = 2, device_or_memory = 3, cancelled = 130 };
+
+// One line whatever the text holds: file names and build logs may contain line breaks.
+int fail(Exit code, std::string text) {
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    }
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    std::fflush(stdout);
+    fmt::print(stderr, "clgi: error: {}\n", text);
+    return code;
+}
+
+int parse_and_run(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {
+        return app.exit(asked);  // --help, --version
+    }
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+        return fail(bad_input, "standard output cannot be written");
+    }
+    return done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        CLI::App app("Global illumination on any OpenCL device.", "clgi");
+        app.set_version_flag("--version", "clgi " CLGI_VERSION);
+        app.require_subcommand(1);
+        clgi::cli::add_devices(app);
+        clgi::cli::add_scene(app);
+        clgi::cli::add_render(app);
+        clgi::cli::add_compare(app);
+        clgi::cli::add_bench(app);
+        return parse_and_run(app, argc, argv);
+    } catch (const clgi::cli::Interrupted&) {
+        std::fputs("clgi: cancelled\n", stderr);
+        return cancelled;
+    } catch (const CLI::Error& error) {
+        return fail(wrong_use, error.what());
+    } catch (const clgi::InputError& error) {
+        return fail(bad_input, error.what());
+    } catch (const clgi::DeviceError& error) {
+        return fail(device_or_memory, error.what());
+    } catch (const clgi::Error& error) {
+        return fail(wrong_use, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(device_or_memory, "out of memory");
+    } catch (const std::exception& error) {
+        return fail(device_or_memory, error.what());
+    }
+}

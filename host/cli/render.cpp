@@ -1,0 +1,212 @@
+// clgi render SCENE -o out.exr [--png out.png]: from glTF to picture.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <clgi/clgi.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/picture.hpp"
+#include "cli/session.hpp"
+#include "cli/stats.hpp"
+
+namespace clgi::cli {
+namespace {
+
+struct RenderFlags {
+    DeviceFlags device;
+    PictureFlags picture;
+    std::string scene;
+    int scene_index = -1;
+    int camera = 0;
+    std::string method = "auto";
+    std::string size = "640x480";
+    std::string low_res;
+    std::string stats;
+    int frames = 1;
+    bool orbit = false;
+    bool spin_light = false;
+    bool no_direct = false;
+    SecondOrderOptions options;
+};
+
+void parse_size(const std::string& text, SecondOrderOptions& options) {
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &options.width, &options.height, &used) != 2 ||
+        used != static_cast<int>(text.size()) || options.width < 1 || options.height < 1 ||
+        options.width > 16384 || options.height > 16384)
+        throw Error(fmt::format("render: --size is '{}', WIDTHxHEIGHT from 1x1 to 16384x16384 needed",
+                                text));
+}
+
+void parse_low_res(const std::string& text, SecondOrderOptions& options) {
+    if (text.empty()) return;
+    if (text == "off") {
+        options.low_resolution = false;
+        return;
+    }
+    std::size_t used = 0;
+    float value = -1.0f;
+    try {
+        value = std::stof(text, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (used != text.size() || !(value >= 0.0f))
+        throw Error(fmt::format("render: --low-res is '{}', off or a threshold of at least 0 needed",
+                                text));
+    options.discontinuity_threshold = value;
+}
+
+// Turned about the vertical axis through a point.
+Camera orbited(const Camera& camera, const glm::dvec3& centre, double angle) {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0, 1, 0));
+    const auto turned = [&](const glm::vec3& v) {
+        return glm::vec3(turn * glm::dvec4(glm::dvec3(v), 0.0));
+    };
+    Camera out = camera;
+    out.position = centre + glm::dvec3(turn * glm::dvec4(camera.position - centre, 0.0));
+    out.right = turned(camera.right);
+    out.up = turned(camera.up);
+    out.forward = turned(camera.forward);
+    return out;
+}
+
+void spin_lights(DeviceScene& device, const Scene& scene, double angle) {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0, 1, 0));
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        Light light = scene.lights[i];
+        light.direction = glm::vec3(turn * glm::dvec4(glm::dvec3(light.direction), 0.0));
+        device.set_light(i, light);
+    }
+}
+
+std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderSolver& solver) {
+    std::vector<std::string> out;
+    const SecondOrderOptions& options = solver.options();
+    const bool lit = options.indirect && solver.sources().light_count > 0;
+    if (options.direct && !solver.sources().emitters.empty()) out.push_back("direct");
+    if (options.direct && scene.has_lobes()) out.push_back("glossy-direct");
+    if (options.direct && !scene.emissive().empty()) out.push_back("emission");
+    if (lit) out.push_back("one-bounce");
+    if (lit && options.negative_lights > 0) out.push_back("negative-lights");
+    return out;
+}
+
+void run_render(RenderFlags flags) {
+    if (flags.picture.exr.empty() && flags.picture.png.empty())
+        throw Error("render: nothing to write, -o FILE.exr or --png FILE.png needed");
+    parse_size(flags.size, flags.options);
+    parse_low_res(flags.low_res, flags.options);
+    flags.options.direct = !flags.no_direct;
+    flags.options.indirect = flags.method != "direct";
+    flags.options.build.math = math_of(flags.device);
+
+    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.device.quiet);
+    if (flags.camera >= static_cast<int>(scene.cameras.size()))
+        throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
+                                scene.cameras.size()));
+    const Camera camera = scene.cameras[flags.camera];
+    const Session session = open_session(flags.device);
+
+    const auto build_start = std::chrono::steady_clock::now();
+    DeviceScene device_scene(session.context, session.device, scene);
+    SecondOrderSolver solver(session.queue, device_scene, flags.options);
+    RenderRecord record;
+    record.build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() -
+                                                                build_start)
+                          .count();
+
+    catch_interrupts();
+    const auto bar = progress_bar("render", flags.device.quiet);
+    // The first frame also compiles what the driver left for later: it warms up, and is not timed
+    // unless it is the only one.
+    if (!solver.run(camera, [&](double done) { return bar(done); })) throw Interrupted();
+    const Bounds box = bounds(scene);
+    const glm::dvec3 centre = 0.5 * (box.low + box.high);
+    for (int frame = 0; frame < flags.frames; ++frame) {
+        const double angle = glm::two_pi<double>() * frame / flags.frames;
+        if (flags.spin_light) {
+            spin_lights(device_scene, scene, angle);
+            solver.lights_changed();
+        }
+        record.frame_ms.push_back(report::time_frame(
+            solver, session.queue, flags.orbit ? orbited(camera, centre, angle) : camera));
+        record.passes.push_back(report::pass_times(solver));
+        if (interrupted()) throw Interrupted();
+    }
+    record.status = solver.status();
+    save_picture(session.queue, solver, flags.picture);
+
+    if (record.status.non_finite > 0)
+        notice(false, fmt::format("warning: {} packets of pixels were not finite and were mended",
+                                  record.status.non_finite));
+    if (!flags.device.quiet) {
+        const report::Spread times = report::spread(record.frame_ms);
+        fmt::print("{} {}: {:.1f} ms a frame ({} frames, {} indirect and {} negative lights, {} "
+                   "triangles)\n",
+                   flags.picture.exr, flags.picture.png, times.median, record.frame_ms.size(),
+                   solver.sources().light_count,
+                   flags.options.indirect ? flags.options.negative_lights : 0,
+                   scene.triangles.size());
+    }
+    if (!flags.stats.empty()) {
+        record.device = session.device;
+        record.method = flags.method == "auto" ? "second-order" : flags.method;
+        record.triangles = scene.triangles.size();
+        record.lights = solver.sources().emitters.size();
+        record.effects = effects_of(device_scene, solver);
+        record.bytes = device_scene.bytes() + solver.bytes();
+        record.warnings = scene.warnings;
+        save_stats(record, flags.stats);
+    }
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("render", "Render a glTF scene");
+    const auto flags = std::make_shared<RenderFlags>();
+    SecondOrderOptions& options = flags->options;
+    command->add_option("scene", flags->scene, ".gltf or .glb file")->required()->type_name("SCENE");
+    command->add_option("-o,--output", flags->picture.exr, "EXR: radiance in cd/m^2");
+    command->add_option("--png", flags->picture.png, "8-bit preview");
+    command->add_option("--exposure", flags->picture.exposure,
+                        "Preview exposure in stops; default: from the picture");
+    command->add_flag("--full", flags->picture.full, "32-bit EXR channels instead of half");
+    command->add_option("--method", flags->method, "auto, second-order or direct")
+        ->check(CLI::IsMember({"auto", "second-order", "direct"}));
+    command->add_option("--size", flags->size, "WIDTHxHEIGHT");
+    command->add_option("--scene", flags->scene_index, "Which scene of the file");
+    command->add_option("--camera", flags->camera, "Which camera of the scene")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--vpls", options.sources.lights, "Indirect lights")
+        ->check(CLI::Range(0, 1 << 20));
+    command->add_option("--negative-vpls", options.negative_lights, "Negative indirect lights")
+        ->check(CLI::Range(0, 1 << 20));
+    command->add_option("--low-res", flags->low_res, "off, or the discontinuity threshold");
+    command->add_option("--shadow-size", options.sources.shadow_size,
+                        "Pixels of a spot's or directional light's image")
+        ->check(CLI::Range(1, 8192));
+    command->add_option("--face-size", options.sources.face_size,
+                        "Pixels of a cube face, for point and area lights")
+        ->check(CLI::Range(1, 4096));
+    command->add_option("--area-samples", options.sources.area_samples,
+                        "Points that stand for all emissive surfaces")
+        ->check(CLI::Range(0, 4096));
+    command->add_flag("--no-direct", flags->no_direct, "Leave direct light out of the picture");
+    command->add_option("--frames", flags->frames, "Frames to render and time; the last is kept")
+        ->check(CLI::Range(1, 1000000));
+    command->add_flag("--orbit", flags->orbit, "Move the camera round the scene over the frames");
+    command->add_flag("--spin-light", flags->spin_light, "Turn the lights over the frames");
+    command->add_option("--stats", flags->stats, "JSON file of times and settings");
+    add_device_flags(*command, flags->device);
+    command->callback([flags] { run_render(*flags); });
+}
+
+}  // namespace clgi::cli

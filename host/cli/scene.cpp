@@ -1,0 +1,147 @@
+// clgi scene NAME -o s.glb: writes a procedural scene.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <clgi/error.hpp>
+#include <clgi/io/gltf.hpp>
+#include <clgi/procedural.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.hpp"
+
+namespace clgi::cli {
+namespace {
+
+// What was given on the command line; empty means the scene's own default.
+struct SceneFlags {
+    std::string name;
+    std::string output;
+    std::optional<std::string> mesh;
+    std::optional<Lamp> light;
+    std::optional<float> albedo;
+    std::optional<int> subdivisions;
+    std::optional<float> cone;  // degrees
+    std::optional<int> rooms;
+    std::optional<float> door;  // degrees
+};
+
+struct SceneKind {
+    std::string name;
+    std::vector<std::string> flags;  // those it understands
+    Scene (*make)(const SceneFlags& flags);
+};
+
+template <typename Value, typename Given>
+void take(Value& value, const std::optional<Given>& given) {
+    if (given) value = *given;
+}
+
+void take_angle(float& radians, const std::optional<float>& degrees) {
+    if (degrees) radians = glm::radians(*degrees);
+}
+
+Scene make_box(const SceneFlags& flags) {
+    BoxOptions options;
+    take(options.lamp, flags.light);
+    take_angle(options.cone_angle, flags.cone);
+    return flags.mesh ? box(io::load_gltf(*flags.mesh), options) : box(options);
+}
+
+Scene make_cornell(const SceneFlags& flags) {
+    CornellOptions options;
+    take(options.lamp, flags.light);
+    take_angle(options.cone_angle, flags.cone);
+    return cornell(options);
+}
+
+Scene make_corridor(const SceneFlags& flags) {
+    CorridorOptions options;
+    take(options.rooms, flags.rooms);
+    take_angle(options.door_angle, flags.door);
+    take_angle(options.cone_angle, flags.cone);
+    return corridor(options);
+}
+
+Scene make_furnace(const SceneFlags& flags) {
+    FurnaceOptions options;
+    take(options.lamp, flags.light);
+    take(options.albedo, flags.albedo);
+    take(options.subdivisions, flags.subdivisions);
+    take_angle(options.cone_angle, flags.cone);
+    return furnace(options);
+}
+
+const std::vector<SceneKind>& scene_kinds() {
+    static const std::vector<SceneKind> kinds = {
+        {"box", {"--mesh", "--light", "--cone"}, make_box},
+        {"cornell", {"--light", "--cone"}, make_cornell},
+        {"corridor", {"--rooms", "--door", "--cone"}, make_corridor},
+        {"furnace", {"--light", "--albedo", "--subdivisions", "--cone"}, make_furnace},
+    };
+    return kinds;
+}
+
+std::string known_names() {
+    std::string names;
+    for (const SceneKind& kind : scene_kinds()) names += (names.empty() ? "" : ", ") + kind.name;
+    return names;
+}
+
+const SceneKind& find_kind(const std::string& name) {
+    for (const SceneKind& kind : scene_kinds()) {
+        if (kind.name == name) return kind;
+    }
+    throw Error(fmt::format("scene: there is no scene '{}', known are {}", name, known_names()));
+}
+
+// A flag that would be ignored is more likely a slip than a wish.
+void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
+    static const std::vector<std::string> all = {"--mesh", "--light", "--albedo", "--subdivisions",
+                                                 "--cone", "--rooms", "--door"};
+    for (const std::string& flag : all) {
+        const bool known =
+            std::find(kind.flags.begin(), kind.flags.end(), flag) != kind.flags.end();
+        if (!known && command.count(flag) > 0) {
+            throw Error(fmt::format("scene: {} means nothing to the scene {}", flag, kind.name));
+        }
+    }
+}
+
+void run_scene(const CLI::App& command, const SceneFlags& flags) {
+    const SceneKind& kind = find_kind(flags.name);
+    refuse_foreign_flags(command, kind);
+    const Scene scene = kind.make(flags);
+    io::save_glb(scene, flags.output);
+    fmt::print("{}: {}, {} triangles\n", flags.output, kind.name, scene.triangles.size());
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app) {
+    const std::map<std::string, Lamp> lamps = {
+        {"spot", Lamp::spot}, {"area", Lamp::area}, {"point", Lamp::point}};
+    CLI::App* command = app.add_subcommand("scene", "Write a procedural scene");
+    const auto flags = std::make_shared<SceneFlags>();
+    command->add_option("name", flags->name, known_names())->required()->type_name("NAME");
+    command->add_option("-o,--output", flags->output, "The .glb file")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("--mesh", flags->mesh, "box: the .gltf or .glb file that floats in it")
+        ->type_name("FILE");
+    command->add_option("--light", flags->light, "What lights it: spot, area or point")
+        ->transform(CLI::CheckedTransformer(lamps, CLI::ignore_case).description(""))
+        ->type_name("KIND");
+    command->add_option("--albedo", flags->albedo, "furnace: reflectance of the wall, [0,1)");
+    command->add_option("--subdivisions", flags->subdivisions,
+                        "furnace: 20 * 4^N triangles, 0 to 8");
+    command->add_option("--cone", flags->cone, "Degrees from the spot's axis to its edge");
+    command->add_option("--rooms", flags->rooms, "corridor: rooms on either side, 1 to 64");
+    command->add_option("--door", flags->door, "corridor: degrees that the doors stand open");
+    command->callback([command, flags] { run_scene(*command, *flags); });
+}
+
+}  // namespace clgi::cli

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "cli/session.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <clgi/error.hpp>
+#include <clgi/io/gltf.hpp>
+#include <csignal>
+#include <cstdio>
+
+namespace clgi::cli {
+namespace {
+
+std::atomic<bool> interrupt_flag{false};
+
+}  // namespace
+
+void add_device_flags(CLI::App& command, DeviceFlags& flags) {
+    command.add_option("--device", flags.device, "platform:CPU|GPU:name-or-index");
+    command.add_option("--math", flags.math, "strict or fast")
+        ->check(CLI::IsMember({"strict", "fast"}));
+    command.add_flag("--quiet", flags.quiet, "Print nothing but errors");
+}
+
+Session open_session(const DeviceFlags& flags) {
+    Session out;
+    out.device = choose_device(flags.device);
+    notice(flags.quiet, describe(out.device));
+    try {
+        out.context = cl::Context(out.device);
+        out.queue = cl::CommandQueue(out.context, out.device, CL_QUEUE_PROFILING_ENABLE);
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("device: {} cannot be opened (OpenCL error {})",
+                                      describe(out.device), error.err()));
+    }
+    return out;
+}
+
+Math math_of(const DeviceFlags& flags) { return flags.math == "fast" ? Math::fast : Math::strict; }
+
+Scene open_scene(const std::string& path, int scene_index, bool quiet) {
+    io::GltfOptions options;
+    options.scene = scene_index;
+    Scene scene = io::load_gltf(path, options);
+    for (const std::string& warning : scene.warnings) notice(quiet, "warning: " + warning);
+    if (scene.cameras.empty()) {
+        scene.cameras.push_back(default_camera(scene));
+        notice(quiet, "note: the scene has no camera; a default one is used");
+    }
+    if (scene.lights.empty() && !has_emission(scene)) {
+        scene.lights.push_back(default_light(scene));
+        notice(quiet, "note: the scene has no light; a directional light of pi lux is used");
+    }
+    return scene;
+}
+
+void notice(bool quiet, const std::string& text) {
+    if (!quiet) fmt::print(stderr, "clgi: {}\n", text);
+}
+
+void catch_interrupts() {
+    std::signal(SIGINT, [](int) { interrupt_flag = true; });
+}
+
+bool interrupted() { return interrupt_flag; }
+
+std::function<bool(double)> progress_bar(const std::string& what, bool quiet) {
+    const bool draw = !quiet && isatty(fileno(stderr)) == 1;
+    return [what, draw](double done) {
+        if (draw) {
+            const int filled = static_cast<int>(done * 30.0);
+            fmt::print(stderr, "\r{} [{:<30}] {:3.0f} %{}", what, std::string(filled, '#'),
+                       100.0 * done, done >= 1.0 || interrupted() ? "\n" : "");
+            std::fflush(stderr);
+        }
+        return !interrupted();
+    };
+}
+
+}  // namespace clgi::cli

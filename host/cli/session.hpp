@@ -1,0 +1,50 @@
+// What several commands do alike: choose a device, open a scene, react to Ctrl-C.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <clgi/device.hpp>
+#include <clgi/pass.hpp>
+#include <clgi/scene.hpp>
+#include <functional>
+#include <string>
+
+namespace clgi::cli {
+
+// Flags that every command with a device has.
+struct DeviceFlags {
+    std::string device;
+    std::string math = "strict";
+    bool quiet = false;
+};
+void add_device_flags(CLI::App& command, DeviceFlags& flags);
+
+struct Session {
+    cl::Device device;
+    cl::Context context;
+    cl::CommandQueue queue;  // with profiling
+};
+
+// Opens the device and names it in one line, unless quiet.
+Session open_session(const DeviceFlags& flags);
+
+Math math_of(const DeviceFlags& flags);
+
+// Loads a glTF file, prints its warnings, and gives it a camera and a light where it has none,
+// saying so.
+Scene open_scene(const std::string& path, int scene_index, bool quiet);
+
+// A line of notice on stderr, unless quiet.
+void notice(bool quiet, const std::string& text);
+
+// From here on Ctrl-C sets a flag instead of ending the process.
+void catch_interrupts();
+bool interrupted();
+
+// Thrown to leave a command after Ctrl-C; main ends with exit code 130.
+struct Interrupted {};
+
+// Draws a bar on stderr when that is a terminal; false after Ctrl-C.
+std::function<bool(double)> progress_bar(const std::string& what, bool quiet);
+
+}  // namespace clgi::cli

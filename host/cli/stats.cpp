@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "cli/stats.hpp"
+
+#include <clgi/device.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "io/atomic_file.hpp"
+
+#ifndef CLGI_VERSION
+#define CLGI_VERSION "unversioned"
+#endif
+
+namespace clgi::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json device_json(const cl::Device& device) {
+    return {{"name", device.getInfo<CL_DEVICE_NAME>()},
+            {"version", device.getInfo<CL_DEVICE_VERSION>()},
+            {"driver", device.getInfo<CL_DRIVER_VERSION>()},
+            {"compute_units", device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()},
+            {"packet_width", packet_width(device)}};
+}
+
+ordered_json passes_json(const std::vector<std::vector<report::PassTime>>& frames) {
+    ordered_json out = ordered_json::array();
+    if (frames.empty()) return out;
+    for (const report::PassTime& pass : frames.back()) {
+        std::vector<double> times;
+        for (const auto& frame : frames)
+            for (const report::PassTime& other : frame)
+                if (other.name == pass.name) times.push_back(other.milliseconds);
+        out.push_back({{"name", pass.name},
+                       {"ms_median", report::spread(times).median},
+                       {"items", pass.items}});
+    }
+    return out;
+}
+
+}  // namespace
+
+void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
+    const report::Spread frame = report::spread(record.frame_ms);
+    const ordered_json out = {
+        {"clgi", CLGI_VERSION},
+        {"device", device_json(record.device)},
+        {"method", record.method},
+        {"scene", {{"triangles", record.triangles}, {"lights", record.lights}}},
+        {"effects", record.effects},
+        {"frames", record.frame_ms.size()},
+        {"frame_ms", {{"min", frame.min}, {"median", frame.median}, {"max", frame.max}}},
+        {"passes", passes_json(record.passes)},
+        {"memory_mb", static_cast<double>(record.bytes) / 1e6},
+        {"build_ms", record.build_ms},
+        {"low_res_share", record.status.low_resolution_share},
+        {"non_finite", record.status.non_finite},
+        {"converged", true},
+        {"warnings", record.warnings}};
+    io::AtomicFile file(path);
+    const std::string text = out.dump(2) + '\n';
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+}  // namespace clgi::cli

@@ -1,0 +1,32 @@
+// What --stats writes.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+#include <clgi/solvers/second_order.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "report/timing.hpp"
+
+namespace clgi::cli {
+
+struct RenderRecord {
+    cl::Device device;
+    std::string method;
+    std::size_t triangles = 0;
+    std::size_t lights = 0;
+    std::vector<std::string> effects;
+    std::vector<double> frame_ms;
+    std::vector<std::vector<report::PassTime>> passes;  // of every frame
+    std::size_t bytes = 0;                              // of scene and solver
+    double build_ms = 0.0;                              // kernels and buffers
+    FrameStatus status;
+    std::vector<std::string> warnings;
+};
+
+// JSON, written aside and renamed. Throws InputError when it cannot be written.
+void save_stats(const RenderRecord& record, const std::filesystem::path& path);
+
+}  // namespace clgi::cli

@@ -1,0 +1,78 @@
+// load_gltf: the steps from a file to a Scene.
+// SPDX-License-Identifier: MIT
+#include <clgi/error.hpp>
+#include <clgi/io/gltf.hpp>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "gltf_accessor.hpp"
+#include "gltf_buffer.hpp"
+#include "gltf_check.hpp"
+#include "gltf_document.hpp"
+#include "gltf_material.hpp"
+#include "gltf_place.hpp"
+#include "gltf_tree.hpp"
+
+namespace clgi::io {
+
+namespace {
+
+// Everything the document says is checked before anything is built from it.
+gltf::Document open_document(const std::filesystem::path& path, std::vector<std::uint8_t>& file) {
+    file = gltf::read_file(path);
+    const gltf::Container container = gltf::open_container(file);
+    gltf::Document document;
+    {
+        const nlohmann::json json = gltf::parse_json(container.json);
+        document = gltf::read_document(gltf::Value(json));
+    }  // the tree is several times the size of its text
+    gltf::load_buffers(document, container.binary, path.parent_path());
+    if (!container.binary) std::vector<std::uint8_t>().swap(file);
+    gltf::check_accessors(document);
+    gltf::check_meshes(document);
+    gltf::place_nodes(document);
+    return document;
+}
+
+Scene load(const std::filesystem::path& path, const GltfOptions& options) {
+    std::vector<std::uint8_t> file;  // the document points into it
+    gltf::Document document = open_document(path, file);
+    const std::vector<int> nodes = gltf::scene_nodes(document, options.scene);
+
+    Scene scene;
+    scene.name = path.stem().string();
+    gltf::load_materials(document, path.parent_path(), options, scene);
+    gltf::place_meshes(document, nodes, options, scene);
+    gltf::place_lights(document, nodes, scene);
+    gltf::place_cameras(document, nodes, scene);
+    scene.warnings = document.warnings.lines();
+    validate(scene);
+    return scene;
+}
+
+std::string one_line(std::string text) {
+    for (char& c : text) {
+        if (c == '\n' || c == '\r') c = ' ';
+    }
+    return text;
+}
+
+}  // namespace
+
+Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options) {
+    const auto refuse = [&](const std::string& what) {
+        return InputError(one_line(path.string() + ": " + what));
+    };
+    try {
+        return load(path, options);
+    } catch (const InputError& error) {
+        throw refuse(error.what());
+    } catch (const std::bad_alloc&) {
+        throw refuse("needs more memory than there is");
+    } catch (const std::length_error&) {
+        throw refuse("needs more memory than there is");
+    }
+}
+
+}  // namespace clgi::io

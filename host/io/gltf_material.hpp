@@ -1,0 +1,17 @@
+// Materials with their textures, from the document into the Scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/io/gltf.hpp>
+
+#include "gltf_document.hpp"
+
+namespace clgi::io::gltf {
+
+// Fills scene.materials, one for one, and scene.textures. Only images that a base color, an
+// emission or a metallic-roughness texture needs are decoded; the others must merely exist.
+// Expects load_buffers to have passed.
+void load_materials(Document& document, const std::filesystem::path& folder,
+                    const GltfOptions& options, Scene& scene);
+
+}  // namespace clgi::io::gltf

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "gltf_uri.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <clgi/error.hpp>
+#include <system_error>
+
+#include "gltf_json.hpp"
+
+namespace clgi::io::gltf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int not_base64 = -1;
+
+constexpr std::array<std::int8_t, 256> base64_values() {
+    std::array<std::int8_t, 256> values{};
+    for (auto& value : values) value = not_base64;
+    for (int i = 0; i < 26; ++i) {
+        values['A' + i] = static_cast<std::int8_t>(i);
+        values['a' + i] = static_cast<std::int8_t>(26 + i);
+    }
+    for (int i = 0; i < 10; ++i) values['0' + i] = static_cast<std::int8_t>(52 + i);
+    values['+'] = 62;
+    values['/'] = 63;
+    return values;
+}
+
+std::vector<std::uint8_t> decode_base64(std::string_view text) {
+    static constexpr std::array<std::int8_t, 256> values = base64_values();
+    for (int padding = 0; padding < 2 && !text.empty() && text.back() == '='; ++padding) {
+        text.remove_suffix(1);
+    }
+    if (text.size() % 4 == 1) throw InputError("a data uri that ends inside a byte");
+
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(text.size() / 4 * 3 + 2);
+    std::uint32_t bits = 0;
+    int held = 0;
+    for (const char c : text) {
+        const int value = values[static_cast<unsigned char>(c)];
+        if (value == not_base64) throw InputError("a data uri with a character outside base64");
+        bits = bits << 6 | static_cast<std::uint32_t>(value);
+        held += 6;
+        if (held < 8) continue;
+        held -= 8;
+        bytes.push_back(static_cast<std::uint8_t>(bits >> held));
+    }
+    return bytes;
+}
+
+int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    const int letter = std::tolower(static_cast<unsigned char>(c));
+    return letter >= 'a' && letter <= 'f' ? letter - 'a' + 10 : -1;
+}
+
+// A percent sign that begins no code stands for itself.
+std::string percent_decoded(const std::string& uri) {
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool code = uri[i] == '%' && i + 2 < uri.size() && hex_digit(uri[i + 1]) >= 0 &&
+                          hex_digit(uri[i + 2]) >= 0;
+        if (!code) {
+            text += uri[i];
+            continue;
+        }
+        text += static_cast<char>(hex_digit(uri[i + 1]) * 16 + hex_digit(uri[i + 2]));
+        i += 2;
+    }
+    return text;
+}
+
+// "file:", "http:", and on Windows "C:"
+bool has_scheme(const std::string& uri) {
+    const std::size_t colon = uri.find(':');
+    if (colon == std::string::npos || colon == 0) return false;
+    return std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.';
+    });
+}
+
+bool is_inside(const fs::path& folder, const fs::path& file) {
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    return end == folder.end() && rest != file.end();
+}
+
+}  // namespace
+
+bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
+
+std::vector<std::uint8_t> decode_data_uri(std::string_view uri) {
+    const std::size_t comma = uri.find(',');
+    constexpr std::string_view marker = ";base64";
+    if (comma == std::string_view::npos || comma < marker.size() ||
+        uri.substr(comma - marker.size(), marker.size()) != marker) {
+        throw InputError("a data uri that is not base64");
+    }
+    return decode_base64(uri.substr(comma + 1));
+}
+
+fs::path resolve_uri(const fs::path& folder, const std::string& uri) {
+    const std::string quoted = "uri \"" + printable(uri) + "\"";
+    const std::string outside = quoted + " is not a file in the folder of the scene";
+    if (has_scheme(uri)) throw InputError(outside);
+
+    std::error_code error;
+    const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
+    // Exporters disagree whether a percent sign in a file's name is encoded: try both.
+    for (const std::string& name : {percent_decoded(uri), uri}) {
+        const fs::path relative(name);
+        if (name.empty() || name.find('\0') != std::string::npos || name[0] == '/' ||
+            name[0] == '\\' || relative.has_root_path() ||
+            *relative.lexically_normal().begin() == "..") {
+            throw InputError(outside);
+        }
+        const fs::path file = fs::canonical(root / relative, error);
+        if (error) continue;
+        if (!is_inside(root, file)) throw InputError(outside);
+        return file;
+    }
+    throw InputError(quoted + " names no file");
+}
+
+}  // namespace clgi::io::gltf

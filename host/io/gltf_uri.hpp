@@ -1,0 +1,22 @@
+// What a glTF uri may be: data inside the file, or a file in the folder of the scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clgi::io::gltf {
+
+bool is_data_uri(std::string_view uri);
+
+// The bytes of "data:<type>;base64,<text>". Throws InputError.
+std::vector<std::uint8_t> decode_data_uri(std::string_view uri);
+
+// The existing file that a relative uri names. Throws InputError for any other scheme, for a file
+// that does not exist, and for one that is, links followed, outside the folder.
+std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std::string& uri);
+
+}  // namespace clgi::io::gltf
