@@ -60,7 +60,8 @@ std::vector<glm::dvec3> even_directions(int count) {
 }
 
 double front_share(const std::vector<Hit>& hits) {
-    const auto front = std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return h.front; });
+    const auto front =
+        std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return h.front; });
     return static_cast<double>(front) / static_cast<double>(hits.size());
 }
 
@@ -94,7 +95,7 @@ double view_length(const Scene& scene, const Stand& stand) {
 // A place is inside a room when most directions end on the front of something. A centre alone
 // would not do: a table may stand there, and walls modelled as solids face both ways.
 Stand find_stand(const Scene& scene) {
-    constexpr double enclosed = 0.72;  // a floor alone gives one half, a box without a wall 5/6
+    constexpr double enclosed = 0.72;      // a floor alone gives one half, a box without a wall 5/6
     constexpr double shortest_view = 0.2;  // of the length; among many objects it is shorter
     const Bounds box = bounds(scene);
     const glm::dvec3 size = box.high - box.low;
@@ -110,7 +111,8 @@ Stand find_stand(const Scene& scene) {
         for (const double side : {1.0, -1.0}) {  // from the far end first: it looks along -axis
             Stand stand;
             stand.position = box.low + size * glm::dvec3(0.5, 0.4, 0.5);
-            stand.position[axis] = (side > 0 ? box.high : box.low)[axis] - side * inset * size[axis];
+            stand.position[axis] =
+                (side > 0 ? box.high : box.low)[axis] - side * inset * size[axis];
             stand.forward = glm::dvec3(0.0);
             stand.forward[axis] = -side;
 

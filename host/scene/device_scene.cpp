@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "scene/locality.hpp"
 #include "scene/texture_pool.hpp"
 
 namespace clgi {
@@ -99,6 +100,15 @@ private:
     std::size_t most_;
 };
 
+std::vector<glm::vec4> arranged(const std::vector<glm::vec4>& values,
+                                const std::vector<std::uint32_t>& order) {
+    std::vector<glm::vec4> out;
+    if (values.empty()) return out;
+    out.reserve(order.size());
+    for (const std::uint32_t index : order) out.push_back(values[index]);
+    return out;
+}
+
 struct Word4 {
     std::uint32_t x, y, z, w;
 };
@@ -122,12 +132,18 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     frame_.exposure = common_exposure(scene, frame_);
     lights_ = scene.lights;
 
-    std::vector<glm::vec4> positions(scene.positions.size());
-    std::vector<glm::vec4> normals(scene.normals.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        positions[i] = glm::vec4(frame_.to_local(scene.positions[i]), 0.0f);
-        normals[i] = glm::vec4(scene.normals[i], 0.0f);
-    }
+    std::vector<glm::vec4> local;
+    local.reserve(scene.positions.size());
+    for (const glm::dvec3& position : scene.positions)
+        local.emplace_back(frame_.to_local(position), 0.0f);
+    const SpatialOrder order = spatial_order(local, scene.triangles);
+    triangle_order_ = order.triangles;
+    const std::vector<glm::vec4> positions = arranged(local, order.vertices);
+    const std::vector<glm::vec4> uvs = arranged(scene.uvs, order.vertices);
+    const std::vector<glm::vec4> colors = arranged(scene.colors, order.vertices);
+    std::vector<glm::vec4> normals;
+    for (const std::uint32_t vertex : order.vertices)
+        normals.emplace_back(scene.normals[vertex], 0.0f);
     std::vector<MaterialRecord> materials;
     bool emits = false;
     for (const Material& material : scene.materials) {
@@ -147,17 +163,20 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
 
     std::vector<Word4> triangles;
     triangles.reserve(scene.triangles.size());
-    for (const SceneTriangle& triangle : scene.triangles) {
+    for (const std::uint32_t index : order.triangles) {
+        const SceneTriangle& triangle = scene.triangles[index];
         const Material& material = scene.materials[triangle.material];
         std::uint32_t word = triangle.material;
         if (material.double_sided) word |= static_cast<std::uint32_t>(TRIANGLE_DOUBLE_SIDED);
         if (material.alpha_mode == AlphaMode::mask) word |= TRIANGLE_MASKED;
-        triangles.push_back({triangle.vertex[0], triangle.vertex[1], triangle.vertex[2], word});
+        std::uint32_t corner[3];
+        for (int k = 0; k < 3; ++k) corner[k] = order.renumbered[triangle.vertex[k]];
+        triangles.push_back({corner[0], corner[1], corner[2], word});
 
         const glm::vec3 radiance = emission_means[triangle.material];
         if (!(luminance(radiance) > 0.0f)) continue;
         EmissiveTriangle source;
-        for (int k = 0; k < 3; ++k) source.corner[k] = glm::vec3(positions[triangle.vertex[k]]);
+        for (int k = 0; k < 3; ++k) source.corner[k] = glm::vec3(positions[corner[k]]);
         const glm::vec3 normal = glm::cross(source.corner[1] - source.corner[0],
                                             source.corner[2] - source.corner[0]);
         const float twice_area = glm::length(normal);
@@ -182,10 +201,10 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
 
     Uploader upload(context, device);
     triangles_ = upload("triangles", std::move(triangles));
-    positions_ = upload("positions", std::move(positions));
+    positions_ = upload("positions", positions);
     normals_ = upload("normals", std::move(normals));
-    uvs_ = upload("texture coordinates", scene.uvs);
-    colors_ = upload("vertex colors", scene.colors);
+    uvs_ = upload("texture coordinates", uvs);
+    colors_ = upload("vertex colors", colors);
     materials_ = upload("materials", std::move(materials));
     textures_ = upload("texture records", std::move(pool.records));
     texels_ = upload("texels", std::move(pool.texels));

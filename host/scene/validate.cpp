@@ -10,8 +10,8 @@ namespace clgi {
 
 namespace {
 
-constexpr double farthest = 1e18;           // metres; the square of a distance is still a float
-constexpr float unit_tolerance = 1e-3f;     // of a length; quantised normals are that far off
+constexpr double farthest = 1e18;        // metres; the square of a distance is still a float
+constexpr float unit_tolerance = 1e-3f;  // of a length; quantised normals are that far off
 constexpr float right_angle = std::numbers::pi_v<float> / 2.0f;
 
 [[noreturn]] void fail(const std::string& what) { throw InputError("scene: " + what); }
@@ -39,8 +39,8 @@ bool is_within(float value, float low, float high) { return value >= low && valu
 
 void check_length(const char* array, std::size_t length, std::size_t vertices, bool optional) {
     if (length == vertices || (optional && length == 0)) return;
-    fail("there are " + std::to_string(length) + " " + array + ", but " +
-         std::to_string(vertices) + " positions");
+    fail("there are " + std::to_string(length) + " " + array + ", but " + std::to_string(vertices) +
+         " positions");
 }
 
 void check_vertices(const Scene& scene) {

@@ -47,6 +47,10 @@ public:
     bool has_masks() const { return has_masks_; }  // some triangle is alpha-masked
     std::size_t bytes() const { return bytes_; }
 
+    // Triangles lie on the device in an order that follows space. [triangle_count] the scene's
+    // index of each; triangle indices in G-buffers are those of the device.
+    const std::vector<std::uint32_t>& triangle_order() const { return triangle_order_; }
+
     // Replaces a light, for scenes that move; the exposure stays as it was.
     // Throws Error when there is no such light.
     void set_light(std::size_t index, const Light& light);
@@ -62,6 +66,7 @@ private:
     SceneInfo info_{};
     std::vector<Light> lights_;
     std::vector<EmissiveTriangle> emissive_;
+    std::vector<std::uint32_t> triangle_order_;
     bool has_lobes_ = false;
     bool has_masks_ = false;
     std::size_t bytes_ = 0;

@@ -1,0 +1,22 @@
+// Puts triangles that are near each other in space near each other in memory.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/scene.hpp>
+#include <cstdint>
+#include <vector>
+
+namespace clgi {
+
+struct SpatialOrder {
+    std::vector<std::uint32_t> triangles;  // scene index of each device triangle
+    std::vector<std::uint32_t> vertices;   // scene index of each device vertex; unused ones left out
+    std::vector<std::uint32_t> renumbered;  // device index of each scene vertex that is used
+};
+
+// Triangles along a Z-order curve through their centres, those of one cell in scene order;
+// vertices in the order of their first use. local: positions with coordinates in [-1, 1].
+SpatialOrder spatial_order(const std::vector<glm::vec4>& local,
+                           const std::vector<SceneTriangle>& triangles);
+
+}  // namespace clgi
