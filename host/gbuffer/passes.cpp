@@ -34,6 +34,7 @@ GBufferPasses::GBufferPasses(const cl::Context& context, const cl::Device& devic
     clear_ = kernels[0];
     transform_ = kernels[1];
     raster_ = kernels[2];
+    prefer_small_groups(raster_, options);
     raster_large_ = kernels[3];
     prefer_small_groups(raster_large_, options);
     resolve_ = kernels[4];
@@ -71,7 +72,8 @@ cl::Event GBufferPasses::raster(const cl::CommandQueue& queue, const View& view,
     need(raster_, "polygons", buffers.polygons, info.triangle_count * sizeof(RasterPolygon));
     need(raster_, "polygon_count", buffers.polygon_count, sizeof(std::uint32_t));
     const RasterParams params{info.triangle_count, stage, small_triangle, 0};
-    return launch(raster_, queue, packets(raster_, info.triangle_count), wait, view, params, scene.triangles(),
+    const std::size_t batches = (packets(raster_, info.triangle_count) + RASTER_BATCH - 1) / RASTER_BATCH;
+    return launch(raster_, queue, batches, wait, view, params, scene.triangles(),
                   buffers.vertices, scene.positions(), buffers.visibility, buffers.polygons,
                   buffers.polygon_count);
 }

@@ -54,7 +54,7 @@ cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams&
     need(gather_, "lights", lights, params.light_count * sizeof(IndirectLight));
     need(gather_, "negative", negative, params.negative_count * sizeof(IndirectLight));
     need(gather_, "irradiance", irradiance,
-         plane_bytes(params.negative_count > 0 ? 6 : 3, params.stride));
+         plane_bytes(IRRADIANCE_PLANES, params.stride));
     return launch(gather_, queue, packets(gather_, most), wait, params, point_count, points, lights,
                   negative, irradiance);
 }
@@ -89,8 +89,8 @@ cl::Event ImagePasses::upsample(const cl::CommandQueue& queue, const RefineParam
                                 const cl::Buffer& flags, const WaitList& wait) const {
     need(upsample_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
     need(upsample_, "points", points, plane_bytes(POINT_PLANES, params.low_stride));
-    need(upsample_, "low", low, plane_bytes(params.planes, params.low_stride));
-    need(upsample_, "irradiance", irradiance, plane_bytes(params.planes, params.stride));
+    need(upsample_, "low", low, plane_bytes(IRRADIANCE_PLANES, params.low_stride));
+    need(upsample_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
     need(upsample_, "flags", flags, pixels_of(params));
     return launch(upsample_, queue, cell_items(upsample_, params), wait, params, planes, points,
                   low, irradiance, flags);
@@ -102,8 +102,8 @@ cl::Event ImagePasses::place(const cl::CommandQueue& queue, const RefineParams& 
                              const WaitList& wait) const {
     need(place_, "point_count", point_count, sizeof(std::uint32_t));
     need(place_, "listed", listed, plane_bytes(1, params.stride));
-    need(place_, "refined", refined, plane_bytes(params.planes, params.stride));
-    need(place_, "irradiance", irradiance, plane_bytes(params.planes, params.stride));
+    need(place_, "refined", refined, plane_bytes(IRRADIANCE_PLANES, params.stride));
+    need(place_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
     return launch(place_, queue, packets(place_, pixels_of(params)), wait, params, point_count,
                   listed, refined, irradiance);
 }
@@ -123,7 +123,7 @@ cl::Event ImagePasses::combine(const cl::CommandQueue& queue, const CombineParam
     need(combine_, "ids", ids, plane_bytes(GBUFFER_ID_PLANES, params.stride));
     if (params.effects & COMBINE_INDIRECT)
         need(combine_, "irradiance", irradiance,
-             plane_bytes(params.effects & COMBINE_NEGATIVE ? 6 : 3, params.stride));
+             plane_bytes(IRRADIANCE_PLANES, params.stride));
     need(combine_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
     need(combine_, "non_finite", non_finite, sizeof(std::uint32_t));
     return launch(combine_, queue, packets(combine_, pixels), wait, params, view, sources.emitters,

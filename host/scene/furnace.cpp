@@ -11,6 +11,8 @@
 namespace clgi {
 namespace {
 
+constexpr float highest_albedo = 0.999f;  // a thousand times the light of the first bounce
+
 // Vertices and faces of a regular icosahedron, faces counter-clockwise seen from outside.
 struct Mesh {
     std::vector<glm::dvec3> directions;
@@ -68,7 +70,7 @@ void add_lamp(Scene& scene, const FurnaceOptions& options) {
 }  // namespace
 
 Scene furnace(const FurnaceOptions& options) {
-    generated::check_range("furnace", "albedo", options.albedo, 0.0, std::nextafter(1.0f, 0.0f));
+    generated::check_range("furnace", "albedo", options.albedo, 0.0f, highest_albedo);
     generated::check_range("furnace", "subdivisions", options.subdivisions, 0, 8);
     generated::check_range("furnace", "radius", options.radius, 1e-6, 1e9);
     generated::check_range("furnace", "cone_angle", options.cone_angle, 1e-3, 1.57);

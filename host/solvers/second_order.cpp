@@ -65,7 +65,6 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
     const bool lit = options.indirect && set.light_count > 0;
     const bool refine = lit && refines(options);
     const std::size_t negative = lit ? options.negative_lights : 0;
-    const std::size_t irradiance_planes = negative > 0 ? 6 : 3;
     std::uint32_t candidates = 0;
     for (const std::uint32_t count : set.candidates) candidates = std::max(candidates, count);
     Sizes out{};
@@ -81,15 +80,15 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
     out.accepted = set.light_count * sizeof(std::uint32_t);
     out.lights = set.light_count * sizeof(IndirectLight);
     out.negative = negative * sizeof(IndirectLight);
-    out.irradiance = irradiance_planes * stride * sizeof(float);
+    out.irradiance = IRRADIANCE_PLANES * stride * sizeof(float);
     if (!refine) return out;
     out.low_points = POINT_PLANES * low_stride * sizeof(float);
-    out.low_irradiance = irradiance_planes * low_stride * sizeof(float);
+    out.low_irradiance = IRRADIANCE_PLANES * low_stride * sizeof(float);
     out.flags = pixel_count(options);
     out.counts = (pixel_count(options) / COMPACT_BLOCK + 1) * sizeof(std::uint32_t);
     out.listed = stride * sizeof(std::uint32_t);
     out.listed_points = POINT_PLANES * stride * sizeof(float);
-    out.listed_irradiance = irradiance_planes * stride * sizeof(float);
+    out.listed_irradiance = IRRADIANCE_PLANES * stride * sizeof(float);
     return out;
 }
 
@@ -290,7 +289,7 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
                               low_stride_,
                               options_.discontinuity_threshold,
                               1.0f / (plane_distance * scene_.frame().radius),
-                              options_.negative_lights > 0 ? 6u : 3u,
+                              0,
                               0};
     record("gbuffer.downsample", low_pixels, [&](const WaitList& wait) {
         return gbuffer_.downsample(queue_, {width, height, stride_, low_stride_}, planes_,
@@ -335,10 +334,7 @@ void SecondOrderSolver::combine(Recorder& record, const View& view) {
         if (scene_.has_lobes()) params.effects |= COMBINE_SPECULAR;
         if (scene_.info().flags & SCENE_HAS_EMISSION) params.effects |= COMBINE_EMISSION;
     }
-    if (indirect_) {
-        params.effects |= COMBINE_INDIRECT;
-        if (options_.negative_lights > 0) params.effects |= COMBINE_NEGATIVE;
-    }
+    if (indirect_) params.effects |= COMBINE_INDIRECT;
     record("image.combine", pixel_count(options_), [&](const WaitList& wait) {
         return image_.combine(queue_, params, view, scene_, sources_, planes_, ids_, irradiance_,
                               radiance_, non_finite_, wait);

@@ -48,7 +48,7 @@ Scene bumpy_mesh();
 // everywhere; with an area lamp (the whole wall glows) radiosity is pi L / (1 - rho).
 struct FurnaceOptions {
     Lamp lamp = Lamp::spot;
-    float albedo = 0.5f;             // [0,1)
+    float albedo = 0.5f;             // 0 to 0.999
     int subdivisions = 4;            // 0 to 8; 20 * 4^subdivisions triangles
     double radius = 1.0;             // of the sphere through all vertices
     float cone_angle = 0.52359878f;  // from the axis (30 degrees), hard edge; spot, aimed at -Y

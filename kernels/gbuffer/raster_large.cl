@@ -48,9 +48,7 @@ static int tile_edges(global const RasterPolygon* polygon, int tile_x, int tile_
 // Lanes of a masked triangle that its texture leaves opaque.
 static intp opaque(const View* view, int x, int y, intp covered, uint triangle,
                    const SceneBuffers* scene, uint flags) {
-    int lanes[CLGI_WIDTH];
-    packet_store(covered, lanes);
-    for (int k = 0; k < CLGI_WIDTH; ++k) lanes[k] = lanes[k] ? (int)triangle : -1;
+    intp lanes = packet_select((intp)(-1), (intp)((int)triangle), covered);
     floatp wx = (packet_float(x + packet_lanes) + 0.5f) * (2.0f / (float)view->width) - 1.0f;
     float wy = 1.0f - ((float)y + 0.5f) * (2.0f / (float)view->height);
     Surface surface = gbuffer_surface(view, wx * view->right.w + view->window.x,

@@ -16,6 +16,23 @@ static void store3(floatp x, floatp y, floatp z, global float* planes, int plane
     packet_store(z, planes + (plane + 2) * stride + pixel);
 }
 
+// Triangles of a packet of pixels; -1 past the last. The lower half of a word is the triangle, and
+// all bits set, which stands for nothing, is -1 there as well.
+static intp visible_triangles(global const ulong* words, uint pixel, uint pixels) {
+    if (pixel + CLGI_WIDTH <= pixels) {
+        global const int* halves = (global const int*)(words + pixel);
+#if CLGI_WIDTH == 1
+        return halves[0];
+#else
+        return (intp)(packet_load(halves).even, packet_load(halves + CLGI_WIDTH).even);
+#endif
+    }
+    int lanes[CLGI_WIDTH];
+    for (uint k = 0; k < CLGI_WIDTH; ++k)
+        lanes[k] = pixel + k < pixels ? visibility_triangle(words[pixel + k]) : -1;
+    return packet_load(lanes);
+}
+
 kernel void gbuffer_resolve(
     const View             view,
     const ResolveParams    params,
@@ -30,18 +47,19 @@ kernel void gbuffer_resolve(
     if (pixel >= pixels) return;
 
     SceneBuffers scene = SCENE_BUFFERS;
-    int triangle[CLGI_WIDTH];
-    int material[CLGI_WIDTH];
-    int some = 0;
-    for (int k = 0; k < CLGI_WIDTH; ++k) {
-        ulong word = pixel + k < pixels ? visibility[view.first_pixel + pixel + k] : (ulong)-1;
-        triangle[k] = visibility_triangle(word);
-        material[k] = -1;
-        some |= triangle[k] >= 0;
+    intp triangle = visible_triangles(visibility + view.first_pixel, pixel, pixels);
+    intp material = (intp)(-1);
+    if (packet_any(triangle >= 0)) {
+        int lanes[CLGI_WIDTH];
+        packet_store(triangle, lanes);
+        if (packet_any(triangle != lanes[0])) {
+            for (int k = 0; k < CLGI_WIDTH; ++k)
+                if (lanes[k] >= 0) lanes[k] = (int)(triangles[lanes[k]].w & TRIANGLE_MATERIAL);
+            material = packet_load(lanes);
+        } else {
+            material = (intp)((int)(triangles[lanes[0]].w & TRIANGLE_MATERIAL));
+        }
     }
-    if (some)
-        for (int k = 0; k < CLGI_WIDTH; ++k)
-            if (triangle[k] >= 0) material[k] = (int)(triangles[triangle[k]].w & TRIANGLE_MATERIAL);
 
     // Pixel coordinates; a packet may run on into the next rows.
     uint row = pixel / view.width;
@@ -71,7 +89,7 @@ kernel void gbuffer_resolve(
                GBUFFER_EMISSION, stride, pixel);
     if (params.write & RESOLVE_DEPTH)
         packet_store(surface.depth, planes + GBUFFER_DEPTH * stride + pixel);
-    packet_store(packet_load(material), ids + GBUFFER_MATERIAL * stride + pixel);
+    packet_store(material, ids + GBUFFER_MATERIAL * stride + pixel);
     if (params.write & RESOLVE_TRIANGLE)
-        packet_store(packet_load(triangle), ids + GBUFFER_TRIANGLE * stride + pixel);
+        packet_store(triangle, ids + GBUFFER_TRIANGLE * stride + pixel);
 }

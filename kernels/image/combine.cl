@@ -163,10 +163,7 @@ kernel void image_combine(
     for (int c = 0; c < 3; ++c) {
         floatp light = direct[c];
         if (params.effects & COMBINE_INDIRECT) {
-            floatp indirect = packet_load(irradiance + (IRRADIANCE_POSITIVE + c) * stride + pixel);
-            if (params.effects & COMBINE_NEGATIVE)
-                indirect -= packet_load(irradiance + (IRRADIANCE_NEGATIVE + c) * stride + pixel);
-            light += packet_max(indirect, zero);
+            light += packet_max(packet_load(irradiance + c * stride + pixel), zero);
         }
         floatp out = fma(albedo[c] * (1.0f / CLGI_PI), light, glossy[c]);
         if (params.effects & COMBINE_EMISSION)

@@ -1,4 +1,4 @@
-// Irradiance at every point from every light: I_s of the indirect lights and I_n of the negative.
+// Irradiance at every point: I_s of the indirect lights less I_n of the negative ones.
 //
 //   E(p) = sum_l Phi_l max(0, n_p.t) max(0, -n_l.t) / (d^2 (pi d^2 + A_l)),   t = l - p, d = |t|
 //                                                              [Cochran07, section 3.2]
@@ -7,9 +7,9 @@
 // touches a light stays finite; the smallest normal float keeps d = 0 from dividing by nothing.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH points (rounded up); any local size
-// Writes       its own points: three planes, three more when there are negative lights
+// Writes       its own points
 // Cost         33 flops and one division a pair; 48 bytes a light stay in cache, 24 bytes a point
-//              are read and 12 or 24 written once
+//              are read and 12 written once
 #include "packet.clh"
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/image.h"
@@ -38,11 +38,12 @@ kernel void image_gather(
     floatp nz = -packet_load(points + 5 * stride + point);
     floatp zero = packet_zero;
 
+    floatp red = zero, green = zero, blue = zero;
+    // The negative lights first; what they sum to is taken from the sum of the others.
     for (int sign = 0; sign < 2; ++sign) {
-        uint count = sign == 0 ? params.light_count : params.negative_count;
-        if (sign == 1 && count == 0) break;
-        global const IndirectLight* light = sign == 0 ? lights : negative;
-        floatp red = zero, green = zero, blue = zero;
+        uint count = sign == 0 ? params.negative_count : params.light_count;
+        global const IndirectLight* light = sign == 0 ? negative : lights;
+        floatp sum_red = zero, sum_green = zero, sum_blue = zero;
         for (uint l = 0; l < count; ++l, ++light) {
             float4 position = light->position;
             float4 normal = light->normal;
@@ -58,13 +59,16 @@ kernel void image_gather(
                                packet_splat(params.footprint * position.w));
             floatp factor = packet_max(receive, zero) * packet_max(send, zero) /
                             fma(square, bound, packet_splat(SMALLEST_NORMAL));
-            red = fma(factor, packet_splat(flux.x), red);
-            green = fma(factor, packet_splat(flux.y), green);
-            blue = fma(factor, packet_splat(flux.z), blue);
+            sum_red = fma(factor, packet_splat(flux.x), sum_red);
+            sum_green = fma(factor, packet_splat(flux.y), sum_green);
+            sum_blue = fma(factor, packet_splat(flux.z), sum_blue);
         }
-        global float* target = irradiance + (uint)sign * IRRADIANCE_NEGATIVE * stride + point;
-        packet_store(red, target);
-        packet_store(green, target + stride);
-        packet_store(blue, target + 2 * stride);
+        red = sum_red - red;
+        green = sum_green - green;
+        blue = sum_blue - blue;
     }
+    global float* target = irradiance + point;
+    packet_store(red, target);
+    packet_store(green, target + stride);
+    packet_store(blue, target + 2 * stride);
 }

@@ -11,13 +11,13 @@ kernel void image_place(
     const RefineParams   params,
     global const uint*   restrict point_count,  // [1]
     global const uint*   restrict pixels,       // [stride] pixel of each listed point
-    global const float*  restrict refined,      // [params.planes][stride] of listed points
-    global float*        restrict irradiance)   // [params.planes][stride] of pixels
+    global const float*  restrict refined,      // [IRRADIANCE_PLANES][stride] of listed points
+    global float*        restrict irradiance)   // [IRRADIANCE_PLANES][stride] of pixels
 {
     uint first = (uint)get_global_id(0) * CLGI_WIDTH;
     uint last = min(first + CLGI_WIDTH, point_count[0]);
     for (uint place = first; place < last; ++place)
-        for (uint plane = 0; plane < params.planes; ++plane)
+        for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane)
             irradiance[plane * params.stride + pixels[place]] =
                 refined[plane * params.stride + place];
 }

@@ -64,8 +64,8 @@ kernel void image_upsample(
     const RefineParams   params,
     global const float*  restrict planes,      // [>= POINT_PLANES][stride]
     global const float*  restrict points,      // [POINT_PLANES][low_stride]
-    global const float*  restrict low,         // [params.planes][low_stride] irradiance
-    global float*        restrict irradiance,  // [params.planes][stride]
+    global const float*  restrict low,         // [IRRADIANCE_PLANES][low_stride] irradiance
+    global float*        restrict irradiance,  // [IRRADIANCE_PLANES][stride]
     global uchar*        restrict flags)       // [width * height] 1: light in full
 {
     Cell cell = cell_of_item(&params, (uint)get_global_id(0));
@@ -90,7 +90,7 @@ kernel void image_upsample(
     put_flags(&cell, &params, 0, packet_zero, right.difference, flags);
     put_flags(&cell, &params, 1, below.difference, across.difference, flags);
 
-    for (uint plane = 0; plane < params.planes; ++plane) {
+    for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane) {
         global const float* source = low + plane * params.low_stride;
         global float* target = irradiance + plane * params.stride;
         floatp v0 = cell_low(&cell, source, 0, 0);

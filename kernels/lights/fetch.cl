@@ -51,13 +51,10 @@ kernel void lights_fetch(
             View view = views[seen.view];
             uint x = min((uint)seen.pixel.x, view.width - 1);
             uint y = min((uint)seen.pixel.y, view.height - 1);
-            int triangle[CLGI_WIDTH];
-            for (int lane = 0; lane < CLGI_WIDTH; ++lane)
-                triangle[lane] =
-                    visibility_triangle(visibility[view.first_pixel + y * view.width + x]);
+            int triangle = visibility_triangle(visibility[view.first_pixel + y * view.width + x]);
             floatp zero = packet_zero;
             Surface surface = gbuffer_surface(&view, packet_splat(seen.plane.x), packet_splat(seen.plane.y),
-                                              triangle, &scene, info.flags);
+                                              (intp)(triangle), &scene, info.flags);
             float lanes[11][CLGI_WIDTH];
             int front[CLGI_WIDTH];
             packet_store(surface.x, lanes[0]);
@@ -70,8 +67,8 @@ kernel void lights_fetch(
             packet_store(surface.albedo_g, lanes[7]);
             packet_store(surface.albedo_b, lanes[8]);
             packet_store(surface.front, front);
-            int sends = triangle[0] >= 0 &&
-                        (front[0] || (triangles[triangle[0]].w & (uint)TRIANGLE_DOUBLE_SIDED));
+            int sends = triangle >= 0 &&
+                        (front[0] || (triangles[triangle].w & (uint)TRIANGLE_DOUBLE_SIDED));
             if (sends) {
                 float3 position = (float3)(lanes[0][0], lanes[1][0], lanes[2][0]);
                 float3 normal = (float3)(lanes[3][0], lanes[4][0], lanes[5][0]);

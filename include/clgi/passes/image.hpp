@@ -16,7 +16,7 @@ public:
                 const BuildOptions& options = {});
 
     // points [POINT_PLANES][stride] lit by lights and negative lights into irradiance
-    // [3 or 6 planes][stride], for the first *point_count points, of at most `most`.
+    // [IRRADIANCE_PLANES][stride], for the first *point_count points, of at most `most`.
     cl::Event gather(const cl::CommandQueue& queue, const GatherParams& params, std::size_t most,
                      const cl::Buffer& point_count, const cl::Buffer& points,
                      const cl::Buffer& lights, const cl::Buffer& negative,
@@ -32,14 +32,14 @@ public:
                       const cl::Buffer& listed, const cl::Buffer& points,
                       const cl::Buffer& point_count, const WaitList& wait = {}) const;
 
-    // low [planes][low_stride] -> irradiance [planes][stride], and flags [width * height] uchar,
+    // low [IRRADIANCE_PLANES][low_stride] -> irradiance [IRRADIANCE_PLANES][stride], and flags [width * height] uchar,
     // 1 where low resolution does not suit.
     cl::Event upsample(const cl::CommandQueue& queue, const RefineParams& params,
                        const cl::Buffer& planes, const cl::Buffer& points, const cl::Buffer& low,
                        const cl::Buffer& irradiance, const cl::Buffer& flags,
                        const WaitList& wait = {}) const;
 
-    // refined [planes][stride] of listed pixels -> irradiance [planes][stride].
+    // refined [IRRADIANCE_PLANES][stride] of listed pixels -> irradiance, the same.
     cl::Event place(const cl::CommandQueue& queue, const RefineParams& params,
                     const cl::Buffer& point_count, const cl::Buffer& listed,
                     const cl::Buffer& refined, const cl::Buffer& irradiance,

@@ -72,6 +72,9 @@ typedef struct {
 // Devices with 64-bit atomics draw in one stage; others find depth first, then triangles.
 enum { RASTER_FUSED = 0, RASTER_DEPTH = 1, RASTER_IDENTITY = 2 };
 
+// Packets of triangles that one work-item of raster sorts out together.
+enum { RASTER_BATCH = 4 };
+
 enum { RASTER_TILE = 32 };  // pixels; side of the squares that raster_large works in
 
 // Planes of a G-buffer, each `stride` floats: three for every vector, y and z behind x.

@@ -7,8 +7,9 @@
 
 CLGI_SHARED_BEGIN
 
-// Irradiance planes: indirect light rgb, then negative indirect light rgb.
-enum { IRRADIANCE_POSITIVE = 0, IRRADIANCE_NEGATIVE = 3, IRRADIANCE_PLANES = 6 };
+// Irradiance planes, rgb: indirect light less negative indirect light, I_s - I_n. Signed: where
+// too much was taken away it is below 0, and only combine makes 0 of that.
+enum { IRRADIANCE_PLANES = 3 };
 
 typedef struct {
     uint stride;          // of the point planes and the irradiance planes
@@ -25,8 +26,8 @@ typedef struct {
     uint low_stride;  // of the low-resolution planes
     float threshold;  // discontinuity threshold; 0: every pixel is computed in full
     float position_scale;  // 1 / distance from a tangent plane that weighs as much as a right angle
-    uint planes;           // irradiance planes in use: 3, or 6 with negative lights
-    uint pad_;
+    float pad0_;
+    float pad1_;
 } RefineParams;
 
 enum { COMPACT_BLOCK = 512 };  // pixels that one work-item counts and lists
@@ -45,9 +46,8 @@ typedef struct {
 enum {
     COMBINE_DIRECT = 1,
     COMBINE_INDIRECT = 2,
-    COMBINE_NEGATIVE = 4,
-    COMBINE_EMISSION = 8,
-    COMBINE_SPECULAR = 16
+    COMBINE_EMISSION = 4,
+    COMBINE_SPECULAR = 8
 };
 
 // Radiance planes: rgb, stride apart.
