@@ -32,7 +32,19 @@ int fail(Exit code, std::string text) {
     return code;
 }
 
+// CLI11 would only say that a subcommand is missing.
+void check_command(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::string known;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (command->get_name() == argv[1]) return;
+        known += (known.empty() ? "" : ", ") + command->get_name();
+    }
+    throw clgi::Error(fmt::format("there is no command '{}', known are {}", argv[1], known));
+}
+
 int parse_and_run(CLI::App& app, int argc, char** argv) {
+    check_command(app, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {

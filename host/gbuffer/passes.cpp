@@ -24,6 +24,12 @@ void need_stride(const PassKernel& pass, const char* name, std::size_t stride, s
                     ", a multiple of 16 of at least " + std::to_string(pixels) + " needed");
 }
 
+void need_textures(const PassKernel& pass, const DeviceScene& scene, bool built) {
+    if (scene.needs_textures() && !built)
+        throw Error(pass.name + ": the scene has textures or alpha masks, the kernels were built "
+                                "without (BuildOptions::textures)");
+}
+
 }  // namespace
 
 GBufferPasses::GBufferPasses(const cl::Context& context, const cl::Device& device,
@@ -34,12 +40,13 @@ GBufferPasses::GBufferPasses(const cl::Context& context, const cl::Device& devic
     clear_ = kernels[0];
     transform_ = kernels[1];
     raster_ = kernels[2];
-    prefer_small_groups(raster_, options);
+    prefer_small_groups(raster_, device, options);
     raster_large_ = kernels[3];
-    prefer_small_groups(raster_large_, options);
+    prefer_small_groups(raster_large_, device, options);
     resolve_ = kernels[4];
     downsample_ = kernels[5];
     fused_ = uses_atomics64(device, options);
+    textures_ = options.textures;
 }
 
 cl::Event GBufferPasses::clear(const cl::CommandQueue& queue, const View& view,
@@ -81,6 +88,7 @@ cl::Event GBufferPasses::raster(const cl::CommandQueue& queue, const View& view,
 cl::Event GBufferPasses::raster_large(const cl::CommandQueue& queue, const View& view,
                                       const DeviceScene& scene, const RasterBuffers& buffers,
                                       const WaitList& wait) const {
+    need_textures(raster_large_, scene, textures_);
     need_visibility(raster_large_, view, buffers.visibility);
     need(raster_large_, "polygon_count", buffers.polygon_count, sizeof(std::uint32_t));
     const std::size_t across = (view.width + RASTER_TILE - 1) / RASTER_TILE;
@@ -94,6 +102,7 @@ cl::Event GBufferPasses::resolve(const cl::CommandQueue& queue, const View& view
                                  const cl::Buffer& visibility, const cl::Buffer& planes,
                                  const cl::Buffer& ids, const WaitList& wait) const {
     const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
+    need_textures(resolve_, scene, textures_);
     need_stride(resolve_, "stride", params.stride, pixels);
     need_visibility(resolve_, view, visibility);
     need(resolve_, "planes", planes, sizeof(float) * GBUFFER_PLANES * params.stride);

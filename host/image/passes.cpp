@@ -37,8 +37,8 @@ ImagePasses::ImagePasses(const cl::Context& context, const cl::Device& device,
     place_ = kernels[4];
     combine_ = kernels[5];
     tonemap_ = kernels[6];
-    prefer_small_groups(count_, options);
-    prefer_small_groups(compact_, options);
+    prefer_small_groups(count_, device, options);
+    prefer_small_groups(compact_, device, options);
 }
 
 cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams& params,

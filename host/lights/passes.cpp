@@ -9,14 +9,18 @@ namespace clgi {
 
 LightPasses::LightPasses(const cl::Context& context, const cl::Device& device,
                          const BuildOptions& options) {
+    // A work-item is a light here, not a packet: one lane serves, and compiles in half the time.
+    BuildOptions scalar = options;
+    scalar.packet_width = 1;
     auto kernels = build_room(context, device, "lights",
-                              {"accept_mask", "accept_list", "fetch", "negative"}, options);
+                              {"accept_mask", "accept_list", "fetch", "negative"}, scalar);
     accept_mask_ = kernels[0];
     accept_list_ = kernels[1];
     fetch_ = kernels[2];
     negative_ = kernels[3];
+    textures_ = options.textures;
     for (PassKernel* pass : {&accept_mask_, &fetch_, &negative_})
-        prefer_small_groups(*pass, options);
+        prefer_small_groups(*pass, device, options);
 }
 
 cl::Event LightPasses::accept_mask(const cl::CommandQueue& queue, const AcceptParams& params,
@@ -44,6 +48,9 @@ cl::Event LightPasses::fetch(const cl::CommandQueue& queue, const FetchParams& p
                              const DeviceScene& scene, const SourceBuffers& sources,
                              const cl::Buffer& accepted, const cl::Buffer& lights,
                              const WaitList& wait) const {
+    if (scene.needs_textures() && !textures_)
+        throw Error("lights.fetch: the scene has textures or alpha masks, the kernels were built "
+                    "without (BuildOptions::textures)");
     need(fetch_, "emitters", sources.emitters, params.emitter_count * sizeof(Emitter));
     need(fetch_, "accepted", accepted, params.light_count * sizeof(std::uint32_t));
     need(fetch_, "lights", lights, params.light_count * sizeof(IndirectLight));

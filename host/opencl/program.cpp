@@ -21,6 +21,7 @@ const char* find_source(const std::string& name) {
 std::string compiler_options(const cl::Device& device, const BuildOptions& options, int width) {
     std::string text = "-cl-std=CL1.2 -DCLGI_WIDTH=" + std::to_string(width);
     if (uses_atomics64(device, options)) text += " -DCLGI_ATOMIC64";
+    if (!options.textures) text += " -DCLGI_NO_TEXTURES";
     if (options.math == Math::fast) {
         text += " -cl-fast-relaxed-math";
     } else if (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() &
@@ -60,9 +61,10 @@ bool uses_atomics64(const cl::Device& device, const BuildOptions& options) {
                                     "cl_khr_int64_extended_atomics") != std::string::npos;
 }
 
-void prefer_small_groups(PassKernel& pass, const BuildOptions& options) {
+void prefer_small_groups(PassKernel& pass, const cl::Device& device,
+                         const BuildOptions& options) {
     constexpr std::size_t few = 4;
-    if (options.local_size == 0 && pass.packet_width > 1)
+    if (options.local_size == 0 && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU))
         pass.local_size = std::min(pass.local_size, few);
 }
 

@@ -18,7 +18,7 @@ std::vector<PassKernel> build_room(const cl::Context& context, const cl::Device&
 
 // A smaller group for a kernel whose work-items are few and long, unless the options chose one:
 // on a CPU a group is what one core takes at a time.
-void prefer_small_groups(PassKernel& pass, const BuildOptions& options);
+void prefer_small_groups(PassKernel& pass, const cl::Device& device, const BuildOptions& options);
 
 // Whether the device's kernels are built with 64-bit atomics under these options.
 bool uses_atomics64(const cl::Device& device, const BuildOptions& options);

@@ -42,6 +42,13 @@ void check(const SecondOrderOptions& options) {
         throw Error("second-order: discontinuity_threshold is negative or not a number");
 }
 
+// Kernels are built with textures only where the scene calls for them.
+SecondOrderOptions checked(SecondOrderOptions options, const DeviceScene& scene) {
+    check(options);
+    options.build.textures = options.build.textures && scene.needs_textures();
+    return options;
+}
+
 bool refines(const SecondOrderOptions& options) {
     return options.low_resolution && options.discontinuity_threshold > 0.0f;
 }
@@ -115,10 +122,10 @@ SecondOrderSolver::SecondOrderSolver(const cl::CommandQueue& queue, const Device
                                      const SecondOrderOptions& options)
     : queue_(queue),
       scene_(scene),
-      options_((check(options), options)),
-      gbuffer_(context_of(queue), device_of(queue), options.build),
-      light_passes_(context_of(queue), device_of(queue), options.build),
-      image_(context_of(queue), device_of(queue), options.build) {
+      options_(checked(options, scene)),
+      gbuffer_(context_of(queue), device_of(queue), options_.build),
+      light_passes_(context_of(queue), device_of(queue), options_.build),
+      image_(context_of(queue), device_of(queue), options_.build) {
     stride_ = padded(pixel_count(options_));
     low_stride_ = padded(low_pixel_count(options_));
     allocate();

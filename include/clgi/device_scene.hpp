@@ -44,7 +44,9 @@ public:
     const std::vector<Light>& lights() const { return lights_; }
     const std::vector<EmissiveTriangle>& emissive() const { return emissive_; }
     bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
-    bool has_masks() const { return has_masks_; }  // some triangle is alpha-masked
+    bool needs_textures() const {  // some surface has a texture or an alpha mask
+        return has_masks_ || (info_.flags & SCENE_HAS_TEXTURES) != 0;
+    }
     std::size_t bytes() const { return bytes_; }
 
     // Triangles lie on the device in an order that follows space. [triangle_count] the scene's

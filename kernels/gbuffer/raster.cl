@@ -5,7 +5,7 @@
 // in integers, with the top-left rule for E = 0, so that a shared edge covers each pixel exactly
 // once. Most triangles of a dense mesh face away or miss every pixel centre, and the rest cover a
 // pixel or two. So packets of triangles are sorted out first; what is left is gathered and, where
-// it is tiny, drawn a packet of triangles at a time, pixel by pixel of their boxes.
+// it is small, drawn a packet of triangles at a time, pixel by pixel of their boxes.
 // [derived: fixed-point edge functions, after Pineda, A Parallel Algorithm for Polygon Rasterization]
 //
 // Work size    1D, one work-item for every RASTER_BATCH * CLGI_WIDTH triangles (rounded up); any
@@ -17,23 +17,6 @@
 
 // Corners further apart than this leave 32-bit edge functions.
 #define SMALL_SUBPIXELS 8192
-
-// The pixels that a packet's lanes stand for.
-#if CLGI_WIDTH == 1
-#define BLOCK_WIDTH 1
-#elif CLGI_WIDTH == 4
-#define BLOCK_WIDTH 2
-#else
-#define BLOCK_WIDTH 4
-#endif
-#define BLOCK_HEIGHT (CLGI_WIDTH / BLOCK_WIDTH)
-
-// A triangle whose box has at most this many pixels a side is tiny.
-#define TINY 4
-
-typedef struct {
-    int left, right, top, bottom;
-} PixelBox;
 
 // CLGI_WIDTH triangles as the rasteriser meets them.
 typedef struct {
@@ -70,8 +53,8 @@ CLGI_INLINE intp edge_bias(intp dx, intp dy) {
     return packet_select((intp)(-1), (intp)(0), owned);
 }
 
-// Draws a packet of tiny triangles. index: [CLGI_WIDTH] of each; lanes from `count` on repeat.
-static void draw_tiny(const View* view, uint stage, const uint* index, int count,
+// Draws a packet of small triangles: relative to a corner all their coordinates fit 32 bits. index: [CLGI_WIDTH] of each; lanes from `count` on repeat.
+static void draw_small(const View* view, uint stage, const uint* index, int count,
                       global const uint4* triangles, global const ScreenVertex* vertices,
                       volatile global ulong* visibility) {
     uint4 corner[CLGI_WIDTH];
@@ -108,8 +91,8 @@ static void draw_tiny(const View* view, uint stage, const uint* index, int count
     intp across = t.right - t.left;
     intp down = packet_select((intp)(-1), t.bottom - t.top, packet_lanes < count);
     intp first_pixel = (int)view->first_pixel + t.top * (int)view->width + t.left;
-    for (int v = 0; v < TINY && packet_any(down >= v); ++v) {
-        for (int u = 0; u < TINY && packet_any(across >= u); ++u) {
+    for (int v = 0; packet_any(down >= v); ++v) {
+        for (int u = 0; packet_any(across >= u); ++u) {
             int us = u * SUBPIXELS;
             int vs = v * SUBPIXELS;
             intp inside = (e0 + vs * bx - us * by) | (e1 + vs * dx1 - us * dy1) |
@@ -139,85 +122,6 @@ static void draw_tiny(const View* view, uint stage, const uint* index, int count
     }
 }
 
-// All coordinates relative to the first corner fit 32 bits.
-static void draw_small(const View* view, uint stage, ScreenVertex v0, ScreenVertex v1,
-                       ScreenVertex v2, PixelBox box, uint triangle,
-                       volatile global ulong* visibility) {
-    int bx = v1.x - v0.x, by = v1.y - v0.y;
-    int cx = v2.x - v0.x, cy = v2.y - v0.y;
-    float b_closer = v1.closeness - v0.closeness;
-    float c_closer = v2.closeness - v0.closeness;
-    int area = bx * cy - cx * by;
-    if (area < 0) {
-        int swap = bx;
-        bx = cx;
-        cx = swap;
-        swap = by;
-        by = cy;
-        cy = swap;
-        float swap_closer = b_closer;
-        b_closer = c_closer;
-        c_closer = swap_closer;
-        area = -area;
-    }
-    // Edges 0 -> b, b -> c, c -> 0; an edge owns its pixels when it is top or left.
-    int dx0 = bx, dy0 = by, dx1 = cx - bx, dy1 = cy - by, dx2 = -cx, dy2 = -cy;
-    int own0 = dy0 < 0 || (dy0 == 0 && dx0 > 0) ? 0 : -1;
-    int own1 = dy1 < 0 || (dy1 == 0 && dx1 > 0) ? 0 : -1;
-    int own2 = dy2 < 0 || (dy2 == 0 && dx2 > 0) ? 0 : -1;
-    int x = box.left * SUBPIXELS + SUBPIXELS / 2 - v0.x;
-    int y = box.top * SUBPIXELS + SUBPIXELS / 2 - v0.y;
-    int row0 = dx0 * y - dy0 * x + own0;
-    int row1 = dx1 * (y - by) - dy1 * (x - bx) + own1;
-    int row2 = dx2 * y - dy2 * x + own2;
-    float per_area = 1.0f / (float)area;
-    float slope_x = (b_closer * (float)cy - c_closer * (float)by) * per_area;
-    float slope_y = (c_closer * (float)bx - b_closer * (float)cx) * per_area;
-    float closest = max(v0.closeness, max(v1.closeness, v2.closeness));
-    float farthest = min(v0.closeness, min(v1.closeness, v2.closeness));
-
-    // A block of pixels at a time: its lanes, the edges over them, and those that are covered.
-    intp lane_x = packet_lanes & (BLOCK_WIDTH - 1);
-    intp lane_y = packet_lanes / BLOCK_WIDTH;
-    intp ahead0 = (lane_y * dx0 - lane_x * dy0) * SUBPIXELS;
-    intp ahead1 = (lane_y * dx1 - lane_x * dy1) * SUBPIXELS;
-    intp ahead2 = (lane_y * dx2 - lane_x * dy2) * SUBPIXELS;
-    for (int py = box.top; py <= box.bottom; py += BLOCK_HEIGHT) {
-        for (int px = box.left; px <= box.right; px += BLOCK_WIDTH) {
-            int right = (px - box.left) * SUBPIXELS;
-            int down = (py - box.top) * SUBPIXELS;
-            intp e0 = row0 + down * dx0 - right * dy0 + ahead0;
-            intp e1 = row1 + down * dx1 - right * dy1 + ahead1;
-            intp e2 = row2 + down * dx2 - right * dy2 + ahead2;
-            intp covered = ((e0 | e1 | e2) >= 0) & (lane_x <= box.right - px) &
-                           (lane_y <= box.bottom - py);
-            if (!packet_any(covered)) continue;
-            // The same sum for a pixel wherever its block begins.
-            floatp closeness = v0.closeness +
-                               (packet_float(x + right + lane_x * SUBPIXELS) * slope_x +
-                                packet_float(y + down + lane_y * SUBPIXELS) * slope_y);
-            closeness = packet_min(packet_max(closeness, packet_splat(farthest)),
-                                   packet_splat(closest));
-            int lane_covered[CLGI_WIDTH];
-            float lane_closeness[CLGI_WIDTH];
-            packet_store(covered, lane_covered);
-            packet_store(closeness, lane_closeness);
-            int lanes[CLGI_WIDTH + 1];
-            int count = 0;
-            for (int k = 0; k < CLGI_WIDTH; ++k) {
-                lanes[count] = k;
-                count += lane_covered[k] != 0;
-            }
-            for (int n = 0; n < count; ++n) {
-                int k = lanes[n];
-                uint row = (uint)(py + k / BLOCK_WIDTH) * view->width;
-                uint pixel = view->first_pixel + row + (uint)(px + (k & (BLOCK_WIDTH - 1)));
-                visibility_put(visibility + pixel, lane_closeness[k], triangle, stage);
-            }
-        }
-    }
-}
-
 kernel void gbuffer_raster(
     const View                   view,
     const RasterParams           params,
@@ -232,10 +136,11 @@ kernel void gbuffer_raster(
     if (first >= params.triangle_count) return;
     uint last = min(first + RASTER_BATCH * CLGI_WIDTH, params.triangle_count);
 
-    // Sort out: hidden ones go, tiny ones and the others come in a row each.
-    uint tiny[(RASTER_BATCH + 1) * CLGI_WIDTH];
+    // Sort out: hidden ones go, small ones and the others come in a row each. Alpha is looked up by
+    // raster_large, so masked triangles are never small.
+    uint small[(RASTER_BATCH + 1) * CLGI_WIDTH];
     uint rest[RASTER_BATCH * CLGI_WIDTH + 1];
-    int tiny_count = 0;
+    int small_count = 0;
     int rest_count = 0;
     for (uint packet = first; packet < last; packet += CLGI_WIDTH) {
         uint4 corner[CLGI_WIDTH];
@@ -257,23 +162,23 @@ kernel void gbuffer_raster(
         intp clipped = outside != 0;
         intp wanted = clipped | ((t.left <= t.right) & (t.top <= t.bottom) &
                                  ((compact == 0) | (hidden == 0)));
-        intp is_tiny = wanted & (clipped == 0) & compact & (t.right - t.left < TINY) &
-                       (t.bottom - t.top < TINY) & ((word & TRIANGLE_MASKED) == 0);
+        intp is_small = wanted & (clipped == 0) & compact & (t.right - t.left < (int)params.small_size) &
+                       (t.bottom - t.top < (int)params.small_size) & ((word & TRIANGLE_MASKED) == 0);
         int lane_wanted[CLGI_WIDTH];
-        int lane_tiny[CLGI_WIDTH];
+        int lane_small[CLGI_WIDTH];
         packet_store(wanted, lane_wanted);
-        packet_store(is_tiny, lane_tiny);
+        packet_store(is_small, lane_small);
         for (uint k = 0; k < CLGI_WIDTH && packet + k < last; ++k) {
-            tiny[tiny_count] = packet + k;
-            tiny_count += lane_tiny[k] != 0;
+            small[small_count] = packet + k;
+            small_count += lane_small[k] != 0;
             rest[rest_count] = packet + k;
-            rest_count += (lane_wanted[k] != 0) & (lane_tiny[k] == 0);
+            rest_count += (lane_wanted[k] != 0) & (lane_small[k] == 0);
         }
     }
     // The last packet's free lanes repeat a triangle that is there; they are not drawn.
-    for (int k = 0; k < CLGI_WIDTH; ++k) tiny[tiny_count + k] = first;
-    for (int n = 0; n < tiny_count; n += CLGI_WIDTH)
-        draw_tiny(&view, params.stage, tiny + n, min(tiny_count - n, CLGI_WIDTH), triangles,
+    for (int k = 0; k < CLGI_WIDTH; ++k) small[small_count + k] = first;
+    for (int n = 0; n < small_count; n += CLGI_WIDTH)
+        draw_small(&view, params.stage, small + n, min(small_count - n, CLGI_WIDTH), triangles,
                   vertices, visibility);
 
     for (int n = 0; n < rest_count; ++n) {
@@ -283,18 +188,6 @@ kernel void gbuffer_raster(
         ScreenVertex v1 = vertices[corners.y];
         ScreenVertex v2 = vertices[corners.z];
         uint outside = v0.outside | v1.outside | v2.outside;
-        int low_x = min(v0.x, min(v1.x, v2.x)), high_x = max(v0.x, max(v1.x, v2.x));
-        int low_y = min(v0.y, min(v1.y, v2.y)), high_y = max(v0.y, max(v1.y, v2.y));
-        int2 columns = polygon_pixel_range(low_x, high_x, view.width);
-        int2 rows = polygon_pixel_range(low_y, high_y, view.height);
-        // Alpha is looked up a packet at a time, so masked triangles wait for raster_large too.
-        if (!outside && high_x - low_x < SMALL_SUBPIXELS && high_y - low_y < SMALL_SUBPIXELS &&
-            columns.y - columns.x < (int)params.small_size &&
-            rows.y - rows.x < (int)params.small_size && !(corners.w & TRIANGLE_MASKED)) {
-            PixelBox box = {columns.x, columns.y, rows.x, rows.y};
-            draw_small(&view, params.stage, v0, v1, v2, box, triangle, visibility);
-            continue;
-        }
         if (params.stage == RASTER_IDENTITY) continue;  // listed in the stage before
         int2 pixels[8];
         float closeness[8];

@@ -45,6 +45,7 @@ static int tile_edges(global const RasterPolygon* polygon, int tile_x, int tile_
     return 1;
 }
 
+#ifndef CLGI_NO_TEXTURES
 // Lanes of a masked triangle that its texture leaves opaque.
 static intp opaque(const View* view, int x, int y, intp covered, uint triangle,
                    const SceneBuffers* scene, uint flags) {
@@ -57,6 +58,7 @@ static intp opaque(const View* view, int x, int y, intp covered, uint triangle,
     uint material = scene->triangles[triangle].w & TRIANGLE_MATERIAL;
     return covered & (surface.alpha >= scene->materials[material].emission.w);
 }
+#endif
 
 // Puts (key, triangle) into the covered pixels where it wins. Words are 64 bits wide, so half a
 // packet fills a vector.
@@ -123,10 +125,12 @@ kernel void gbuffer_raster_large(
                     covered &= (edges.base[e] + edges.step_y[e] * (y - tile_y) +
                                 edges.step_x[e] * (column - tile_x)) >= 0;
                 if (!packet_any(covered)) continue;
+#ifndef CLGI_NO_TEXTURES
                 if (polygon->material & TRIANGLE_MASKED) {
                     covered = opaque(&view, x, y, covered, polygon->triangle, &scene, scene_flags);
                     if (!packet_any(covered)) continue;
                 }
+#endif
                 floatp closeness = row_closeness +
                                    (packet_float(column) + 0.5f - polygon->origin_x) *
                                        polygon->slope_x;

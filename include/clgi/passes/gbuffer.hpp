@@ -60,6 +60,7 @@ public:
 private:
     PassKernel clear_, transform_, raster_, raster_large_, resolve_, downsample_;
     bool fused_;
+    bool textures_;
 };
 
 }  // namespace clgi

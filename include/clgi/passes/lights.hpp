@@ -44,6 +44,7 @@ public:
 
 private:
     PassKernel accept_mask_, accept_list_, fetch_, negative_;
+    bool textures_;
 };
 
 }  // namespace clgi
