@@ -21,7 +21,7 @@ struct SceneFlags {
     std::string name;
     std::string output;
     std::optional<std::string> mesh;
-    std::optional<Lamp> light;
+    std::optional<std::string> light;
     std::optional<float> albedo;
     std::optional<int> subdivisions;
     std::optional<float> cone;  // degrees
@@ -44,17 +44,32 @@ void take_angle(float& radians, const std::optional<float>& degrees) {
     if (degrees) radians = glm::radians(*degrees);
 }
 
+// The lamp and, where it is a spot, its cone.
+template <typename Options>
+void take_lamp(Options& options, const SceneFlags& flags) {
+    static const std::map<std::string, Lamp> lamps = {
+        {"spot", Lamp::spot}, {"area", Lamp::area}, {"point", Lamp::point}};
+    if (flags.light) {
+        const auto found = lamps.find(*flags.light);
+        if (found == lamps.end()) {
+            throw Error(
+                fmt::format("scene: --light is '{}', needs spot, area or point", *flags.light));
+        }
+        options.lamp = found->second;
+    }
+    if (flags.cone && options.lamp != Lamp::spot) throw Error("scene: --cone needs --light spot");
+    take_angle(options.cone_angle, flags.cone);
+}
+
 Scene make_box(const SceneFlags& flags) {
     BoxOptions options;
-    take(options.lamp, flags.light);
-    take_angle(options.cone_angle, flags.cone);
+    take_lamp(options, flags);
     return flags.mesh ? box(io::load_gltf(*flags.mesh), options) : box(options);
 }
 
 Scene make_cornell(const SceneFlags& flags) {
     CornellOptions options;
-    take(options.lamp, flags.light);
-    take_angle(options.cone_angle, flags.cone);
+    take_lamp(options, flags);
     return cornell(options);
 }
 
@@ -68,10 +83,9 @@ Scene make_corridor(const SceneFlags& flags) {
 
 Scene make_furnace(const SceneFlags& flags) {
     FurnaceOptions options;
-    take(options.lamp, flags.light);
+    take_lamp(options, flags);
     take(options.albedo, flags.albedo);
     take(options.subdivisions, flags.subdivisions);
-    take_angle(options.cone_angle, flags.cone);
     return furnace(options);
 }
 
@@ -122,8 +136,6 @@ void run_scene(const CLI::App& command, const SceneFlags& flags) {
 }  // namespace
 
 void add_scene(CLI::App& app) {
-    const std::map<std::string, Lamp> lamps = {
-        {"spot", Lamp::spot}, {"area", Lamp::area}, {"point", Lamp::point}};
     CLI::App* command = app.add_subcommand("scene", "Write a procedural scene");
     const auto flags = std::make_shared<SceneFlags>();
     command->add_option("name", flags->name, known_names())->required()->type_name("NAME");
@@ -133,9 +145,8 @@ void add_scene(CLI::App& app) {
     command->add_option("--mesh", flags->mesh, "box: the .gltf or .glb file that floats in it")
         ->type_name("FILE");
     command->add_option("--light", flags->light, "What lights it: spot, area or point")
-        ->transform(CLI::CheckedTransformer(lamps, CLI::ignore_case).description(""))
         ->type_name("KIND");
-    command->add_option("--albedo", flags->albedo, "furnace: reflectance of the wall, [0,1)");
+    command->add_option("--albedo", flags->albedo, "furnace: reflectance of the wall, 0 to 0.999");
     command->add_option("--subdivisions", flags->subdivisions,
                         "furnace: 20 * 4^N triangles, 0 to 8");
     command->add_option("--cone", flags->cone, "Degrees from the spot's axis to its edge");

@@ -37,7 +37,9 @@ AtomicFile::AtomicFile(const fs::path& path) : target_(writable_target(path)) {
     constexpr int attempts = 8;  // names collide only by accident or malice
     for (int attempt = 0; attempt < attempts && !stream_; ++attempt) {
         temporary_ = target_;
-        temporary_ += "." + std::to_string(random()) + ".tmp";
+        temporary_ += '.';
+        temporary_ += std::to_string(random());
+        temporary_ += ".tmp";
         errno = 0;
         stream_ = std::fopen(temporary_.string().c_str(), "wbx");  // x: never one that exists
         if (!stream_ && errno != EEXIST) break;

@@ -10,6 +10,7 @@
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
 #include <ImfStringAttribute.h>
+#include <ImfTileDescription.h>
 #include <half.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <string>
 
 #include "io/atomic_file.hpp"
+#include "io/exr_header.hpp"
 #include "io/image_formats.hpp"
 
 namespace clgi::io {
@@ -60,6 +62,20 @@ void check_header(const fs::path& path, const Imf::Header& header) {
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     check_dimensions(path, width, height, channels);
+
+    // What the library holds at once: a tile, or as many rows as its largest block has.
+    constexpr std::int64_t largest_block = std::int64_t{1} << 31, most_rows = 256;
+    std::int64_t block = width * most_rows;
+    if (header.hasTileDescription()) {
+        const Imf::TileDescription& tile = header.tileDescription();
+        if (tile.xSize > 65536 || tile.ySize > 65536) fail(path, "has tiles larger than 65536");
+        // A tile may reach past the picture, but not by much.
+        block = std::int64_t{tile.xSize} * tile.ySize;
+        if (block > std::max(4 * width * height, std::int64_t{1} << 22)) {
+            fail(path, "has tiles larger than its picture");
+        }
+    }
+    if (block > largest_block / bytes_per_pixel(header)) fail(path, "has too many channels");
 
     // No codec of OpenEXR packs as tightly as this; who claims more has no pixels behind it.
     constexpr std::int64_t tightest = 4096;
@@ -106,6 +122,13 @@ private:
     AtomicFile& file_;
 };
 
+// OpenEXR cuts longer names off and says nothing.
+void check_name(const char* kind, const std::string& name) {
+    if (!name.empty() && name.size() <= 255) return;
+    throw Error(std::string("save_exr: the name of ") + kind + " has " +
+                std::to_string(name.size()) + " letters, needs 1 to 255");
+}
+
 void check_image(const Image& image) {
     if (image.width < 1 || image.height < 1) {
         throw Error("save_exr: size is " + std::to_string(image.width) + "x" +
@@ -121,10 +144,12 @@ void check_image(const Image& image) {
                         std::to_string(channel.values.size()) + " samples, needs " +
                         std::to_string(samples));
         }
-        if (channel.name.empty() || !names.insert(channel.name).second) {
-            throw Error("save_exr: two channels are named '" + channel.name + "', or none is");
+        check_name("a channel", channel.name);
+        if (!names.insert(channel.name).second) {
+            throw Error("save_exr: two channels are named " + channel.name);
         }
     }
+    for (const auto& [name, text] : image.attributes) check_name("an attribute", name);
 }
 
 // Infinities saturate like every value that is too large; NaN stays, to be seen.
@@ -173,6 +198,7 @@ void write_exr(const Image& image, const std::string& name, Storage storage, Ato
 
 Image read_exr(const fs::path& path) {
     try {
+        check_exr_attributes(path);
         Imf::MultiPartInputFile file(path.string().c_str());
         check_header(path, file.header(0));
         Imf::InputPart part(file, 0);

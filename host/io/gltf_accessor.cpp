@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>
@@ -65,8 +65,7 @@ void check_sparse(const Document& document, const std::string& name, const Acces
     check_range(document, name + ".sparse.values", sparse.value_view, sparse.value_offset,
                 sparse.count, value_bytes, value_bytes);
 
-    const std::uint8_t* indices =
-        view_data(document, sparse.index_view) + sparse.index_offset;
+    const std::uint8_t* indices = view_data(document, sparse.index_view) + sparse.index_offset;
     std::uint32_t previous = 0;
     for (std::size_t i = 0; i < sparse.count; ++i) {
         const std::uint32_t index = load_index(indices + i * index_bytes, sparse.index_type);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_buffer.hpp"
+#include "io/gltf_buffer.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <map>
 
-#include "gltf_uri.hpp"
+#include "io/gltf_uri.hpp"
 
 namespace clgi::io::gltf {
 
@@ -82,9 +82,8 @@ Bytes picture_bytes(const Document& document, const Picture& picture,
         if (data.empty()) throw InputError("is in a buffer without data");
         return data.subspan(view.offset, view.length);
     }
-    held = is_data_uri(picture.uri)
-               ? decode_data_uri(picture.uri)
-               : read_file(resolve_uri(folder, picture.uri), limit);
+    held = is_data_uri(picture.uri) ? decode_data_uri(picture.uri)
+                                    : read_file(resolve_uri(folder, picture.uri), limit);
     return held;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_check.hpp"
+#include "io/gltf_check.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>
@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <optional>
 
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 namespace clgi::io::gltf {
 
@@ -25,15 +25,16 @@ bool is_vector(const Accessor& accessor, int rows) {
 }
 
 bool is_small_integer(Component component) {
-    return is_one_of(component, {Component::int8, Component::uint8, Component::int16,
-                                 Component::uint16});
+    return is_one_of(component,
+                     {Component::int8, Component::uint8, Component::int16, Component::uint16});
 }
 
 bool is_float(const Accessor& accessor) { return accessor.component == Component::float32; }
 
 bool is_unsigned_unit(const Accessor& accessor) {
-    return is_float(accessor) || (accessor.normalized && is_one_of(accessor.component,
-                                                  {Component::uint8, Component::uint16}));
+    return is_float(accessor) ||
+           (accessor.normalized &&
+            is_one_of(accessor.component, {Component::uint8, Component::uint16}));
 }
 
 bool is_position(const Accessor& accessor, bool quantized) {
@@ -48,8 +49,8 @@ bool is_normal(const Accessor& accessor, bool quantized) {
 }
 
 bool is_uv(const Accessor& accessor, bool quantized) {
-    return is_vector(accessor, 2) && (is_unsigned_unit(accessor) ||
-                                      (quantized && is_small_integer(accessor.component)));
+    return is_vector(accessor, 2) &&
+           (is_unsigned_unit(accessor) || (quantized && is_small_integer(accessor.component)));
 }
 
 bool is_color(const Accessor& accessor, bool) {
@@ -67,15 +68,18 @@ bool is_weights(const Accessor& accessor, bool) {
 
 // Differences may be signed and, in KHR_mesh_quantization, of small integers.
 bool is_difference(const Accessor& accessor, bool) {
-    return is_vector(accessor, 3) &&
-           (is_float(accessor) || is_small_integer(accessor.component));
+    return is_vector(accessor, 3) && (is_float(accessor) || is_small_integer(accessor.component));
 }
 
 bool is_indices(const Accessor& accessor) {
     return is_vector(accessor, 1) &&
-           is_one_of(accessor.component,
-                     {Component::uint8, Component::uint16, Component::uint32});
+           is_one_of(accessor.component, {Component::uint8, Component::uint16, Component::uint32});
 }
+
+// Elements to look through, more than scenes within max_triangles have. Accessors may overlap: a
+// hundred thousand of them on the same megabytes would take hours.
+constexpr std::size_t most_indices = std::size_t{1} << 28;
+constexpr std::size_t most_positions = std::size_t{1} << 27;
 
 class MeshChecker {
 public:
@@ -132,6 +136,7 @@ private:
         std::optional<std::uint32_t>& largest = largest_index_[accessor];
         if (!largest) {
             const AccessorReader reader(document_, accessor);
+            spend(reader.size(), most_indices, indices_read_, name);
             std::uint32_t seen = 0;
             for (std::size_t i = 0; i < reader.size(); ++i) {
                 seen = std::max(seen, reader.integer(i));
@@ -147,6 +152,7 @@ private:
     void require_finite(const std::string& name, int accessor) {
         if (accessor < 0 || finite_[accessor]) return;
         const AccessorReader reader(document_, accessor);
+        spend(reader.size(), most_positions, positions_read_, name);
         for (std::size_t i = 0; i < reader.size(); ++i) {
             for (std::size_t component = 0; component < 3; ++component) {
                 if (std::isfinite(reader.number(i, component))) continue;
@@ -156,7 +162,15 @@ private:
         finite_[accessor] = true;
     }
 
+    static void spend(std::size_t elements, std::size_t most, std::size_t& spent,
+                      const std::string& name) {
+        spent += elements;
+        if (spent > most) throw InputError(name + ": too many elements");
+    }
+
     const Document& document_;
+    std::size_t indices_read_ = 0;
+    std::size_t positions_read_ = 0;
     // Known once an accessor was read: thousands of primitives may share it.
     std::vector<std::optional<std::uint32_t>> largest_index_;
     std::vector<bool> finite_;
@@ -168,9 +182,9 @@ void check_meshes(const Document& document) {
     MeshChecker checker(document);
     for (std::size_t i = 0; i < document.meshes.size(); ++i) {
         for (std::size_t k = 0; k < document.meshes[i].primitives.size(); ++k) {
-            checker.check(document.meshes[i].primitives[k],
-                          "meshes[" + std::to_string(i) + "].primitives[" + std::to_string(k) +
-                              "]");
+            checker.check(
+                document.meshes[i].primitives[k],
+                "meshes[" + std::to_string(i) + "].primitives[" + std::to_string(k) + "]");
         }
     }
 }

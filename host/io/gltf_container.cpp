@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_container.hpp"
+#include "io/gltf_container.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>

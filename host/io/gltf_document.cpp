@@ -1,6 +1,6 @@
 // The document as a whole: version, extensions, and the order in which its parts are read.
 // SPDX-License-Identifier: MIT
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,9 +12,8 @@ namespace clgi::io::gltf {
 namespace {
 
 constexpr std::array supported_extensions = {
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_texture_transform",  "KHR_mesh_quantization",
-    "EXT_mesh_gpu_instancing"};
+    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_texture_transform",
+    "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
 
 // Nothing is lost when these are not read; a file may even require the first.
 constexpr std::array harmless_extensions = {

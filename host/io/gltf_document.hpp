@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "gltf_container.hpp"
-#include "gltf_json.hpp"
-#include "gltf_warnings.hpp"
+#include "io/gltf_container.hpp"
+#include "io/gltf_json.hpp"
+#include "io/gltf_warnings.hpp"
 
 namespace clgi::io::gltf {
 

@@ -1,6 +1,6 @@
 // Animations are not played; this only refuses files whose animations refer to what is not there.
 // SPDX-License-Identifier: MIT
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 
@@ -14,8 +14,7 @@ struct Curve {
 
 Curve read_sampler(const Value& value, const Document& document) {
     const std::size_t accessors = document.accessors.size();
-    const Accessor& input =
-        document.accessors[value.at("input").index(accessors, "accessors")];
+    const Accessor& input = document.accessors[value.at("input").index(accessors, "accessors")];
     if (input.component != Component::float32 || input.rows != 1) {
         value.at("input").fail("is not an accessor of float scalars");
     }
@@ -27,8 +26,7 @@ Curve read_sampler(const Value& value, const Document& document) {
     return curve;
 }
 
-void check_channel(const Value& value, const std::vector<Curve>& curves,
-                   const Document& document) {
+void check_channel(const Value& value, const std::vector<Curve>& curves, const Document& document) {
     const Curve& curve = curves[value.at("sampler").index(curves.size(), "samplers")];
     const Value target = value.at("target");
     const int node = target.index_or_none("node", document.nodes.size(), "nodes");

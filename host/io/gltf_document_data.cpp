@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 

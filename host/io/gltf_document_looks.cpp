@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 
@@ -176,8 +176,7 @@ MaterialSource read_material(const Value& value, Document& document) {
 void read_images(const Value& root, Document& document) {
     const std::size_t pictures = entries(root, "images", max_rare_entries);
     for (std::size_t i = 0; i < pictures; ++i) {
-        document.pictures.push_back(
-            read_picture(root.at("images").item(i), document.views.size()));
+        document.pictures.push_back(read_picture(root.at("images").item(i), document.views.size()));
     }
     const std::size_t samplers = entries(root, "samplers", max_rare_entries);
     for (std::size_t i = 0; i < samplers; ++i) {

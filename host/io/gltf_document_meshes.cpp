@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 
@@ -37,8 +37,7 @@ Primitive read_primitive(const Value& value, const Document& document) {
     const std::size_t accessors = document.accessors.size();
     primitive.attributes = read_attributes(value.at("attributes"), accessors);
     primitive.indices = value.index_or_none("indices", accessors, "accessors");
-    primitive.material =
-        value.index_or_none("material", document.materials.size(), "materials");
+    primitive.material = value.index_or_none("material", document.materials.size(), "materials");
     const std::uint64_t mode = value.integer_or("mode", 4);
     if (mode > 6) value.at("mode").fail("is " + std::to_string(mode) + ", no primitive mode");
     primitive.mode = static_cast<Mode>(mode);

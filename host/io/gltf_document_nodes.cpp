@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <glm/gtc/quaternion.hpp>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 
@@ -44,10 +44,9 @@ int read_instancing(const Value& value, Document& document) {
     const Value attributes = extension->at("attributes");
     const std::size_t accessors = document.accessors.size();
     for (const auto& [name, member] : attributes.members()) member.index(accessors, "accessors");
-    document.instancing.push_back(
-        {attributes.index_or_none("TRANSLATION", accessors, "accessors"),
-         attributes.index_or_none("ROTATION", accessors, "accessors"),
-         attributes.index_or_none("SCALE", accessors, "accessors")});
+    document.instancing.push_back({attributes.index_or_none("TRANSLATION", accessors, "accessors"),
+                                   attributes.index_or_none("ROTATION", accessors, "accessors"),
+                                   attributes.index_or_none("SCALE", accessors, "accessors")});
     return static_cast<int>(document.instancing.size()) - 1;
 }
 

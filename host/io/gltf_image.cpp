@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_image.hpp"
+#include "io/gltf_image.hpp"
 
 #include <array>
 #include <clgi/error.hpp>
@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "png_decode.hpp"
+#include "io/png_decode.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -20,7 +20,7 @@
 #define STBI_MAX_DIMENSIONS (1 << 24)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
+#include <stb_image.h>
 #pragma GCC diagnostic pop
 
 namespace clgi::io::gltf {
@@ -102,8 +102,8 @@ ImageFormat image_format(Bytes bytes) {
     const bool webp = has_at(bytes, 0, "RIFF"sv) && has_at(bytes, 8, "WEBP"sv);
     const bool avif = has_at(bytes, 4, "ftyp"sv);
     const bool ktx = has_at(bytes, 0, "\xabKTX "sv);
-    const bool other = has_at(bytes, 0, "DDS "sv) || has_at(bytes, 0, "GIF8"sv) ||
-                       has_at(bytes, 0, "BM"sv);
+    const bool other =
+        has_at(bytes, 0, "DDS "sv) || has_at(bytes, 0, "GIF8"sv) || has_at(bytes, 0, "BM"sv);
     return webp || avif || ktx || other ? ImageFormat::unsupported : ImageFormat::unknown;
 }
 

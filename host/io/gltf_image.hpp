@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "gltf_container.hpp"
+#include "io/gltf_container.hpp"
 
 namespace clgi::io::gltf {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_instances.hpp"
+#include "io/gltf_instances.hpp"
 
 #include <clgi/error.hpp>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 namespace clgi::io::gltf {
 
@@ -34,8 +34,7 @@ glm::dmat4 instance_matrix(const Document& document, const Node& node, std::size
         for (int column = 0; column < 3; ++column) local[column] *= scale[column];
     }
     if (instancing.translation >= 0) {
-        local[3] =
-            glm::dvec4(AccessorReader(document, instancing.translation).vec3(instance), 1.0);
+        local[3] = glm::dvec4(AccessorReader(document, instancing.translation).vec3(instance), 1.0);
     }
     return node.matrix * local;
 }

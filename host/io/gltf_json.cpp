@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_json.hpp"
+#include "io/gltf_json.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>
@@ -45,9 +45,9 @@ std::string Value::path() const {
     return path;
 }
 
-Value Value::step(const json& json, Step step) const {
+Value Value::step(const json& child, Step step) const {
     Value next = *this;
-    next.json_ = &json;
+    next.json_ = &child;
     if (depth_ < steps_.size()) next.steps_[depth_] = step;
     ++next.depth_;
     return next;
@@ -92,8 +92,8 @@ std::size_t Value::count() const { return count(max_entries); }
 std::size_t Value::count(std::size_t most) const {
     if (!json_->is_array()) fail(std::string("is ") + json_->type_name() + ", not an array");
     if (json_->size() > most) {
-        fail("has " + std::to_string(json_->size()) + " entries, at most " +
-             std::to_string(most) + " are read");
+        fail("has " + std::to_string(json_->size()) + " entries, at most " + std::to_string(most) +
+             " are read");
     }
     return json_->size();
 }

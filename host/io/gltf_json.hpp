@@ -60,7 +60,7 @@ private:
         const char* key;  // null: an array item
         std::size_t item;
     };
-    Value step(const nlohmann::json& json, Step step) const;
+    Value step(const nlohmann::json& child, Step step) const;
 
     const nlohmann::json* json_;
     std::array<Step, 10> steps_;  // glTF's own structure is at most 9 deep

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "gltf_accessor.hpp"
-#include "gltf_buffer.hpp"
-#include "gltf_check.hpp"
-#include "gltf_document.hpp"
-#include "gltf_material.hpp"
-#include "gltf_place.hpp"
-#include "gltf_tree.hpp"
+#include "io/gltf_accessor.hpp"
+#include "io/gltf_buffer.hpp"
+#include "io/gltf_check.hpp"
+#include "io/gltf_document.hpp"
+#include "io/gltf_material.hpp"
+#include "io/gltf_place.hpp"
+#include "io/gltf_tree.hpp"
 
 namespace clgi::io {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_material.hpp"
+#include "io/gltf_material.hpp"
 
 #include <clgi/error.hpp>
 #include <map>
 #include <optional>
 #include <tuple>
 
-#include "gltf_buffer.hpp"
-#include "gltf_image.hpp"
-#include "gltf_uri.hpp"
+#include "io/gltf_buffer.hpp"
+#include "io/gltf_image.hpp"
+#include "io/gltf_uri.hpp"
 
 namespace clgi::io::gltf {
 
@@ -37,8 +37,7 @@ public:
         if (texture < 0) return -1;
         const TextureSource& source = document_.textures[texture];
         if (!is_readable(source.picture)) return -1;
-        const Sampler sampler =
-            source.sampler < 0 ? Sampler{} : document_.samplers[source.sampler];
+        const Sampler sampler = source.sampler < 0 ? Sampler{} : document_.samplers[source.sampler];
         const auto key =
             std::make_tuple(source.picture, sampler.wrap_s, sampler.wrap_t, sampler.nearest);
         const auto known = loaded_.find(key);
@@ -81,19 +80,16 @@ public:
     // Every image, used or not, must exist and be something.
     void check_pictures() {
         for (std::size_t i = 0; i < document_.pictures.size(); ++i) {
-            const ImageFormat format = format_of(static_cast<int>(i));
-            if (format == ImageFormat::unknown) fail(static_cast<int>(i), "is neither PNG nor JPEG");
+            const int picture = static_cast<int>(i);
+            std::vector<std::uint8_t> held;
+            formats_.push_back(image_format(read(picture, 16, held)));
+            if (formats_.back() == ImageFormat::unknown) fail(picture, "is neither PNG nor JPEG");
         }
     }
 
 private:
     [[noreturn]] void fail(int picture, const std::string& what) const {
         throw InputError("images[" + std::to_string(picture) + "] " + what);
-    }
-
-    ImageFormat format_of(int picture) {
-        std::vector<std::uint8_t> held;
-        return image_format(read(picture, 16, held));
     }
 
     Bytes read(int picture, std::size_t limit, std::vector<std::uint8_t>& held) {
@@ -105,7 +101,7 @@ private:
     }
 
     bool is_readable(int picture) {
-        if (picture >= 0 && format_of(picture) != ImageFormat::unsupported) return true;
+        if (picture >= 0 && formats_[picture] != ImageFormat::unsupported) return true;
         document_.warnings.add("a texture in a format that is not read is taken as white");
         return false;
     }
@@ -133,6 +129,7 @@ private:
     std::size_t averaged_left_;
     std::size_t most_texels_;
     std::size_t encoded_ = 0;
+    std::vector<ImageFormat> formats_;  // of every picture
     std::map<std::tuple<int, Wrap, Wrap, bool>, int> loaded_;
     std::map<int, MetalRough> means_;
 };

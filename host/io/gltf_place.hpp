@@ -4,7 +4,7 @@
 
 #include <clgi/io/gltf.hpp>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "gltf_place.hpp"
+#include "io/gltf_place.hpp"
 
 namespace clgi::io::gltf {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_pose.hpp"
+#include "io/gltf_pose.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <optional>
 
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 namespace clgi::io::gltf {
 
@@ -26,10 +26,10 @@ struct Placement {
         const glm::dmat3 linear(m);
         const double determinant = glm::determinant(linear);
         mirrored = determinant < 0.0;
-        normal_matrix = glm::dmat3(glm::cross(linear[1], linear[2]),
-                                   glm::cross(linear[2], linear[0]),
-                                   glm::cross(linear[0], linear[1])) *
-                        (mirrored ? -1.0 : 1.0);
+        normal_matrix =
+            glm::dmat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                       glm::cross(linear[0], linear[1])) *
+            (mirrored ? -1.0 : 1.0);
     }
 
     glm::dvec3 position(const glm::dvec3& p) const { return glm::dvec3(matrix * glm::dvec4(p, 1)); }

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <map>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_topology.hpp"
+#include "io/gltf_topology.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "gltf_accessor.hpp"
+#include "io/gltf_accessor.hpp"
 
 namespace clgi::io::gltf {
 
@@ -47,8 +47,7 @@ void renumber(Topology& topology, std::size_t vertex_count) {
 }  // namespace
 
 std::size_t triangle_count(const Document& document, const Primitive& primitive) {
-    const int source =
-        primitive.indices >= 0 ? primitive.indices : primitive.attributes.position;
+    const int source = primitive.indices >= 0 ? primitive.indices : primitive.attributes.position;
     if (source < 0 || primitive.attributes.position < 0) return 0;
     const std::size_t corners = document.accessors[source].count;
     if (primitive.mode == Mode::triangles) return corners / 3;

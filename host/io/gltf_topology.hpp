@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "gltf_document.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_tree.hpp"
+#include "io/gltf_tree.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>

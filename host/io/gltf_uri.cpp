@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_uri.hpp"
+#include "io/gltf_uri.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <clgi/error.hpp>
 #include <system_error>
 
-#include "gltf_json.hpp"
+#include "io/gltf_json.hpp"
 
 namespace clgi::io::gltf {
 

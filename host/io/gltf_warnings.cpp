@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gltf_warnings.hpp"
+#include "io/gltf_warnings.hpp"
 
 namespace clgi::io::gltf {
 

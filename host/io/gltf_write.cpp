@@ -1,14 +1,13 @@
 // save_glb: the parts of a scene, then the container, then the file.
 // SPDX-License-Identifier: MIT
-#include "gltf_write.hpp"
+#include "io/gltf_write.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <clgi/io/gltf.hpp>
 #include <cstring>
-#include <fstream>
-#include <random>
-#include <system_error>
+
+#include "io/atomic_file.hpp"
 
 namespace clgi::io {
 
@@ -45,6 +44,22 @@ void append_word(std::string& bytes, std::size_t value) {
     }
 }
 
+gltf::GlbDraft draft_of(const Scene& scene) {
+    gltf::GlbDraft draft;
+    draft.json["asset"] = {{"version", "2.0"}, {"generator", "clgi"}};
+    std::vector<int> roots;
+    gltf::write_materials(scene, draft);
+    gltf::write_meshes(scene, draft, roots);
+    gltf::write_lights(scene, draft, roots);
+    gltf::write_cameras(scene, draft, roots);
+
+    nlohmann::json listed = {{"name", scene.name}};
+    if (!roots.empty()) listed["nodes"] = roots;
+    draft.json["scene"] = draft.add("scenes", std::move(listed));
+    if (!draft.binary.empty()) draft.add("buffers", {{"byteLength", draft.binary.size()}});
+    return draft;
+}
+
 // Everything before the binary chunk's contents.
 std::string head_of_glb(const gltf::GlbDraft& draft) {
     // Names may come from anywhere; what is not UTF-8 in them is replaced.
@@ -66,57 +81,22 @@ std::string head_of_glb(const gltf::GlbDraft& draft) {
     return head;
 }
 
-// Beside the target, so that renaming stays within one file system.
-std::filesystem::path name_aside(const std::filesystem::path& path) {
-    std::filesystem::path aside = path;
-    aside += "." + std::to_string(std::random_device()()) + ".tmp";
-    return aside;
-}
-
-void write_file(const std::filesystem::path& path, const std::string& head,
-                const std::vector<std::uint8_t>& binary) {
-    const std::filesystem::path aside = name_aside(path);
-    std::error_code ignored;
-    {
-        std::ofstream file(aside, std::ios::binary | std::ios::trunc);
-        file.write(head.data(), static_cast<std::streamsize>(head.size()));
-        file.write(reinterpret_cast<const char*>(binary.data()),
-                   static_cast<std::streamsize>(binary.size()));
-        file.close();
-        if (!file) {
-            std::filesystem::remove(aside, ignored);
-            throw InputError("cannot be written");
-        }
-    }
-    std::error_code error;
-    std::filesystem::rename(aside, path, error);
-    if (error) {
-        std::filesystem::remove(aside, ignored);
-        throw InputError("cannot be written: " + error.message());
-    }
-}
-
 }  // namespace
 
 void save_glb(const Scene& scene, const std::filesystem::path& path) {
+    gltf::GlbDraft draft;
+    std::string head;
     try {
         validate(scene);
-        gltf::GlbDraft draft;
-        draft.json["asset"] = {{"version", "2.0"}, {"generator", "clgi"}};
-        std::vector<int> roots;
-        gltf::write_materials(scene, draft);
-        gltf::write_meshes(scene, draft, roots);
-        gltf::write_lights(scene, draft, roots);
-        gltf::write_cameras(scene, draft, roots);
-
-        nlohmann::json listed = {{"name", scene.name}};
-        if (!roots.empty()) listed["nodes"] = roots;
-        draft.json["scene"] = draft.add("scenes", std::move(listed));
-        if (!draft.binary.empty()) draft.add("buffers", {{"byteLength", draft.binary.size()}});
-        write_file(path, head_of_glb(draft), draft.binary);
+        draft = draft_of(scene);
+        head = head_of_glb(draft);
     } catch (const InputError& error) {
         throw InputError(path.string() + ": " + error.what());
     }
+    AtomicFile file(path);
+    file.write(head.data(), head.size());
+    file.write(draft.binary.data(), draft.binary.size());
+    file.commit();
 }
 
 }  // namespace clgi::io

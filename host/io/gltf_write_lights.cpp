@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "gltf_write.hpp"
+#include "io/gltf_write.hpp"
 
 namespace clgi::io::gltf {
 

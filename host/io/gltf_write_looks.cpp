@@ -4,8 +4,8 @@
 #include <clgi/error.hpp>
 #include <cmath>
 
-#include "gltf_write.hpp"
-#include "png_encode.hpp"
+#include "io/gltf_write.hpp"
+#include "io/png_encode.hpp"
 
 namespace clgi::io::gltf {
 
@@ -33,14 +33,15 @@ void write_texture(const Texture& texture, GlbDraft& draft) {
                                                {"wrapT", wrap_code(texture.wrap_t)},
                                                {"magFilter", filter},
                                                {"minFilter", filter}});
-    draft.add("textures", {{"source", draft.add("images", std::move(image))},
-                           {"sampler", sampler}});
+    draft.add("textures",
+              {{"source", draft.add("images", std::move(image))}, {"sampler", sampler}});
 }
 
 // The transform as scale, then turn, then shift, which is all that glTF can say.
 nlohmann::json transform_json(const glm::dmat3& m, std::size_t material) {
     const double scale_u = std::hypot(m[0][0], m[0][1]);
-    const double angle = scale_u > 0.0 ? std::atan2(-m[0][1], m[0][0]) : std::atan2(m[1][0], m[1][1]);
+    const double angle =
+        scale_u > 0.0 ? std::atan2(-m[0][1], m[0][0]) : std::atan2(m[1][0], m[1][1]);
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     const double scale_v = m[1][0] * s + m[1][1] * c;

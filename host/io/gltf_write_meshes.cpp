@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "gltf_write.hpp"
+#include "io/gltf_write.hpp"
 
 namespace clgi::io::gltf {
 
@@ -129,8 +129,8 @@ nlohmann::json write_primitive(const Scene& scene, const glm::dvec3& centre,
     if (!scene.colors.empty()) attributes["COLOR_0"] = attribute(colors_view, "VEC4", 4);
     return {{"attributes", attributes},
             {"material", scene.triangles[triangles[0]].material},
-            {"indices", add_accessor(draft, indices_view, first_index * 4,
-                                     triangles.size() * 3, "SCALAR", uint32_type)}};
+            {"indices", add_accessor(draft, indices_view, first_index * 4, triangles.size() * 3,
+                                     "SCALAR", uint32_type)}};
 }
 
 // Appends the arrays and points the accessors at them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "png_decode.hpp"
+#include "io/png_decode.hpp"
 
 #include <png.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "png_encode.hpp"
+#include "io/png_encode.hpp"
 
 #include <png.h>
 

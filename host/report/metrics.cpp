@@ -20,7 +20,8 @@ public:
         lost_ += std::abs(sum_) >= std::abs(value) ? (sum_ - next) + value : (value - next) + sum_;
         sum_ = next;
     }
-    double total() const { return sum_ + lost_; }
+    // What an infinite sum has lost is infinity minus infinity.
+    double total() const { return std::isfinite(sum_) ? sum_ + lost_ : sum_; }
 
 private:
     double sum_ = 0.0;

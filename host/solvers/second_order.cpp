@@ -6,8 +6,12 @@
 #include <cmath>
 
 #include "solvers/recorder.hpp"
+#include "solvers/second_order_sizes.hpp"
 
 namespace clgi {
+
+using namespace second_order;
+
 namespace {
 
 // What is off a tangent plane by this share of the scene's radius weighs as much as a right angle.
@@ -16,32 +20,6 @@ constexpr float plane_distance = 0.1f;
 cl::Context context_of(const cl::CommandQueue& queue) { return queue.getInfo<CL_QUEUE_CONTEXT>(); }
 cl::Device device_of(const cl::CommandQueue& queue) { return queue.getInfo<CL_QUEUE_DEVICE>(); }
 
-std::uint32_t padded(std::size_t count) {
-    return static_cast<std::uint32_t>((count + 15) / 16 * 16);
-}
-
-std::size_t pixel_count(const SecondOrderOptions& options) {
-    return static_cast<std::size_t>(options.width) * options.height;
-}
-
-std::size_t low_pixel_count(const SecondOrderOptions& options) {
-    return static_cast<std::size_t>((options.width + 1) / 2) * ((options.height + 1) / 2);
-}
-
-void check(const SecondOrderOptions& options) {
-    const auto in = [](const char* name, double value, double low, double high) {
-        if (!(value >= low && value <= high))
-            throw Error(std::string("second-order: ") + name + " is " + std::to_string(value) +
-                        ", " + std::to_string(low) + " to " + std::to_string(high) + " needed");
-    };
-    in("width", options.width, 1, 16384);
-    in("height", options.height, 1, 16384);
-    in("negative_lights", options.negative_lights, 0, 1 << 20);
-    in("footprint", options.footprint, 0, 1e6);
-    if (!(options.discontinuity_threshold >= 0.0f))
-        throw Error("second-order: discontinuity_threshold is negative or not a number");
-}
-
 // Kernels are built with textures only where the scene calls for them.
 SecondOrderOptions checked(SecondOrderOptions options, const DeviceScene& scene) {
     check(options);
@@ -49,74 +27,7 @@ SecondOrderOptions checked(SecondOrderOptions options, const DeviceScene& scene)
     return options;
 }
 
-bool refines(const SecondOrderOptions& options) {
-    return options.low_resolution && options.discontinuity_threshold > 0.0f;
-}
-
-// Sizes in bytes of every buffer that a frame works with; 0: not needed.
-struct Sizes {
-    std::size_t vertices, polygons, source_visibility, camera_visibility, planes, ids, mask,
-        accepted, lights, negative, low_points, low_irradiance, flags, counts, listed,
-        listed_points, listed_irradiance, irradiance, radiance;
-
-    std::size_t sum() const {
-        return vertices + polygons + source_visibility + camera_visibility + planes + ids + mask +
-               accepted + lights + negative + low_points + low_irradiance + flags + counts +
-               listed + listed_points + listed_irradiance + irradiance + radiance;
-    }
-};
-
-Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const EmitterSet& set) {
-    const std::size_t stride = padded(pixel_count(options));
-    const std::size_t low_stride = padded(low_pixel_count(options));
-    const bool lit = options.indirect && set.light_count > 0;
-    const bool refine = lit && refines(options);
-    const std::size_t negative = lit ? options.negative_lights : 0;
-    std::uint32_t candidates = 0;
-    for (const std::uint32_t count : set.candidates) candidates = std::max(candidates, count);
-    Sizes out{};
-    out.vertices = scene.info().vertex_count * sizeof(ScreenVertex);
-    out.polygons = scene.info().triangle_count * sizeof(RasterPolygon);
-    out.source_visibility = set.pixels * sizeof(std::uint64_t);
-    out.camera_visibility = pixel_count(options) * sizeof(std::uint64_t);
-    out.planes = GBUFFER_PLANES * stride * sizeof(float);
-    out.ids = GBUFFER_ID_PLANES * stride * sizeof(std::int32_t);
-    out.radiance = RADIANCE_PLANES * stride * sizeof(float);
-    if (!lit) return out;
-    out.mask = candidates / 8;
-    out.accepted = set.light_count * sizeof(std::uint32_t);
-    out.lights = set.light_count * sizeof(IndirectLight);
-    out.negative = negative * sizeof(IndirectLight);
-    out.irradiance = IRRADIANCE_PLANES * stride * sizeof(float);
-    if (!refine) return out;
-    out.low_points = POINT_PLANES * low_stride * sizeof(float);
-    out.low_irradiance = IRRADIANCE_PLANES * low_stride * sizeof(float);
-    out.flags = pixel_count(options);
-    out.counts = (pixel_count(options) / COMPACT_BLOCK + 1) * sizeof(std::uint32_t);
-    out.listed = stride * sizeof(std::uint32_t);
-    out.listed_points = POINT_PLANES * stride * sizeof(float);
-    out.listed_irradiance = IRRADIANCE_PLANES * stride * sizeof(float);
-    return out;
-}
-
 }  // namespace
-
-Estimate estimate(const DeviceScene& scene, const SecondOrderOptions& options) {
-    check(options);
-    const EmitterSet set = make_emitters(scene, options.sources);
-    Estimate out;
-    out.bytes = sizes(scene, options, set).sum();
-    // A nominal device: one pair of light and point takes about 20 nanoseconds of one gigahertz
-    // lane, a triangle drawn 100, a pixel resolved and combined 150.
-    const double pixels = static_cast<double>(pixel_count(options));
-    const double lit = refines(options) ? 0.25 + 0.15 : 1.0;
-    const double lights = static_cast<double>(set.light_count) + options.negative_lights;
-    const double triangles =
-        static_cast<double>(scene.info().triangle_count) * static_cast<double>(set.views.size() + 1);
-    out.milliseconds = 1e-6 * (pixels * lit * (options.indirect ? lights : 0.0) * 0.25 +
-                               triangles * 30.0 + pixels * 20.0);
-    return out;
-}
 
 SecondOrderSolver::SecondOrderSolver(const cl::CommandQueue& queue, const DeviceScene& scene,
                                      const SecondOrderOptions& options)
@@ -143,64 +54,6 @@ void SecondOrderSolver::lights_changed() {
                               set_.emitters.data());
     queue_.enqueueWriteBuffer(sources_.views, CL_TRUE, 0, set_.views.size() * sizeof(View),
                               set_.views.data());
-}
-
-void SecondOrderSolver::allocate() {
-    set_ = make_emitters(scene_, options_.sources);
-    indirect_ = options_.indirect && set_.light_count > 0;
-    refine_ = indirect_ && refines(options_);
-    const Sizes size = sizes(scene_, options_, set_);
-    const cl::Context context = context_of(queue_);
-    const std::size_t most = device_of(queue_).getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-    bytes_ = 0;
-    const auto buffer = [&](std::size_t bytes) {
-        bytes = std::max<std::size_t>(bytes, 16);
-        bytes_ += bytes;
-        if (bytes > most)
-            throw DeviceError("second-order: a buffer of " + std::to_string(bytes) +
-                              " bytes is needed, the device allows " + std::to_string(most));
-        try {
-            return cl::Buffer(context, CL_MEM_READ_WRITE, bytes);
-        } catch (const cl::Error& error) {
-            throw DeviceError("second-order: no room for a buffer of " + std::to_string(bytes) +
-                              " bytes (OpenCL error " + std::to_string(error.err()) + ")");
-        }
-    };
-    const auto filled = [&](const void* data, std::size_t bytes) {
-        cl::Buffer out = buffer(bytes);
-        if (bytes > 0) queue_.enqueueWriteBuffer(out, CL_TRUE, 0, bytes, data);
-        return out;
-    };
-    const auto word = [&](std::size_t value) {
-        const std::uint32_t number = static_cast<std::uint32_t>(value);
-        return filled(&number, sizeof number);
-    };
-    raster_.vertices = buffer(size.vertices);
-    raster_.polygons = buffer(size.polygons);
-    raster_.polygon_count = word(0);
-        camera_visibility_ = buffer(size.camera_visibility);
-    sources_.visibility = buffer(size.source_visibility);
-    sources_.emitters = filled(set_.emitters.data(), set_.emitters.size() * sizeof(Emitter));
-    sources_.views = filled(set_.views.data(), set_.views.size() * sizeof(View));
-    planes_ = buffer(size.planes);
-    ids_ = buffer(size.ids);
-    radiance_ = buffer(size.radiance);
-    non_finite_ = word(0);
-    irradiance_ = buffer(size.irradiance);
-    mask_ = buffer(size.mask);
-    accepted_ = buffer(size.accepted);
-    lights_ = buffer(size.lights);
-    negative_ = buffer(size.negative);
-    all_count_ = word(pixel_count(options_));
-    low_count_ = word(low_pixel_count(options_));
-    listed_count_ = word(0);
-    low_points_ = buffer(size.low_points);
-    low_irradiance_ = buffer(size.low_irradiance);
-    flags_ = buffer(size.flags);
-    counts_ = buffer(size.counts);
-    listed_ = buffer(size.listed);
-    listed_points_ = buffer(size.listed_points);
-    listed_irradiance_ = buffer(size.listed_irradiance);
 }
 
 void SecondOrderSolver::draw_view(Recorder& record, const View& view,

@@ -8,6 +8,7 @@
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
 //              that were not
+#include "lights/disc.clh"
 #include "lights/sample.clh"
 #include "lights/shadow.clh"
 #include "scene/buffers.clh"
@@ -116,8 +117,9 @@ kernel void image_combine(
                 tz *= per_distance;
                 floatp along = -dot3(tx, ty, tz, axis);  // cosine at the source
                 if (kind == EMITTER_AREA) {
-                    strength = packet_max(along, zero) /
-                               fma(square, packet_splat(CLGI_PI), packet_splat(emitter->area));
+                    // disc_kernel wants the cosines times d^2.
+                    strength = disc_kernel(packet_max(along, zero) * square, square,
+                                           packet_splat(emitter->area));
                 } else {
                     strength = packet_select(zero, per_distance * per_distance, square > 0.0f);
                     if (kind == EMITTER_SPOT) {

@@ -1,21 +1,20 @@
 // Irradiance at every point: I_s of the indirect lights less I_n of the negative ones.
 //
-//   E(p) = sum_l Phi_l max(0, n_p.t) max(0, -n_l.t) / (d^2 (pi d^2 + A_l)),   t = l - p, d = |t|
+//   E(p) = sum_l Phi_l max(0, n_p.t) max(0, -n_l.t) / d^2 k(d, A_l),   t = l - p, d = |t|
 //                                                              [Cochran07, section 3.2]
 //
-// The disc area A_l bounds each term by the light's own radiosity Phi_l / A_l, so a point that
-// touches a light stays finite; the smallest normal float keeps d = 0 from dividing by nothing.
+// k is 1/(pi d^2) far away and bounded by the light's disc near by (lights/disc.clh), so a point
+// that touches a light stays finite, and no term exceeds the light's own radiosity Phi_l / A_l.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH points (rounded up); any local size
 // Writes       its own points
-// Cost         33 flops and one division a pair; 48 bytes a light stay in cache, 24 bytes a point
+// Cost         38 flops and one division a pair; 48 bytes a light stay in cache, 24 bytes a point
 //              are read and 12 written once
+#include "lights/disc.clh"
 #include "packet.clh"
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/image.h"
 #include "clgi/shared/lights.h"
-
-#define SMALLEST_NORMAL 1.17549435e-38f
 
 kernel void image_gather(
     const GatherParams           params,
@@ -55,10 +54,8 @@ kernel void image_gather(
             floatp receive = packet_dot(nx, ny, nz, tx, ty, tz);
             floatp send = packet_dot(packet_splat(normal.x), packet_splat(normal.y),
                                      packet_splat(normal.z), tx, ty, tz);
-            floatp bound = fma(square, packet_splat(CLGI_PI),
-                               packet_splat(params.footprint * position.w));
-            floatp factor = packet_max(receive, zero) * packet_max(send, zero) /
-                            fma(square, bound, packet_splat(SMALLEST_NORMAL));
+            floatp factor = disc_kernel(packet_max(receive, zero) * packet_max(send, zero), square,
+                                        packet_splat(params.footprint * position.w));
             sum_red = fma(factor, packet_splat(flux.x), sum_red);
             sum_green = fma(factor, packet_splat(flux.y), sum_green);
             sum_blue = fma(factor, packet_splat(flux.z), sum_blue);

@@ -5,8 +5,8 @@
 //   E(p) = sum Phi cos cos' / (pi d^2)  ->  integral of rho E cos cos' / (pi d^2) dA
 //
 // because dPhi = E dA on the lit surface: with N the sum becomes the one-bounce unshadowed
-// integral. The share's footprint A = dw d^2 / cos bounds the kernel: cos cos' / (pi d^2 + A) is
-// the form factor of a disc of that size, and A goes to 0 as N grows. [Cochran07, section 3.1]
+// integral. The share's footprint A = dw d^2 / cos, the disc that the light stands for, bounds the
+// kernel near by (lights/disc.clh); it goes to 0 as N grows.        [Cochran07, section 3.1]
 //
 // Unlike paper  the surface is met at the sample itself, not at the centre of its pixel, so a
 //               light stays put when its source turns

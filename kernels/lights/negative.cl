@@ -1,7 +1,7 @@
 // Negative indirect lights: at points of the camera image, the light that reaches the back of the
 // surface and that a light without shadow would let through.
 //
-//   back_l(p) = Phi_l cos_l max(0, -n_p.t_l) / (pi d^2 + A_l),  t_l from p to light l
+//   back_l(p) = Phi_l cos_l max(0, -n_p.t_l) k(d, A_l),  t_l from p to light l
 //   E_n(p)    = sum_l back_l,   Phi_n = E_n(p) A_p
 //   direction = - sum_l w_l t_l / |sum_l w_l t_l|,  w_l = luminance of back_l
 //                                                              [Cochran07, section 3.3]
@@ -16,6 +16,7 @@
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/halton.h"
 #include "clgi/shared/lights.h"
+#include "lights/disc.clh"
 
 kernel void lights_negative(
     const NegativeParams         params,
@@ -45,7 +46,7 @@ kernel void lights_negative(
             float leaving = -dot(lights[l].normal.xyz, t);
             if (!(behind > params.back_facing) || !(leaving > 0.0f)) continue;
             float square = dot(t, t);
-            float factor = behind * leaving / (square * fma(CLGI_PI, square, position.w));
+            float factor = disc_kernel(behind * leaving, square, position.w);
             float3 light = lights[l].flux.xyz * factor;
             stopped += light;
             float weight = dot(light, (float3)(0.2126f, 0.7152f, 0.0722f));

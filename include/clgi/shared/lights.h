@@ -25,8 +25,8 @@ typedef struct {
     uint light_count;
 } Emitter;
 
-// A point light with a cosine lobe, standing for a disc of `area` around it:
-// irradiance it gives = flux * cos * cos' / (pi d^2 + area).
+// A point light with a cosine lobe, standing for a disc around it: the irradiance it gives is
+// flux * cos * cos' / (pi d^2), bounded near by as in kernels/lights/disc.clh.
 typedef struct {
     float4 position;  // xyz; w: area of the disc
     float4 normal;    // xyz unit; w: 0
