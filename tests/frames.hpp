@@ -1,0 +1,75 @@
+// Whole frames and everything they leave behind.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/solvers/second_order.hpp>
+#include <cstring>
+
+#include "device.hpp"
+
+namespace clgi::test {
+
+struct Frame {
+    std::size_t pixels = 0;
+    SceneFrame place;
+    FrameStatus status;
+    std::size_t launches = 0;
+    std::vector<glm::vec3> radiance;        // [height][width] cd/m^2
+    std::vector<glm::vec3> position;        // [height][width] local frame
+    std::vector<glm::vec3> irradiance;      // [height][width] local frame, exposed; indirect
+    std::vector<IndirectLight> lights;      // [N]
+    std::vector<IndirectLight> negative;
+
+    glm::dvec3 world(std::size_t pixel) const {
+        return glm::dvec3(position[pixel]) / place.scale + place.origin;
+    }
+};
+
+template <typename T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+inline std::vector<glm::vec3> vectors(const cl::CommandQueue& queue, const cl::Buffer& planes,
+                                      std::size_t stride, std::size_t count) {
+    std::vector<float> values(3 * stride);
+    queue.enqueueReadBuffer(planes, CL_TRUE, 0, values.size() * sizeof(float), values.data());
+    std::vector<glm::vec3> out;
+    for (std::size_t i = 0; i < count; ++i)
+        out.emplace_back(values[i], values[stride + i], values[2 * stride + i]);
+    return out;
+}
+
+inline Frame read_frame(const cl::CommandQueue& queue, const DeviceScene& scene,
+                        const SecondOrderSolver& solver) {
+    const SecondOrderOptions& options = solver.options();
+    Frame out;
+    out.pixels = static_cast<std::size_t>(options.width) * options.height;
+    out.place = scene.frame();
+    out.launches = solver.events().size();
+    out.status = solver.status();
+    out.radiance = vectors(queue, solver.radiance(), solver.stride(), out.pixels);
+    if (out.launches == 0) return out;
+    out.position = vectors(queue, solver.planes(), solver.stride(), out.pixels);
+    if (!options.indirect || solver.sources().light_count == 0) return out;
+    out.irradiance = vectors(queue, solver.irradiance(), solver.stride(), out.pixels);
+    const auto read = [&](const cl::Buffer& buffer, std::size_t count) {
+        std::vector<IndirectLight> lights(count);
+        if (count > 0)
+            queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(IndirectLight), lights.data());
+        return lights;
+    };
+    out.lights = read(solver.indirect_lights(), solver.sources().light_count);
+    out.negative = read(solver.negative_lights(), static_cast<std::size_t>(options.negative_lights));
+    return out;
+}
+
+inline Frame render(const Scene& scene, const Camera& camera, const SecondOrderOptions& options,
+                    const cl::CommandQueue& queue = device().queue) {
+    const DeviceScene placed = on_device(scene);
+    SecondOrderSolver solver(queue, placed, options);
+    solver.render(camera).wait();
+    return read_frame(queue, placed, solver);
+}
+
+}  // namespace clgi::test

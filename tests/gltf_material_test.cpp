@@ -1,0 +1,170 @@
+// Materials, textures and the extensions around them.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "gltf_draft.hpp"
+#include "io/png_encode.hpp"
+
+namespace clgi::test {
+namespace {
+
+std::vector<std::uint8_t> png(int w, int h, const std::vector<std::uint8_t>& rgba) {
+    return io::encode_png(w, h, rgba.data());
+}
+
+// A textured triangle with the image in a buffer view.
+GltfDraft textured(const std::vector<std::uint8_t>& image, const char* slot = "baseColorTexture") {
+    GltfDraft draft;
+    const int positions = draft.vec3(one_triangle);
+    const std::vector<std::array<float, 2>> uvs = {{0, 0}, {1, 0}, {0, 1}};
+    const int uv = draft.accessor(draft.view(uvs), 3, "VEC2", float_type);
+    draft.add("images", {{"bufferView", draft.view(image)}, {"mimeType", "image/png"}});
+    draft.add("textures", {{"source", 0}});
+    json material;
+    material["pbrMetallicRoughness"][slot] = {{"index", 0}};
+    draft.add("materials", material);
+    draft.show({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uv}}}, {"material", 0}});
+    draft.add("scenes", {{"nodes", {0}}});
+    return draft;
+}
+
+TEST(GltfMaterials, DefaultsAreThoseOfGltf) {
+    const Scene scene = triangle_draft().load();
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec4(1.0f));
+    EXPECT_EQ(scene.materials[0].metallic, 1.0f);
+    EXPECT_EQ(scene.materials[0].roughness, 1.0f);
+}
+
+TEST(GltfMaterials, BlendBecomesAMaskWithAWarning) {
+    GltfDraft draft = triangle_draft();
+    draft.add("materials", {{"alphaMode", "BLEND"}});
+    draft.add("materials", {{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}});
+    const Scene scene = draft.load();
+    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(scene.materials[0].alpha_cutoff, 0.5f);
+    EXPECT_EQ(scene.materials[1].alpha_cutoff, 0.25f);
+    ASSERT_FALSE(scene.warnings.empty());
+    EXPECT_NE(scene.warnings[0].find("blended"), std::string::npos);
+}
+
+TEST(GltfMaterials, StrengthMultipliesEmission) {
+    GltfDraft draft = triangle_draft();
+    json material = {{"emissiveFactor", {1, 0.5, 0}}};
+    material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 20;
+    draft.add("materials", material);
+    draft.document["meshes"][0]["primitives"][0]["material"] = 0;
+    const Scene scene = draft.load();
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(20, 10, 0));
+    EXPECT_TRUE(has_emission(scene));
+}
+
+TEST(GltfTextures, PixelsArriveAsTheyWere) {
+    const std::vector<std::uint8_t> rgba = {1, 2, 3, 4, 50, 60, 70, 80};
+    const Scene scene = textured(png(2, 1, rgba)).load();
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.textures[0].width, 2);
+    EXPECT_EQ(scene.textures[0].rgba, rgba);
+    EXPECT_EQ(scene.materials[0].base_texture.texture, 0);
+    EXPECT_EQ(scene.uvs.size(), 3u);
+}
+
+TEST(GltfTextures, MetalAndRoughnessEnterByTheirMean) {
+    // Green (roughness) averages 51, blue (metal) 102 of 255.
+    const Scene scene =
+        textured(png(2, 1, {9, 0, 204, 255, 9, 102, 0, 255}), "metallicRoughnessTexture").load();
+    EXPECT_FLOAT_EQ(scene.materials[0].roughness, 0.2f);
+    EXPECT_FLOAT_EQ(scene.materials[0].metallic, 0.4f);
+    EXPECT_TRUE(scene.textures.empty());
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfTextures, TheTransformScalesThenTurnsThenShifts) {
+    GltfDraft draft = textured(png(1, 1, {0, 0, 0, 255}));
+    json& info = draft.document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    info["extensions"]["KHR_texture_transform"] = {
+        {"offset", {0.5, 0.25}}, {"rotation", 1.5707963267948966}, {"scale", {2, 3}}};
+    const glm::mat3 m = draft.load().materials[0].base_texture.transform;
+    // A quarter turn counter-clockwise with v down takes u to -v and v to u. 1e-6: float cosine.
+    EXPECT_VEC_NEAR(m * glm::vec3(1, 0, 1), glm::dvec3(0.5, -1.75, 1), 1e-6);
+    EXPECT_VEC_NEAR(m * glm::vec3(0, 1, 1), glm::dvec3(3.5, 0.25, 1), 1e-6);
+}
+
+TEST(GltfTextures, SamplersAreKept) {
+    GltfDraft draft = textured(png(1, 1, {0, 0, 0, 255}));
+    draft.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
+    draft.document["textures"][0]["sampler"] = 0;
+    const Scene scene = draft.load();
+    EXPECT_EQ(scene.textures[0].wrap_s, Wrap::clamp_to_edge);
+    EXPECT_EQ(scene.textures[0].wrap_t, Wrap::mirrored_repeat);
+    EXPECT_TRUE(scene.textures[0].nearest);
+}
+
+TEST(GltfTextures, AWebpWithoutFallbackIsWhiteWithAWarning) {
+    const std::string webp("RIFF\x1a\0\0\0WEBPVP8L", 16);
+    const Scene scene = textured({webp.begin(), webp.end()}).load();
+    EXPECT_EQ(scene.materials[0].base_texture.texture, -1);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("white"), std::string::npos);
+}
+
+TEST(GltfTextures, TruncatedImagesAreRefused) {
+    std::vector<std::uint8_t> image = png(16, 16, std::vector<std::uint8_t>(1024, 77));
+    for (const std::size_t length : {std::size_t{12}, std::size_t{40}, image.size() - 20}) {
+        const GltfDraft draft =
+            textured({image.begin(), image.begin() + static_cast<long>(length)});
+        EXPECT_NE(refusal(draft).find("images[0]"), std::string::npos) << length;
+    }
+}
+
+TEST(GltfTextures, SizesAreJudgedBeforeDecoding) {
+    std::vector<std::uint8_t> image = png(1, 1, {0, 0, 0, 255});
+    image[16] = 0x40;  // the width becomes 2^30
+    EXPECT_NE(refusal(textured(image)).find("1073741825x1"), std::string::npos);
+
+    const std::vector<std::uint8_t> large = png(100, 100, std::vector<std::uint8_t>(40000));
+    EXPECT_NE(refusal(textured(large), {.max_texels = 9999}).find("allowed"), std::string::npos);
+    EXPECT_EQ(refusal(textured(large), {.max_texels = 10000}), "");
+}
+
+TEST(GltfTextures, ManyTexturesOfOneImageShareTheBudget) {
+    GltfDraft draft = textured(png(10, 10, std::vector<std::uint8_t>(400)));
+    draft.add("samplers", {{"wrapS", 33071}});
+    draft.add("textures", {{"source", 0}, {"sampler", 0}});
+    json second;
+    second["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 1}};
+    draft.add("materials", second);
+    EXPECT_EQ(draft.load({.max_texels = 200}).textures.size(), 2u);
+    EXPECT_NE(refusal(draft, {.max_texels = 199}), "");
+}
+
+TEST(GltfExtensions, ARequiredOneThatIsNotReadIsNamed) {
+    GltfDraft draft = triangle_draft();
+    draft.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    EXPECT_NE(refusal(draft).find(
+                  "requires the extension KHR_draco_mesh_compression, which clgi does not read"),
+              std::string::npos);
+}
+
+TEST(GltfExtensions, MeshoptWithoutFallbackIsNamedAlsoWhenItIsNotRequired) {
+    GltfDraft draft = triangle_draft();
+    json buffer = {{"byteLength", draft.bytes.size()}};
+    buffer["extensions"]["EXT_meshopt_compression"]["fallback"] = true;
+    draft.document["buffers"] = json::array({buffer});
+    EXPECT_NE(refusal(draft).find("EXT_meshopt_compression"), std::string::npos);
+}
+
+TEST(GltfWarnings, EqualLinesAreCounted) {
+    GltfDraft draft = triangle_draft();
+    for (int i = 0; i < 3; ++i) draft.add("materials", {{"alphaMode", "BLEND"}});
+    const Scene scene = draft.load();
+    EXPECT_NE(scene.warnings.at(0).find("(3 times)"), std::string::npos);
+}
+
+TEST(PngEncode, RefusesEmptyPictures) {
+    EXPECT_THROW(io::encode_png(0, 4, nullptr), Error);
+    EXPECT_THROW(io::encode_png(4, -1, nullptr), Error);
+}
+
+}  // namespace
+}  // namespace clgi::test

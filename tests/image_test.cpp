@@ -1,0 +1,216 @@
+// From lights to picture, pass by pass: against sums in double precision and closed forms.
+// SPDX-License-Identifier: MIT
+#include <clgi/procedural.hpp>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+
+#include "frames.hpp"
+#include "lighting.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+using test::Receiver;
+
+constexpr double pi = std::numbers::pi;
+
+glm::vec3 direction(test::Random& random) {
+    glm::vec3 out(random(-1, 1), random(-1, 1), random(-1, 1));
+    return glm::normalize(out + glm::vec3(0, 1e-6f, 0));
+}
+
+IndirectLight light_at(const glm::vec3& position, const glm::vec3& normal, float flux, float area) {
+    return {glm::vec4(position, area), glm::vec4(normal, 0), glm::vec4(glm::vec3(flux), 1)};
+}
+
+TEST(Gather, IsTheSumInDoublePrecision) {
+    test::Random random(11);
+    for (const int n : {0, 1, 2, 63, 300, 2000}) {
+        std::vector<IndirectLight> lights;
+        for (int i = 0; i < n; ++i) {
+            const glm::vec3 at(random(-1, 1), random(-1, 1), random(-1, 1));
+            lights.push_back(light_at(at, direction(random), static_cast<float>(random(0, 1)),
+                                      static_cast<float>(std::exp2(random(-20, 0)))));
+        }
+        std::vector<Receiver> receivers;
+        for (int i = 0; i < 67; ++i)
+            receivers.push_back({glm::vec3(random(-1, 1), random(-1, 1), random(-1, 1)), direction(random)});
+        for (int i = 0; i < std::min(n, 3); ++i)  // and on top of lights
+            receivers.push_back({glm::vec3(lights[i].position), direction(random)});
+        const auto found = test::gather(receivers, lights, {}, 1.0f);
+        for (std::size_t r = 0; r < receivers.size(); ++r) {
+            double sum = 0.0, condition = 0.0;
+            for (const IndirectLight& light : lights) {
+                const glm::dvec3 t = glm::dvec3(light.position) - glm::dvec3(receivers[r].position);
+                const double square = glm::dot(t, t), bound = pi * square + double{light.position.w};
+                condition += double{light.flux.x} / bound;
+                if (square == 0.0) continue;
+                const double receive = std::max(glm::dot(glm::dvec3(receivers[r].normal), t), 0.0);
+                const double send = std::max(-glm::dot(glm::dvec3(light.normal), t), 0.0);
+                sum += double{light.flux.x} * receive * send / (square * bound);
+            }
+            // 16 roundings a term, and one for every doubling of the number of terms: sums of
+            // positive floats in one row grow no faster than that here.
+            const double u = std::exp2(-24), bound = (16 + 4 * std::ceil(std::log2(n + 1))) * u * condition;
+            EXPECT_NEAR(found[r].x, sum, bound) << n << " lights";
+        }
+    }
+}
+
+TEST(Gather, StaysFiniteAndBoundedWhereALightIsTouched) {
+    for (const float area : {1e-3f, 1e-12f})
+        for (const float distance : {0.0f, 1e-23f, 1e-12f, 1e-6f}) {
+            const IndirectLight light = light_at({0, 0, 0}, {0, 0, 1}, 2.0f, area);
+            const auto found = test::gather({{{0, 0, distance}, {0, 0, -1}}}, {light, light, light}, {}, 1.0f);
+            EXPECT_TRUE(std::isfinite(found[0].x)) << distance;
+            EXPECT_GE(found[0].x, 0.0f);
+            EXPECT_LE(found[0].x, 3 * 2.0f / area * (1 + 1e-6f)) << "three radiosities";
+        }
+}
+
+// d^2 overflows at 1e20 and d^4 at 1e10: far away is dark, not NaN.
+TEST(Gather, StaysFiniteFarAway) {
+    for (const float distance : {1e3f, 1e9f, 1e10f, 1e18f, 1e20f, 1e38f}) {
+        const auto found = test::gather({{{0, 0, distance}, {0, 0, -1}}}, {light_at({0, 0, 0}, {0, 0, 1}, 1, 1e-3f)}, {}, 1.0f);
+        EXPECT_TRUE(std::isfinite(found[0].x)) << distance;
+        EXPECT_NEAR(found[0].x, 1.0 / (pi * distance * distance), 1e-6);
+    }
+}
+
+TEST(Gather, IsExactlyZeroBehindAndInThePlane) {
+    const IndirectLight light = light_at({0.3f, 0.7f, 0.0f}, {0, 0, 1}, 1, 1e-3f);
+    test::Random random(3);
+    std::vector<Receiver> receivers;
+    for (int i = 0; i < 100; ++i) {
+        const float x = static_cast<float>(random(-1, 1)), y = static_cast<float>(random(-1, 1));
+        const float z = static_cast<float>(random(1e-6, 1));
+        receivers.push_back({{x, y, -z}, {0, 0, 1}});  // behind the light
+        receivers.push_back({{x, y, z}, {0, 0, 1}});   // with its back to it
+        receivers.push_back({{x, y, 0}, {0, 0, 1}});   // beside it, on the same floor
+    }
+    for (const glm::vec3& irradiance : test::gather(receivers, {light}, {}, 1.0f))
+        EXPECT_EQ(irradiance, glm::vec3(0.0f));
+}
+
+TEST(Gather, TakesNegativeLightsAway) {
+    const std::vector<IndirectLight> some = {light_at({0, 0, 1}, {0, 0, -1}, 3, 1e-3f)};
+    const std::vector<IndirectLight> less = {light_at({0, 0, 1}, {0, 0, -1}, 1, 1e-3f)};
+    const std::vector<Receiver> receiver = {{{0, 0.2f, 0}, {0, 0, 1}}};
+    const float all = test::gather(receiver, some, {}, 1.0f)[0].x;
+    EXPECT_NEAR(test::gather(receiver, some, less, 1.0f)[0].x, all * 2 / 3, 1e-6f);
+    EXPECT_NEAR(test::gather(receiver, {}, less, 1.0f)[0].x, -all / 3, 1e-6f);
+    EXPECT_EQ(test::gather(receiver, some, some, 1.0f)[0].x, 0.0f);
+}
+
+TEST(Gather, IsTheSameForEveryWorkGroupAndPacket) {
+    test::Random random(5);
+    std::vector<IndirectLight> lights;
+    std::vector<Receiver> receivers;
+    for (int i = 0; i < 77; ++i) {
+        lights.push_back(light_at(direction(random), direction(random), 1, 1e-4f));
+        receivers.push_back({0.5f * direction(random), direction(random)});
+    }
+    const auto usual = test::gather(receivers, lights, lights, 1.0f);
+    for (const BuildOptions& build : {BuildOptions{.packet_width = 1}, {.packet_width = 4, .local_size = 7},
+                                      {.packet_width = 8, .local_size = 1}, {.local_size = 256}}) {
+        const ImagePasses passes(test::device().context, test::device().device, build);
+        EXPECT_TRUE(test::same_bits(test::gather(receivers, lights, lights, 1.0f, passes), usual));
+    }
+}
+
+class ImageSize : public testing::TestWithParam<std::pair<int, int>> {};
+
+SecondOrderOptions options_for(std::pair<int, int> size) {
+    SecondOrderOptions options;
+    options.width = size.first;
+    options.height = size.second;
+    options.sources.lights = 60;
+    options.sources.shadow_size = 256;
+    options.negative_lights = 40;
+    return options;
+}
+
+TEST_P(ImageSize, IsFullResolutionBitForBitAtThresholdZero) {
+    const Scene scene = cornell({.lamp = Lamp::spot});
+    SecondOrderOptions options = options_for(GetParam());
+    options.discontinuity_threshold = 0.0f;
+    const test::Frame zero = test::render(scene, scene.cameras[0], options);
+    options.discontinuity_threshold = 1e-30f;  // through every pass: no pixel matches its points so well
+    const test::Frame almost = test::render(scene, scene.cameras[0], options);
+    options.low_resolution = false;
+    const test::Frame full = test::render(scene, scene.cameras[0], options);
+    EXPECT_TRUE(test::same_bits(zero.radiance, full.radiance));
+    EXPECT_TRUE(test::same_bits(almost.radiance, full.radiance));
+    EXPECT_EQ(zero.status.refined_pixels, full.pixels);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, ImageSize,
+                         testing::Values(std::pair(1, 1), std::pair(3, 5), std::pair(2, 2),
+                                         std::pair(33, 20), std::pair(641, 479)));
+
+TEST(LowResolution, ErrsMoreTheHigherItsThreshold) {
+    const Scene scene = cornell({.lamp = Lamp::spot});
+    SecondOrderOptions options = options_for({121, 93});
+    options.direct = false;
+    options.discontinuity_threshold = 0.0f;
+    const test::Frame full = test::render(scene, scene.cameras[0], options);
+    double before = 0.0;
+    std::size_t refined = full.pixels;
+    for (const float threshold : {0.002f, 0.02f, 0.2f, 1.0f, std::numeric_limits<float>::infinity()}) {
+        options.discontinuity_threshold = threshold;
+        const test::Frame frame = test::render(scene, scene.cameras[0], options);
+        double square = 0.0;
+        for (std::size_t p = 0; p < frame.pixels; ++p)
+            square += std::pow(frame.radiance[p].x - full.radiance[p].x, 2);
+        // A pixel interpolated more is an error more: the same pixels err at higher thresholds.
+        EXPECT_GE(square, before) << threshold;
+        EXPECT_LE(frame.status.refined_pixels, refined) << threshold;
+        before = square;
+        refined = frame.status.refined_pixels;
+    }
+    EXPECT_GT(before, 0.0);
+    EXPECT_EQ(refined, 0u);
+}
+
+TEST(Tonemap, EncodesAsTheStandardSays) {
+    const std::uint32_t count = 1000, stride = 1008;
+    std::vector<float> radiance(RADIANCE_PLANES * stride);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        radiance[i] = static_cast<float>(i) / count;
+        radiance[stride + i] = 1e-6f * static_cast<float>(i * i);
+        radiance[2 * stride + i] = static_cast<float>(i) - 500.0f;
+    }
+    const cl::Buffer preview = test::empty<cl_uint>(count);
+    const float exposure = 0.7f;
+    test::image_passes().tonemap(test::device().queue, {count, 1, stride, exposure}, test::upload(radiance), preview);
+    const auto words = test::download<cl_uint>(preview, count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double linear = std::min(std::max(double{radiance[c * stride + i] * exposure}, 0.0), 1.0);
+            const double s = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+            // The nearest byte; where it is all but a tie, either.
+            EXPECT_NEAR(words[i] >> (8 * c) & 255, 255 * s, 0.5 + 1e-3) << i;
+        }
+        EXPECT_EQ(words[i] >> 24, 255u);
+    }
+}
+
+TEST(Tonemap, TakesWhateverItIsGiven) {
+    const float hard[] = {std::numeric_limits<float>::infinity(), std::nanf(""), -1.0f, 1e38f, 1e-45f, 0.0f};
+    std::vector<float> radiance(RADIANCE_PLANES * 16);
+    for (std::size_t i = 0; i < std::size(hard); ++i) radiance[i] = hard[i];
+    const cl::Buffer preview = test::empty<cl_uint>(std::size(hard));
+    test::image_passes().tonemap(test::device().queue, {std::size(hard), 1, 16, 1.0f}, test::upload(radiance), preview);
+    const auto words = test::download<cl_uint>(preview, std::size(hard));
+    EXPECT_EQ(words[0] & 255, 255u);
+    EXPECT_EQ(words[2] & 255, 0u);
+    EXPECT_EQ(words[3] & 255, 255u);
+    EXPECT_EQ(words[4] & 255, 0u);
+    EXPECT_EQ(words[5] & 255, 0u);
+}
+
+}  // namespace
+}  // namespace clgi

@@ -1,0 +1,181 @@
+// What must not change a picture: where the scene is, how large, how bright, and how it is computed.
+// SPDX-License-Identifier: MIT
+#include <clgi/procedural.hpp>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "frames.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+using test::Frame;
+
+SecondOrderOptions small_frame() {
+    SecondOrderOptions options;
+    options.width = 47;
+    options.height = 35;
+    options.sources.lights = 100;
+    options.sources.shadow_size = 128;
+    options.sources.face_size = 64;
+    options.negative_lights = 50;
+    return options;
+}
+
+// Every corner on a multiple of 2^-4, so that the scene can be moved far away without rounding.
+Scene table(Light::Kind kind) {
+    Scene scene = test::plain_scene();
+    scene.materials[0].roughness = 0.5f;  // with a lobe
+    test::add_box(scene, {-1, -1, -1}, {1, 1, 1}, -1);
+    test::add_box(scene, {-0.5, -0.5, -0.5}, {0.5, -0.375, 0.25}, 1);
+    test::add_box(scene, {-0.25, 0.125, -0.5}, {0.5, 0.375, -0.0625}, 1);
+    const glm::dvec3 lamp(0.25, 0.875, 0.5);
+    if (kind == Light::Kind::spot)
+        scene.lights = {test::spot_light(lamp, {-0.25f, -1, -0.5f}, 0.6)};
+    else if (kind == Light::Kind::point)
+        scene.lights = {test::point_light(lamp)};
+    else
+        scene.lights = {test::directional_light({0.25f, -1, -0.5f})};
+    scene.cameras = {test::camera_at({0, 0.125, 0.9375}, {0, -0.3, -1}, 1.1f)};
+    return scene;
+}
+
+constexpr Light::Kind kinds[] = {Light::Kind::spot, Light::Kind::point, Light::Kind::directional};
+
+Frame render(const Scene& scene, const SecondOrderOptions& options = small_frame()) {
+    return test::render(scene, scene.cameras[0], options);
+}
+
+TEST(Picture, IsTheSameAtEveryPowerOfTwoInSize) {
+    for (const Light::Kind kind : kinds) {
+        const Scene scene = table(kind);
+        const Frame usual = render(scene);
+        ASSERT_GT(usual.radiance[usual.pixels / 2].x, 0.0f);
+        for (int k = -13; k <= 20; k += 3) {
+            Scene scaled = scene;
+            const double size = std::ldexp(1.0, k);
+            for (glm::dvec3& position : scaled.positions) position *= size;
+            scaled.cameras[0].position *= size;
+            scaled.lights[0].position *= size;
+            // Candela over metres squared: four times the light at twice the distance.
+            if (kind != Light::Kind::directional) scaled.lights[0].intensity *= static_cast<float>(size * size);
+            EXPECT_TRUE(test::same_bits(render(scaled).radiance, usual.radiance)) << k;
+        }
+    }
+}
+
+TEST(Picture, IsTheSameFarFromTheOrigin) {
+    for (const Light::Kind kind : kinds) {
+        const Scene scene = table(kind);
+        const Frame usual = render(scene);
+        for (const glm::dvec3& offset : {glm::dvec3(1e5, 0, 0), glm::dvec3(1e6, -1e6, 1e5), glm::dvec3(0.0625, -1e6, 3)}) {
+            Scene moved = scene;
+            for (glm::dvec3& position : moved.positions) position += offset;
+            moved.cameras[0].position += offset;
+            moved.lights[0].position += offset;
+            EXPECT_TRUE(test::same_bits(render(moved).radiance, usual.radiance)) << offset.x;
+        }
+    }
+}
+
+TEST(Picture, IsProportionalToItsLight) {
+    for (const Light::Kind kind : kinds) {
+        const Scene scene = table(kind);
+        const Frame usual = render(scene);
+        for (int k = -66; k <= 66; k += 12) {
+            Scene brighter = scene;
+            brighter.lights[0].intensity *= std::ldexp(1.0f, k);
+            Frame frame = render(brighter);
+            for (glm::vec3& radiance : frame.radiance) radiance *= std::ldexp(1.0f, -k);
+            EXPECT_TRUE(test::same_bits(frame.radiance, usual.radiance)) << k;
+        }
+    }
+}
+
+// The exposure follows the brightest light: beside 1e20 cd one of 1e-20 is nothing, and does no harm.
+TEST(Picture, StaysFiniteWithLightsOfAllPowers) {
+    Scene scene = table(Light::Kind::point);
+    scene.lights[0].intensity = glm::vec3(1e20f);
+    scene.lights.push_back(test::point_light({-0.25, 0.5, 0.5}, 1e-20f));
+    const Frame frame = render(scene);
+    EXPECT_EQ(frame.status.non_finite, 0u);
+    for (const glm::vec3& radiance : frame.radiance) EXPECT_TRUE(std::isfinite(radiance.x) && radiance.x >= 0.0f);
+}
+
+TEST(Picture, OfTwoLightsIsTheSumOfTwoPictures) {
+    Scene both = table(Light::Kind::point);
+    both.lights.push_back(test::point_light({-0.5, 0.75, 0.25}));
+    SecondOrderOptions options = small_frame();
+    options.low_resolution = false;
+    options.negative_lights = 0;  // their directions depend on all lights together
+    options.sources.lights = 200;
+    const Frame sum = render(both, options);
+    options.sources.lights = 100;
+    Scene first = both, second = both;
+    first.lights.pop_back();
+    second.lights.erase(second.lights.begin());
+    const Frame a = render(first, options), b = render(second, options);
+    for (std::size_t p = 0; p < sum.pixels; ++p)  // a hundred additions in another order
+        EXPECT_NEAR(sum.radiance[p].x, a.radiance[p].x + b.radiance[p].x, 1e-5f * sum.radiance[p].x);
+}
+
+TEST(Picture, IsTheSameEveryTime) {
+    const Scene scene = table(Light::Kind::spot);
+    const DeviceScene placed = test::on_device(scene);
+    SecondOrderSolver solver(test::device().queue, placed, small_frame());
+    solver.render(scene.cameras[0]).wait();
+    const Frame first = test::read_frame(test::device().queue, placed, solver);
+    for (int run = 0; run < 20; ++run) {
+        solver.render(scene.cameras[0]).wait();
+        EXPECT_TRUE(test::same_bits(test::read_frame(test::device().queue, placed, solver).radiance, first.radiance));
+    }
+}
+
+TEST(Picture, IsTheSameOnAQueueOutOfOrder) {
+    const test::Device& on = test::device();
+    if (!(on.device.getInfo<CL_DEVICE_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE))
+        GTEST_SKIP() << "the device has no such queue";
+    const cl::CommandQueue queue(on.context, on.device, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
+    for (const Light::Kind kind : kinds) {
+        const Scene scene = table(kind);
+        EXPECT_TRUE(test::same_bits(test::render(scene, scene.cameras[0], small_frame(), queue).radiance,
+                                    render(scene).radiance));
+    }
+}
+
+TEST(Picture, IsTheSameForEveryWorkGroupAndPacket) {
+    const Scene scene = table(Light::Kind::spot);
+    const Frame usual = render(scene);
+    for (const BuildOptions& build :
+         {BuildOptions{.packet_width = 1}, {.packet_width = 4}, {.packet_width = 8}, {.local_size = 1},
+          {.local_size = 7}, {.local_size = 64}, {.local_size = 256}, {.atomics64 = false}}) {
+        SecondOrderOptions options = small_frame();
+        options.build = build;
+        const Frame other = render(scene, options);
+        EXPECT_TRUE(test::same_bits(other.radiance, usual.radiance))
+            << "width " << build.packet_width << ", group " << build.local_size;
+        EXPECT_TRUE(test::same_bits(other.lights, usual.lights));
+    }
+}
+
+// Fast math may round otherwise and may decide otherwise about single pixels, no more.
+TEST(Picture, IsNearlyTheSameWithFastMath) {
+    for (const Light::Kind kind : kinds) {
+        const Scene scene = table(kind);
+        SecondOrderOptions options = small_frame();
+        const Frame strict = render(scene);
+        options.build.math = Math::fast;
+        const Frame fast = render(scene, options);
+        double difference = 0.0, sum = 0.0;
+        for (std::size_t p = 0; p < strict.pixels; ++p) {
+            ASSERT_TRUE(std::isfinite(fast.radiance[p].x) && fast.radiance[p].x >= 0.0f);
+            difference += std::abs(fast.radiance[p].x - strict.radiance[p].x);
+            sum += strict.radiance[p].x;
+        }
+        EXPECT_LT(difference, 0.002 * sum);
+    }
+}
+
+}  // namespace
+}  // namespace clgi

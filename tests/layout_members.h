@@ -1,0 +1,58 @@
+// Every struct that host and device share, member by member, for both compilers.
+// SIZE(struct), MEMBER(struct, member)
+// SPDX-License-Identifier: MIT
+#define CLGI_LAYOUT(SIZE, MEMBER)                                                               \
+    SIZE(View) MEMBER(View, eye) MEMBER(View, right) MEMBER(View, up) MEMBER(View, forward)     \
+    MEMBER(View, window) MEMBER(View, width) MEMBER(View, height) MEMBER(View, first_pixel)     \
+    MEMBER(View, flags)                                                                         \
+    SIZE(ScreenVertex) MEMBER(ScreenVertex, x) MEMBER(ScreenVertex, y)                          \
+    MEMBER(ScreenVertex, closeness) MEMBER(ScreenVertex, outside)                               \
+    SIZE(RasterPolygon) MEMBER(RasterPolygon, x) MEMBER(RasterPolygon, y)                       \
+    MEMBER(RasterPolygon, closeness) MEMBER(RasterPolygon, slope_x)                             \
+    MEMBER(RasterPolygon, slope_y) MEMBER(RasterPolygon, closest)                               \
+    MEMBER(RasterPolygon, farthest) MEMBER(RasterPolygon, origin_x)                             \
+    MEMBER(RasterPolygon, origin_y) MEMBER(RasterPolygon, triangle) MEMBER(RasterPolygon, left) \
+    MEMBER(RasterPolygon, top) MEMBER(RasterPolygon, right) MEMBER(RasterPolygon, bottom)       \
+    MEMBER(RasterPolygon, count) MEMBER(RasterPolygon, material) MEMBER(RasterPolygon, pad0_)   \
+    MEMBER(RasterPolygon, pad1_)                                                                \
+    SIZE(RasterParams) MEMBER(RasterParams, triangle_count) MEMBER(RasterParams, stage)         \
+    MEMBER(RasterParams, small_size) MEMBER(RasterParams, pad_)                                 \
+    SIZE(ResolveParams) MEMBER(ResolveParams, stride) MEMBER(ResolveParams, write)              \
+    MEMBER(ResolveParams, pad0_) MEMBER(ResolveParams, pad1_)                                   \
+    SIZE(DownsampleParams) MEMBER(DownsampleParams, width) MEMBER(DownsampleParams, height)     \
+    MEMBER(DownsampleParams, stride) MEMBER(DownsampleParams, low_stride)                       \
+    SIZE(Emitter) MEMBER(Emitter, position) MEMBER(Emitter, axis) MEMBER(Emitter, right)        \
+    MEMBER(Emitter, intensity) MEMBER(Emitter, range) MEMBER(Emitter, measure)                  \
+    MEMBER(Emitter, area) MEMBER(Emitter, kind) MEMBER(Emitter, first_view)                     \
+    MEMBER(Emitter, view_count) MEMBER(Emitter, first_light) MEMBER(Emitter, light_count)       \
+    SIZE(IndirectLight) MEMBER(IndirectLight, position) MEMBER(IndirectLight, normal)           \
+    MEMBER(IndirectLight, flux)                                                                 \
+    SIZE(AcceptParams) MEMBER(AcceptParams, emitter) MEMBER(AcceptParams, candidate_count)      \
+    MEMBER(AcceptParams, pad0_) MEMBER(AcceptParams, pad1_)                                     \
+    SIZE(FetchParams) MEMBER(FetchParams, light_count) MEMBER(FetchParams, emitter_count)       \
+    MEMBER(FetchParams, scale) MEMBER(FetchParams, pad_)                                        \
+    SIZE(NegativeParams) MEMBER(NegativeParams, light_count)                                    \
+    MEMBER(NegativeParams, negative_count) MEMBER(NegativeParams, stride)                       \
+    MEMBER(NegativeParams, back_facing)                                                         \
+    SIZE(GatherParams) MEMBER(GatherParams, stride) MEMBER(GatherParams, light_count)           \
+    MEMBER(GatherParams, negative_count) MEMBER(GatherParams, footprint)                        \
+    SIZE(RefineParams) MEMBER(RefineParams, width) MEMBER(RefineParams, height)                 \
+    MEMBER(RefineParams, stride) MEMBER(RefineParams, low_stride)                               \
+    MEMBER(RefineParams, threshold) MEMBER(RefineParams, position_scale)                        \
+    MEMBER(RefineParams, pad0_) MEMBER(RefineParams, pad1_)                                     \
+    SIZE(CombineParams) MEMBER(CombineParams, width) MEMBER(CombineParams, height)              \
+    MEMBER(CombineParams, stride) MEMBER(CombineParams, emitter_count)                          \
+    MEMBER(CombineParams, exposure) MEMBER(CombineParams, texel_bias)                           \
+    MEMBER(CombineParams, effects) MEMBER(CombineParams, pad_)                                  \
+    SIZE(TonemapParams) MEMBER(TonemapParams, width) MEMBER(TonemapParams, height)              \
+    MEMBER(TonemapParams, stride) MEMBER(TonemapParams, exposure)                               \
+    SIZE(MaterialRecord) MEMBER(MaterialRecord, base_color) MEMBER(MaterialRecord, emission)    \
+    MEMBER(MaterialRecord, reflectance) MEMBER(MaterialRecord, base_texture)                    \
+    MEMBER(MaterialRecord, base_uv_set) MEMBER(MaterialRecord, emission_texture)                \
+    MEMBER(MaterialRecord, emission_uv_set) MEMBER(MaterialRecord, base_u)                      \
+    MEMBER(MaterialRecord, base_v) MEMBER(MaterialRecord, emission_u)                           \
+    MEMBER(MaterialRecord, emission_v)                                                          \
+    SIZE(TextureRecord) MEMBER(TextureRecord, first_texel) MEMBER(TextureRecord, width)         \
+    MEMBER(TextureRecord, height) MEMBER(TextureRecord, flags)                                  \
+    SIZE(SceneInfo) MEMBER(SceneInfo, vertex_count) MEMBER(SceneInfo, triangle_count)           \
+    MEMBER(SceneInfo, flags) MEMBER(SceneInfo, pad_)

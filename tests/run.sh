@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# From a fresh clone to tested: installs packages, builds, runs every test.
+#
+#   tests/run.sh [cmake options]     for example -DCLGI_WERROR=ON
+#
+# Ends with ctest's summary and its exit code. A run without a test on an OpenCL device fails.
+# SPDX-License-Identifier: MIT
+set -euo pipefail
+# shellcheck source-path=SCRIPTDIR source=../cmake/setup.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/../cmake/setup.sh"
+
+build=$clgi_root/build
+clgi_install_packages
+clgi_configure "$build" -DCLGI_TESTS=ON "$@"
+clgi_build "$build"
+
+# Tests that use the device wait for each other (tests/CMakeLists.txt); others run beside them.
+cd "$build"
+log=$build/ctest.log
+ctest --output-on-failure --no-tests=error --parallel 2 2>&1 | tee "$log"
+
+on_device=$(ctest -N --label-regex '^device$' | sed -n 's/^ *Test *#[0-9]*: //p')
+for test in $on_device; do
+    grep -Eq "Test +#[0-9]+: $test \.+ +Passed" "$log" && exit 0
+done
+echo "tests: error: no test ran on an OpenCL device" >&2
+exit 1
