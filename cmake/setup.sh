@@ -8,7 +8,7 @@ clgi_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 clgi_packages=(
     g++ cmake ninja-build pkg-config                                             # build
     ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers libglm-dev            # clgi::clgi
-    libopenexr-dev libpng-dev libtinygltf-dev nlohmann-json3-dev libstb-dev      # clgi::io
+    libopenexr-dev libpng-dev nlohmann-json3-dev libstb-dev      # clgi::io
     libcli11-dev libfmt-dev                                                      # the program
     pocl-opencl-icd                                                              # OpenCL on CPUs
     libgtest-dev oclgrind                                                        # tests

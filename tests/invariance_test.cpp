@@ -31,12 +31,14 @@ Scene table(Light::Kind kind) {
     test::add_box(scene, {-0.5, -0.5, -0.5}, {0.5, -0.375, 0.25}, 1);
     test::add_box(scene, {-0.25, 0.125, -0.5}, {0.5, 0.375, -0.0625}, 1);
     const glm::dvec3 lamp(0.25, 0.875, 0.5);
-    if (kind == Light::Kind::spot)
+    if (kind == Light::Kind::spot) {
         scene.lights = {test::spot_light(lamp, {-0.25f, -1, -0.5f}, 0.6)};
-    else if (kind == Light::Kind::point)
+    } else if (kind == Light::Kind::point) {
         scene.lights = {test::point_light(lamp)};
-    else
+    } else {
+        scene.triangles.erase(scene.triangles.begin() + 6, scene.triangles.begin() + 8);  // the ceiling
         scene.lights = {test::directional_light({0.25f, -1, -0.5f})};
+    }
     scene.cameras = {test::camera_at({0, 0.125, 0.9375}, {0, -0.3, -1}, 1.1f)};
     return scene;
 }
@@ -52,7 +54,7 @@ TEST(Picture, IsTheSameAtEveryPowerOfTwoInSize) {
         const Scene scene = table(kind);
         const Frame usual = render(scene);
         ASSERT_GT(usual.radiance[usual.pixels / 2].x, 0.0f);
-        for (int k = -13; k <= 20; k += 3) {
+        for (const int k : {-13, -1, 20}) {
             Scene scaled = scene;
             const double size = std::ldexp(1.0, k);
             for (glm::dvec3& position : scaled.positions) position *= size;
@@ -83,7 +85,7 @@ TEST(Picture, IsProportionalToItsLight) {
     for (const Light::Kind kind : kinds) {
         const Scene scene = table(kind);
         const Frame usual = render(scene);
-        for (int k = -66; k <= 66; k += 12) {
+        for (const int k : {-66, 1, 66}) {
             Scene brighter = scene;
             brighter.lights[0].intensity *= std::ldexp(1.0f, k);
             Frame frame = render(brighter);

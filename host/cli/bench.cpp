@@ -32,9 +32,9 @@ void print_json(const report::BenchTable& table) {
                                   {"gather_fraction", table.gather_fraction},
                                   {"rows", nlohmann::ordered_json::array()}};
     for (const report::BenchRow& row : table.rows) {
-        nlohmann::ordered_json item = {{"name", row.name},   {"paper", row.paper},
-                                       {"clgi", row.clgi},   {"ratio", row.ratio},
-                                       {"error", nullptr},   {"unit", row.unit}};
+        nlohmann::ordered_json item = {{"name", row.name}, {"paper", row.paper},
+                                       {"clgi", row.clgi}, {"ratio", row.ratio},
+                                       {"error", nullptr}, {"unit", row.unit}};
         if (row.error) item["error"] = *row.error;
         if (row.paper_error) item["paper_error"] = *row.paper_error;
         if (row.low_res_share) item["low_res_share"] = *row.low_res_share;
@@ -63,6 +63,7 @@ void run_bench(const BenchFlags& flags) {
     setup.queue = session.queue;
     setup.scene = flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh));
     setup.repeats = flags.repeats;
+    setup.math = math_of(flags.device);
     catch_interrupts();
     const auto bar = progress_bar(flags.table, flags.device.quiet);
     setup.progress = [&](double done) {

@@ -9,7 +9,7 @@
 namespace clgi::cli {
 namespace {
 
-// Nine in ten of the pixels that are not black stay below white.
+// All but three in a hundred of the pixels that are not black stay below white.
 float exposure_of(const std::vector<float>& radiance, std::size_t pixels, std::size_t stride) {
     std::vector<float> luminance;
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -18,9 +18,9 @@ float exposure_of(const std::vector<float>& radiance, std::size_t pixels, std::s
         if (y > 0.0f) luminance.push_back(y);
     }
     if (luminance.empty()) return 1.0f;
-    const auto ninth = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() * 9 / 10);
-    std::nth_element(luminance.begin(), ninth, luminance.end());
-    return 1.0f / *ninth;
+    const auto white = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() * 97 / 100);
+    std::nth_element(luminance.begin(), white, luminance.end());
+    return 1.0f / *white;
 }
 
 }  // namespace
@@ -41,14 +41,14 @@ void save_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver
         image.attributes = {{"clgi:quantity", "radiance"}, {"clgi:unit", "cd/m^2"}};
         for (int c = 0; c < 3; ++c) {
             const auto first = radiance.begin() + static_cast<std::ptrdiff_t>(c * stride);
-            image.channels.push_back({std::string(1, "RGB"[c]),
-                                      {first, first + static_cast<std::ptrdiff_t>(pixels)}});
+            image.channels.push_back(
+                {std::string(1, "RGB"[c]), {first, first + static_cast<std::ptrdiff_t>(pixels)}});
         }
         io::save_exr(image, flags.exr, flags.full ? io::Storage::full : io::Storage::half);
     }
     if (!flags.png.empty()) {
-        const float exposure = flags.exposure ? std::exp2(*flags.exposure)
-                                              : exposure_of(radiance, pixels, stride);
+        const float exposure =
+            flags.exposure ? std::exp2(*flags.exposure) : exposure_of(radiance, pixels, stride);
         const cl::Context context = queue.getInfo<CL_QUEUE_CONTEXT>();
         cl::Buffer preview(context, CL_MEM_READ_WRITE, 4 * pixels);
         const TonemapParams params{static_cast<std::uint32_t>(width),

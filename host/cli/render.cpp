@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <clgi/clgi.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
 
@@ -40,8 +40,8 @@ void parse_size(const std::string& text, SecondOrderOptions& options) {
     if (std::sscanf(text.c_str(), "%dx%d%n", &options.width, &options.height, &used) != 2 ||
         used != static_cast<int>(text.size()) || options.width < 1 || options.height < 1 ||
         options.width > 16384 || options.height > 16384)
-        throw Error(fmt::format("render: --size is '{}', WIDTHxHEIGHT from 1x1 to 16384x16384 needed",
-                                text));
+        throw Error(fmt::format(
+            "render: --size is '{}', WIDTHxHEIGHT from 1x1 to 16384x16384 needed", text));
 }
 
 void parse_low_res(const std::string& text, SecondOrderOptions& options) {
@@ -58,8 +58,8 @@ void parse_low_res(const std::string& text, SecondOrderOptions& options) {
         used = 0;
     }
     if (used != text.size() || !(value >= 0.0f))
-        throw Error(fmt::format("render: --low-res is '{}', off or a threshold of at least 0 needed",
-                                text));
+        throw Error(fmt::format(
+            "render: --low-res is '{}', off or a threshold of at least 0 needed", text));
     options.discontinuity_threshold = value;
 }
 
@@ -118,14 +118,13 @@ void run_render(RenderFlags flags) {
     DeviceScene device_scene(session.context, session.device, scene);
     SecondOrderSolver solver(session.queue, device_scene, flags.options);
     RenderRecord record;
-    record.build_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() -
-                                                                build_start)
-                          .count();
+    record.build_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - build_start)
+            .count();
 
     catch_interrupts();
     const auto bar = progress_bar("render", flags.device.quiet);
-    // The first frame also compiles what the driver left for later: it warms up, and is not timed
-    // unless it is the only one.
+    // The first frame also compiles what the driver left for later: it warms up and is not timed.
     if (!solver.run(camera, [&](double done) { return bar(done); })) throw Interrupted();
     const Bounds box = bounds(scene);
     const glm::dvec3 centre = 0.5 * (box.low + box.high);
@@ -148,12 +147,13 @@ void run_render(RenderFlags flags) {
                                   record.status.non_finite));
     if (!flags.device.quiet) {
         const report::Spread times = report::spread(record.frame_ms);
-        fmt::print("{} {}: {:.1f} ms a frame ({} frames, {} indirect and {} negative lights, {} "
-                   "triangles)\n",
-                   flags.picture.exr, flags.picture.png, times.median, record.frame_ms.size(),
-                   solver.sources().light_count,
-                   flags.options.indirect ? flags.options.negative_lights : 0,
-                   scene.triangles.size());
+        const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
+        fmt::print(
+            "{}{}{}: {:.1f} ms a frame ({} frames, {} indirect and {} negative lights, {} "
+            "triangles)\n",
+            flags.picture.exr, both ? ", " : "", flags.picture.png, times.median,
+            record.frame_ms.size(), solver.sources().light_count,
+            flags.options.indirect ? flags.options.negative_lights : 0, scene.triangles.size());
     }
     if (!flags.stats.empty()) {
         record.device = session.device;
@@ -173,7 +173,9 @@ void add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Render a glTF scene");
     const auto flags = std::make_shared<RenderFlags>();
     SecondOrderOptions& options = flags->options;
-    command->add_option("scene", flags->scene, ".gltf or .glb file")->required()->type_name("SCENE");
+    command->add_option("scene", flags->scene, ".gltf or .glb file")
+        ->required()
+        ->type_name("SCENE");
     command->add_option("-o,--output", flags->picture.exr, "EXR: radiance in cd/m^2");
     command->add_option("--png", flags->picture.png, "8-bit preview");
     command->add_option("--exposure", flags->picture.exposure,
@@ -190,14 +192,17 @@ void add_render(CLI::App& app) {
     command->add_option("--negative-vpls", options.negative_lights, "Negative indirect lights")
         ->check(CLI::Range(0, 1 << 20));
     command->add_option("--low-res", flags->low_res, "off, or the discontinuity threshold");
-    command->add_option("--shadow-size", options.sources.shadow_size,
-                        "Pixels of a spot's or directional light's image")
+    command
+        ->add_option("--shadow-size", options.sources.shadow_size,
+                     "Pixels of a spot's or directional light's image")
         ->check(CLI::Range(1, 8192));
-    command->add_option("--face-size", options.sources.face_size,
-                        "Pixels of a cube face, for point and area lights")
+    command
+        ->add_option("--face-size", options.sources.face_size,
+                     "Pixels of a cube face, for point and area lights")
         ->check(CLI::Range(1, 4096));
-    command->add_option("--area-samples", options.sources.area_samples,
-                        "Points that stand for all emissive surfaces")
+    command
+        ->add_option("--area-samples", options.sources.area_samples,
+                     "Points that stand for all emissive surfaces")
         ->check(CLI::Range(0, 4096));
     command->add_flag("--no-direct", flags->no_direct, "Leave direct light out of the picture");
     command->add_option("--frames", flags->frames, "Frames to render and time; the last is kept")

@@ -26,8 +26,9 @@ void need_stride(const PassKernel& pass, const char* name, std::size_t stride, s
 
 void need_textures(const PassKernel& pass, const DeviceScene& scene, bool built) {
     if (scene.needs_textures() && !built)
-        throw Error(pass.name + ": the scene has textures or alpha masks, the kernels were built "
-                                "without (BuildOptions::textures)");
+        throw Error(pass.name +
+                    ": the scene has textures or alpha masks, the kernels were built "
+                    "without (BuildOptions::textures)");
 }
 
 }  // namespace
@@ -79,10 +80,10 @@ cl::Event GBufferPasses::raster(const cl::CommandQueue& queue, const View& view,
     need(raster_, "polygons", buffers.polygons, info.triangle_count * sizeof(RasterPolygon));
     need(raster_, "polygon_count", buffers.polygon_count, sizeof(std::uint32_t));
     const RasterParams params{info.triangle_count, stage, small_triangle, 0};
-    const std::size_t batches = (packets(raster_, info.triangle_count) + RASTER_BATCH - 1) / RASTER_BATCH;
-    return launch(raster_, queue, batches, wait, view, params, scene.triangles(),
-                  buffers.vertices, scene.positions(), buffers.visibility, buffers.polygons,
-                  buffers.polygon_count);
+    const std::size_t batches =
+        (packets(raster_, info.triangle_count) + RASTER_BATCH - 1) / RASTER_BATCH;
+    return launch(raster_, queue, batches, wait, view, params, scene.triangles(), buffers.vertices,
+                  scene.positions(), buffers.visibility, buffers.polygons, buffers.polygon_count);
 }
 
 cl::Event GBufferPasses::raster_large(const cl::CommandQueue& queue, const View& view,
@@ -90,6 +91,8 @@ cl::Event GBufferPasses::raster_large(const cl::CommandQueue& queue, const View&
                                       const WaitList& wait) const {
     need_textures(raster_large_, scene, textures_);
     need_visibility(raster_large_, view, buffers.visibility);
+    need(raster_large_, "polygons", buffers.polygons,
+         scene.info().triangle_count * sizeof(RasterPolygon));
     need(raster_large_, "polygon_count", buffers.polygon_count, sizeof(std::uint32_t));
     const std::size_t across = (view.width + RASTER_TILE - 1) / RASTER_TILE;
     const std::size_t down = (view.height + RASTER_TILE - 1) / RASTER_TILE;

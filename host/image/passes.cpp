@@ -18,6 +18,21 @@ std::size_t pixels_of(const RefineParams& params) {
     return static_cast<std::size_t>(params.width) * params.height;
 }
 
+// Planes are read and written in whole packets, so a row of them must hold the last one.
+void need_stride(const PassKernel& pass, const char* name, std::size_t stride, std::size_t points) {
+    if (stride < points || stride % 16 != 0)
+        throw Error(pass.name + ": " + name + " is " + std::to_string(stride) +
+                    ", a multiple of 16 of at least " + std::to_string(points) + " needed");
+}
+
+void need_strides(const PassKernel& pass, const RefineParams& params) {
+    const std::size_t low =
+        static_cast<std::size_t>((params.width + 1) / 2) * ((params.height + 1) / 2);
+    need_stride(pass, "stride", params.stride,
+                static_cast<std::size_t>(params.width) * params.height);
+    need_stride(pass, "low_stride", params.low_stride, low);
+}
+
 std::size_t plane_bytes(std::size_t planes, std::size_t stride) {
     return planes * stride * sizeof(float);
 }
@@ -26,10 +41,9 @@ std::size_t plane_bytes(std::size_t planes, std::size_t stride) {
 
 ImagePasses::ImagePasses(const cl::Context& context, const cl::Device& device,
                          const BuildOptions& options) {
-    auto kernels = build_room(context, device, "image",
-                              {"gather", "count", "compact", "upsample", "place",
-                               "combine", "tonemap"},
-                              options);
+    auto kernels = build_room(
+        context, device, "image",
+        {"gather", "count", "compact", "upsample", "place", "combine", "tonemap"}, options);
     gather_ = kernels[0];
     count_ = kernels[1];
     compact_ = kernels[2];
@@ -46,15 +60,12 @@ cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams&
                               const cl::Buffer& points, const cl::Buffer& lights,
                               const cl::Buffer& negative, const cl::Buffer& irradiance,
                               const WaitList& wait) const {
-    if (params.stride < most || params.stride % 16 != 0)
-        throw Error("image.gather: stride is " + std::to_string(params.stride) +
-                    ", a multiple of 16 of at least " + std::to_string(most) + " needed");
+    need_stride(gather_, "stride", params.stride, most);
     need(gather_, "point_count", point_count, sizeof(std::uint32_t));
     need(gather_, "points", points, plane_bytes(POINT_PLANES, params.stride));
     need(gather_, "lights", lights, params.light_count * sizeof(IndirectLight));
     need(gather_, "negative", negative, params.negative_count * sizeof(IndirectLight));
-    need(gather_, "irradiance", irradiance,
-         plane_bytes(IRRADIANCE_PLANES, params.stride));
+    need(gather_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
     return launch(gather_, queue, packets(gather_, most), wait, params, point_count, points, lights,
                   negative, irradiance);
 }
@@ -73,6 +84,7 @@ cl::Event ImagePasses::compact(const cl::CommandQueue& queue, const RefineParams
                                const cl::Buffer& points, const cl::Buffer& point_count,
                                const WaitList& wait) const {
     const std::size_t pixels = pixels_of(params);
+    need_stride(compact_, "stride", params.stride, pixels);
     need(compact_, "flags", flags, pixels);
     need(compact_, "counts", counts, blocks(pixels) * sizeof(std::uint32_t));
     need(compact_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
@@ -87,6 +99,7 @@ cl::Event ImagePasses::upsample(const cl::CommandQueue& queue, const RefineParam
                                 const cl::Buffer& planes, const cl::Buffer& points,
                                 const cl::Buffer& low, const cl::Buffer& irradiance,
                                 const cl::Buffer& flags, const WaitList& wait) const {
+    need_strides(upsample_, params);
     need(upsample_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
     need(upsample_, "points", points, plane_bytes(POINT_PLANES, params.low_stride));
     need(upsample_, "low", low, plane_bytes(IRRADIANCE_PLANES, params.low_stride));
@@ -100,6 +113,7 @@ cl::Event ImagePasses::place(const cl::CommandQueue& queue, const RefineParams& 
                              const cl::Buffer& point_count, const cl::Buffer& listed,
                              const cl::Buffer& refined, const cl::Buffer& irradiance,
                              const WaitList& wait) const {
+    need_stride(place_, "stride", params.stride, pixels_of(params));
     need(place_, "point_count", point_count, sizeof(std::uint32_t));
     need(place_, "listed", listed, plane_bytes(1, params.stride));
     need(place_, "refined", refined, plane_bytes(IRRADIANCE_PLANES, params.stride));
@@ -115,15 +129,18 @@ cl::Event ImagePasses::combine(const cl::CommandQueue& queue, const CombineParam
                                const cl::Buffer& radiance, const cl::Buffer& non_finite,
                                const WaitList& wait) const {
     const std::size_t pixels = static_cast<std::size_t>(params.width) * params.height;
-    if (params.stride < pixels || params.stride % 16 != 0)
-        throw Error("image.combine: stride is " + std::to_string(params.stride) +
-                    ", a multiple of 16 of at least " + std::to_string(pixels) + " needed");
+    need_stride(combine_, "stride", params.stride, pixels);
+    if (view.width != params.width || view.height != params.height)
+        throw Error("image.combine: the view is " + std::to_string(view.width) + "x" +
+                    std::to_string(view.height) + ", " + std::to_string(params.width) + "x" +
+                    std::to_string(params.height) + " needed");
+    need(combine_, "views", sources.views, sources.view_count * sizeof(View));
+    need(combine_, "visibility", sources.visibility, sources.pixels * sizeof(std::uint64_t));
     need(combine_, "emitters", sources.emitters, params.emitter_count * sizeof(Emitter));
     need(combine_, "planes", planes, plane_bytes(GBUFFER_PLANES, params.stride));
     need(combine_, "ids", ids, plane_bytes(GBUFFER_ID_PLANES, params.stride));
     if (params.effects & COMBINE_INDIRECT)
-        need(combine_, "irradiance", irradiance,
-             plane_bytes(IRRADIANCE_PLANES, params.stride));
+        need(combine_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
     need(combine_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
     need(combine_, "non_finite", non_finite, sizeof(std::uint32_t));
     return launch(combine_, queue, packets(combine_, pixels), wait, params, view, sources.emitters,
@@ -135,6 +152,7 @@ cl::Event ImagePasses::tonemap(const cl::CommandQueue& queue, const TonemapParam
                                const cl::Buffer& radiance, const cl::Buffer& preview,
                                const WaitList& wait) const {
     const std::size_t pixels = static_cast<std::size_t>(params.width) * params.height;
+    need_stride(tonemap_, "stride", params.stride, pixels);
     need(tonemap_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
     need(tonemap_, "preview", preview, pixels * sizeof(std::uint32_t));
     return launch(tonemap_, queue, pixels, wait, params, radiance, preview);

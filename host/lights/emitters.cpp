@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/emitters.hpp>
 
+#include <clgi/shared/halton.h>
 #include <algorithm>
 #include <clgi/error.hpp>
-#include <clgi/shared/halton.h>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <numeric>

@@ -39,7 +39,8 @@ cl::Event LightPasses::accept_list(const cl::CommandQueue& queue, const AcceptPa
                                    const cl::Buffer& accepted, const WaitList& wait) const {
     need(accept_list_, "emitters", emitters, (params.emitter + 1) * sizeof(Emitter));
     need(accept_list_, "mask", mask, params.candidate_count / 8);
-    need(accept_list_, "accepted", accepted, sizeof(std::uint32_t));
+    need(accept_list_, "accepted", accepted,
+         std::max(params.light_count, 1u) * sizeof(std::uint32_t));
     return launch(accept_list_, queue, accept_list_.local_size, wait, params, emitters, mask,
                   accepted, cl::Local(accept_list_.local_size * sizeof(std::uint32_t)));
 }
@@ -49,8 +50,11 @@ cl::Event LightPasses::fetch(const cl::CommandQueue& queue, const FetchParams& p
                              const cl::Buffer& accepted, const cl::Buffer& lights,
                              const WaitList& wait) const {
     if (scene.needs_textures() && !textures_)
-        throw Error("lights.fetch: the scene has textures or alpha masks, the kernels were built "
-                    "without (BuildOptions::textures)");
+        throw Error(
+            "lights.fetch: the scene has textures or alpha masks, the kernels were built "
+            "without (BuildOptions::textures)");
+    need(fetch_, "views", sources.views, sources.view_count * sizeof(View));
+    need(fetch_, "visibility", sources.visibility, sources.pixels * sizeof(std::uint64_t));
     need(fetch_, "emitters", sources.emitters, params.emitter_count * sizeof(Emitter));
     need(fetch_, "accepted", accepted, params.light_count * sizeof(std::uint32_t));
     need(fetch_, "lights", lights, params.light_count * sizeof(IndirectLight));

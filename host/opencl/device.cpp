@@ -39,7 +39,8 @@ Choice parse(const std::string& text) {
     }
     const std::string kind = lower(out.kind);
     if (!kind.empty() && kind != "cpu" && kind != "gpu")
-        throw Error("device: \"" + text + "\" asks for the kind " + out.kind + ", CPU or GPU needed");
+        throw Error("device: \"" + text + "\" asks for the kind " + out.kind +
+                    ", CPU or GPU needed");
     return out;
 }
 
@@ -91,13 +92,13 @@ cl::Device choose_device(const std::string& choice) {
     for (const cl::Device& device : devices) {
         const std::string kind = lower(wanted.kind);
         if (contains(platform_name(device), wanted.platform) &&
-            (kind.empty() || is_kind(device, kind == "gpu" ? CL_DEVICE_TYPE_GPU : CL_DEVICE_TYPE_CPU)))
+            (kind.empty() ||
+             is_kind(device, kind == "gpu" ? CL_DEVICE_TYPE_GPU : CL_DEVICE_TYPE_CPU)))
             matching.push_back(device);
     }
     const bool is_index = !wanted.name.empty() && wanted.name.size() < 6 &&
-                          std::all_of(wanted.name.begin(), wanted.name.end(), [](unsigned char c) {
-                              return std::isdigit(c) != 0;
-                          });
+                          std::all_of(wanted.name.begin(), wanted.name.end(),
+                                      [](unsigned char c) { return std::isdigit(c) != 0; });
     if (is_index) {
         const std::size_t index = std::stoul(wanted.name);
         if (index < matching.size()) return matching[index];

@@ -24,16 +24,14 @@ std::string compiler_options(const cl::Device& device, const BuildOptions& optio
     if (!options.textures) text += " -DCLGI_NO_TEXTURES";
     if (options.math == Math::fast) {
         text += " -cl-fast-relaxed-math";
-    } else if (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() &
-               CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) {
+    } else if (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) {
         text += " -cl-fp32-correctly-rounded-divide-sqrt";
     }
     return text;
 }
 
-PassKernel build_pass(const cl::Context& context, const cl::Device& device,
-                      const std::string& room, const std::string& pass,
-                      const BuildOptions& options) {
+PassKernel build_pass(const cl::Context& context, const cl::Device& device, const std::string& room,
+                      const std::string& pass, const BuildOptions& options) {
     const int width = options.packet_width > 0 ? options.packet_width : packet_width(device);
     if (width != 1 && width != 4 && width != 8 && width != 16)
         throw Error("program: packet_width is " + std::to_string(width) + ", 1, 4, 8 or 16 needed");
@@ -61,8 +59,7 @@ bool uses_atomics64(const cl::Device& device, const BuildOptions& options) {
                                     "cl_khr_int64_extended_atomics") != std::string::npos;
 }
 
-void prefer_small_groups(PassKernel& pass, const cl::Device& device,
-                         const BuildOptions& options) {
+void prefer_small_groups(PassKernel& pass, const cl::Device& device, const BuildOptions& options) {
     constexpr std::size_t few = 4;
     if (options.local_size == 0 && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU))
         pass.local_size = std::min(pass.local_size, few);

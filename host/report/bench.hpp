@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/opencl.hpp>
+#include <clgi/pass.hpp>
 #include <clgi/scene.hpp>
 #include <functional>
 #include <optional>
@@ -13,10 +14,10 @@ namespace clgi::report {
 
 struct BenchRow {
     std::string name;
-    double paper = 0.0;  // the paper's figure
-    double clgi = 0.0;   // ours
-    double ratio = 0.0;  // above 1: ours is that many times faster
-    std::optional<double> error;          // RMS of the 8-bit image, per cent
+    double paper = 0.0;           // the paper's figure
+    double clgi = 0.0;            // ours
+    double ratio = 0.0;           // above 1: ours is that many times faster
+    std::optional<double> error;  // RMS of the 8-bit image, per cent
     std::optional<double> paper_error;
     std::optional<double> low_res_share;  // of the pixels, [0,1]
     std::optional<double> threshold;
@@ -27,9 +28,9 @@ struct BenchTable {
     std::string table;
     std::string device;
     std::string scene;
-    double peak_gflops = 0.0;       // multiply-adds, measured between the rows
-    double gather_gflops = 0.0;     // of image.gather, the row with most lights
-    double gather_fraction = 0.0;   // of the peak
+    double peak_gflops = 0.0;      // multiply-adds, measured between the rows
+    double gather_gflops = 0.0;    // of image.gather, the row with most lights
+    double gather_fraction = 0.0;  // of the peak
     std::vector<BenchRow> rows;
 };
 
@@ -39,6 +40,7 @@ struct BenchSetup {
     int width = 640;
     int height = 480;
     int repeats = 30;
+    Math math = Math::strict;
     std::function<bool(double)> progress;  // share done; false stops
 };
 

@@ -35,6 +35,7 @@ SecondOrderOptions options_of(const BenchSetup& setup, int positive, int negativ
     options.sources.lights = positive;
     options.negative_lights = negative;
     options.discontinuity_threshold = threshold;
+    options.build.math = setup.math;
     return options;
 }
 
@@ -125,8 +126,7 @@ BenchTable run(const BenchSetup& setup, const std::string& table, const std::vec
         rows.begin();
     constexpr int warm_up = 3;
     for (int repeat = -warm_up; repeat < setup.repeats; ++repeat) {
-        if (setup.progress &&
-            !setup.progress(double(repeat + warm_up) / (setup.repeats + warm_up)))
+        if (setup.progress && !setup.progress(double(repeat + warm_up) / (setup.repeats + warm_up)))
             throw Error("bench: cancelled");
         for (std::size_t i = 0; i < rows.size(); ++i) {
             // Every round starts with another row, so none always follows the same one.
@@ -179,7 +179,11 @@ BenchTable bench_cochran1(const BenchSetup& setup) {
                  {300, 0, 19.2},  {300, 150, 11.0}, {450, 0, 13.6}};
     for (const auto& row : table)
         rows.push_back({std::to_string(row.positive) + " + " + std::to_string(row.negative),
-                        row.positive, row.negative, row.fps, low_share_wanted, {}});
+                        row.positive,
+                        row.negative,
+                        row.fps,
+                        low_share_wanted,
+                        {}});
     return run(setup, "cochran1", rows);
 }
 

@@ -35,14 +35,15 @@ SceneFrame local_frame(const Scene& scene) {
 double common_exposure(const Scene& scene, const SceneFrame& frame) {
     double brightest = 0.0;
     for (const Light& light : scene.lights) {
-        const double strongest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+        const double strongest =
+            std::max({light.intensity.x, light.intensity.y, light.intensity.z});
         const bool directional = light.kind == Light::Kind::directional;
         brightest =
             std::max(brightest, strongest * (directional ? 1.0 : frame.scale * frame.scale));
     }
     for (const Material& material : scene.materials)
-        brightest = std::max(
-            {brightest, double{material.emission.x}, double{material.emission.y}, double{material.emission.z}});
+        brightest = std::max({brightest, double{material.emission.x}, double{material.emission.y},
+                              double{material.emission.z}});
     if (!(brightest > 0.0)) return 1.0;
     int exponent = 0;
     std::frexp(brightest, &exponent);
@@ -177,8 +178,8 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         if (!(luminance(radiance) > 0.0f)) continue;
         EmissiveTriangle source;
         for (int k = 0; k < 3; ++k) source.corner[k] = glm::vec3(positions[corner[k]]);
-        const glm::vec3 normal = glm::cross(source.corner[1] - source.corner[0],
-                                            source.corner[2] - source.corner[0]);
+        const glm::vec3 normal =
+            glm::cross(source.corner[1] - source.corner[0], source.corner[2] - source.corner[0]);
         const float twice_area = glm::length(normal);
         if (!(twice_area > 0.0f)) continue;
         source.normal = normal / twice_area;
@@ -216,12 +217,21 @@ void DeviceScene::set_light(std::size_t index, const Light& light) {
     if (index >= lights_.size())
         throw Error("scene: light " + std::to_string(index) + " was to be set, there are " +
                     std::to_string(lights_.size()));
+    const float length = glm::length(light.direction);
+    const bool finite = glm::all(glm::lessThan(glm::abs(light.position), glm::dvec3(1e18))) &&
+                        glm::all(glm::lessThanEqual(light.intensity, glm::vec3(3e38f))) &&
+                        glm::all(glm::greaterThanEqual(light.intensity, glm::vec3(0.0f)));
+    if (!finite || !(std::abs(length - 1.0f) < 1e-3f))
+        throw Error("scene: light " + std::to_string(index) +
+                    " was to be set with a direction of length " + std::to_string(length) +
+                    " or numbers out of range; a unit direction, positions within 1e18 m and "
+                    "intensities of at least 0 needed");
     lights_[index] = light;
 }
 
 std::array<const cl::Buffer*, 9> DeviceScene::kernel_arguments() const {
-    return {&triangles_, &positions_, &normals_,  &uvs_,   &colors_,
-            &materials_, &textures_,  &texels_, &decode_};
+    return {&triangles_, &positions_, &normals_, &uvs_,   &colors_,
+            &materials_, &textures_,  &texels_,  &decode_};
 }
 
 View make_view(const Camera& camera, const SceneFrame& frame, int width, int height) {
@@ -232,9 +242,8 @@ View make_view(const Camera& camera, const SceneFrame& frame, int width, int hei
     const glm::vec3 eye = frame.to_local(camera.position);
     const bool orthographic = camera.kind == Camera::Kind::orthographic;
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    const float half_height = orthographic
-                                  ? static_cast<float>(camera.half_height * frame.scale)
-                                  : std::tan(0.5f * camera.vertical_fov);
+    const float half_height = orthographic ? static_cast<float>(camera.half_height * frame.scale)
+                                           : std::tan(0.5f * camera.vertical_fov);
     float near = static_cast<float>(camera.near * frame.scale);
     if (!orthographic && !(near > 0.0f)) near = 1e-3f * frame.radius;
     view.eye = glm::vec4(eye, orthographic ? 1.0f : 0.0f);

@@ -10,7 +10,7 @@ namespace clgi {
 
 struct SpatialOrder {
     std::vector<std::uint32_t> triangles;  // scene index of each device triangle
-    std::vector<std::uint32_t> vertices;   // scene index of each device vertex; unused ones left out
+    std::vector<std::uint32_t> vertices;  // scene index of each device vertex; unused ones left out
     std::vector<std::uint32_t> renumbered;  // device index of each scene vertex that is used
 };
 

@@ -104,7 +104,8 @@ TexturePool make_texture_pool(const std::vector<Texture>& textures) {
             level = halve(level, decode, encode);
         }
         record.flags = wrap_bits(texture.wrap_s) | wrap_bits(texture.wrap_t) << 2 |
-                       (texture.nearest ? std::uint32_t{TEXTURE_NEAREST} : 0u) | levels << TEXTURE_LEVELS_SHIFT;
+                       (texture.nearest ? std::uint32_t{TEXTURE_NEAREST} : 0u) |
+                       levels << TEXTURE_LEVELS_SHIFT;
         pool.records.push_back(record);
     }
     return pool;

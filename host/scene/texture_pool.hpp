@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/scene.hpp>
 #include <clgi/shared/scene.h>
+#include <clgi/scene.hpp>
 #include <vector>
 
 namespace clgi {

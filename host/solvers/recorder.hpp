@@ -10,8 +10,8 @@ namespace clgi {
 class SecondOrderSolver::Recorder {
 public:
     Recorder(const cl::CommandQueue& queue, std::vector<PassEvent>& events)
-        : in_order_(!(queue.getInfo<CL_QUEUE_PROPERTIES>() &
-                      CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)),
+        : in_order_(
+              !(queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)),
           events_(events) {
         events_.clear();
     }

@@ -45,9 +45,9 @@ SecondOrderSolver::SecondOrderSolver(const cl::CommandQueue& queue, const Device
 void SecondOrderSolver::lights_changed() {
     const EmitterSet before = set_;
     set_ = make_emitters(scene_, options_.sources);
-    const bool same_shape = set_.pixels == before.pixels && set_.light_count == before.light_count &&
-                            set_.emitters.size() == before.emitters.size() &&
-                            set_.candidates == before.candidates;
+    const bool same_shape =
+        set_.pixels == before.pixels && set_.light_count == before.light_count &&
+        set_.emitters.size() == before.emitters.size() && set_.candidates == before.candidates;
     if (!same_shape) return allocate();
     if (set_.emitters.empty()) return;
     queue_.enqueueWriteBuffer(sources_.emitters, CL_TRUE, 0, set_.emitters.size() * sizeof(Emitter),
@@ -61,9 +61,8 @@ void SecondOrderSolver::draw_view(Recorder& record, const View& view,
     RasterBuffers buffers = raster_;
     buffers.visibility = visibility;
     const std::size_t triangles = scene_.info().triangle_count;
-    record("gbuffer.clear", view.width * view.height, [&](const WaitList& wait) {
-        return gbuffer_.clear(queue_, view, buffers, wait);
-    });
+    record("gbuffer.clear", view.width * view.height,
+           [&](const WaitList& wait) { return gbuffer_.clear(queue_, view, buffers, wait); });
     record("gbuffer.transform", scene_.info().vertex_count, [&](const WaitList& wait) {
         return gbuffer_.transform(queue_, view, scene_, buffers, wait);
     });
@@ -89,7 +88,8 @@ void SecondOrderSolver::place_lights(Recorder& record) {
     if (!indirect_) return;
     for (std::size_t e = 0; e < set_.emitters.size(); ++e) {
         if (set_.candidates[e] == 0) continue;
-        const AcceptParams params{static_cast<std::uint32_t>(e), set_.candidates[e], 0, 0};
+        const AcceptParams params{static_cast<std::uint32_t>(e), set_.candidates[e],
+                                  static_cast<std::uint32_t>(set_.light_count), 0};
         record("lights.accept_mask", params.candidate_count, [&](const WaitList& wait) {
             return light_passes_.accept_mask(queue_, params, sources_.emitters, mask_, wait);
         });
@@ -176,8 +176,8 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
                              lights_, negative_, listed_irradiance_, wait);
     });
     record("image.place", pixels, [&](const WaitList& wait) {
-        return image_.place(queue_, params, listed_count_, listed_, listed_irradiance_,
-                            irradiance_, wait);
+        return image_.place(queue_, params, listed_count_, listed_, listed_irradiance_, irradiance_,
+                            wait);
     });
 }
 

@@ -1,6 +1,7 @@
 // What the second-order solver needs in memory and time, and its buffers.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <string>
 
@@ -94,20 +95,28 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
 
 }  // namespace
 
-Estimate estimate(const DeviceScene& scene, const SecondOrderOptions& options) {
+Estimate estimate(const cl::Device& device, const DeviceScene& scene,
+                  const SecondOrderOptions& options) {
     check(options);
     const EmitterSet set = make_emitters(scene, options.sources);
     Estimate out;
     out.bytes = sizes(scene, options, set).sum();
-    // A nominal device: one pair of light and point takes about 20 nanoseconds of one gigahertz
-    // lane, a triangle drawn 100, a pixel resolved and combined 150.
+
+    // Cycles of one compute unit, as measured on a CPU with packets of 8: a packet of points and a
+    // light 16, a triangle drawn 90, a packet of pixels resolved, interpolated and combined 900.
+    const double lanes = packet_width(device) > 1 ? packet_width(device) : 32.0;
+    const double hertz = 1e6 * device.getInfo<CL_DEVICE_MAX_CLOCK_FREQUENCY>() *
+                         device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     const double pixels = static_cast<double>(pixel_count(options));
-    const double lit = refines(options) ? 0.25 + 0.15 : 1.0;
-    const double lights = static_cast<double>(set.light_count) + options.negative_lights;
-    const double triangles =
-        static_cast<double>(scene.info().triangle_count) * static_cast<double>(set.views.size() + 1);
-    out.milliseconds = 1e-6 * (pixels * lit * (options.indirect ? lights : 0.0) * 0.25 +
-                               triangles * 30.0 + pixels * 20.0);
+    // A quarter of the points, and one pixel in eight again in full.
+    const double points = pixels * (refines(options) ? 0.25 + 0.125 : 1.0);
+    const double lights =
+        options.indirect ? static_cast<double>(set.light_count) + options.negative_lights : 0.0;
+    const double triangles = static_cast<double>(scene.info().triangle_count) *
+                             static_cast<double>(set.views.size() + 1);
+    const double cycles =
+        16.0 * points / lanes * lights + 90.0 * triangles * 8.0 / lanes + 900.0 * pixels / lanes;
+    out.milliseconds = 1e3 * cycles / hertz;
     return out;
 }
 
@@ -117,7 +126,8 @@ void SecondOrderSolver::allocate() {
     refine_ = indirect_ && refines(options_);
     const Sizes size = sizes(scene_, options_, set_);
     const cl::Context context = queue_.getInfo<CL_QUEUE_CONTEXT>();
-    const std::size_t most = cl::Device(queue_.getInfo<CL_QUEUE_DEVICE>()).getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    const std::size_t most =
+        cl::Device(queue_.getInfo<CL_QUEUE_DEVICE>()).getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     bytes_ = 0;
     const auto buffer = [&](std::size_t bytes) {
         bytes = std::max<std::size_t>(bytes, 16);
@@ -144,8 +154,10 @@ void SecondOrderSolver::allocate() {
     raster_.vertices = buffer(size.vertices);
     raster_.polygons = buffer(size.polygons);
     raster_.polygon_count = word(0);
-        camera_visibility_ = buffer(size.camera_visibility);
+    camera_visibility_ = buffer(size.camera_visibility);
     sources_.visibility = buffer(size.source_visibility);
+    sources_.view_count = set_.views.size();
+    sources_.pixels = set_.pixels;
     sources_.emitters = filled(set_.emitters.data(), set_.emitters.size() * sizeof(Emitter));
     sources_.views = filled(set_.views.data(), set_.views.size() * sizeof(View));
     planes_ = buffer(size.planes);

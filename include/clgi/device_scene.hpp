@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/shared/gbuffer.h>
+#include <clgi/shared/scene.h>
 #include <array>
 #include <clgi/opencl.hpp>
 #include <clgi/scene.hpp>
-#include <clgi/shared/gbuffer.h>
-#include <clgi/shared/scene.h>
 
 namespace clgi {
 
@@ -28,8 +28,8 @@ struct SceneFrame {
 // A triangle that emits, in the local frame.
 struct EmissiveTriangle {
     glm::vec3 corner[3];
-    glm::vec3 normal;    // unit, the side that emits
-    float area = 0.0f;   // local units squared
+    glm::vec3 normal;                      // unit, the side that emits
+    float area = 0.0f;                     // local units squared
     glm::vec3 radiance = glm::vec3(0.0f);  // exposed
 };
 
@@ -44,7 +44,7 @@ public:
     const std::vector<Light>& lights() const { return lights_; }
     const std::vector<EmissiveTriangle>& emissive() const { return emissive_; }
     bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
-    bool needs_textures() const {  // some surface has a texture or an alpha mask
+    bool needs_textures() const {                  // some surface has a texture or an alpha mask
         return has_masks_ || (info_.flags & SCENE_HAS_TEXTURES) != 0;
     }
     std::size_t bytes() const { return bytes_; }

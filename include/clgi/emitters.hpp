@@ -2,24 +2,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/shared/gbuffer.h>
 #include <clgi/shared/lights.h>
+#include <clgi/device_scene.hpp>
 #include <vector>
 
 namespace clgi {
 
 struct EmitterOptions {
-    int lights = 300;         // indirect lights, shared by power
-    int shadow_size = 512;    // pixels, side of a spot's or directional light's image
-    int face_size = 256;      // pixels, side of a cube or hemicube face
-    int area_samples = 16;    // points that stand for all emissive surfaces together
+    int lights = 300;       // indirect lights, shared by power
+    int shadow_size = 512;  // pixels, side of a spot's or directional light's image
+    int face_size = 256;    // pixels, side of a cube or hemicube face
+    int area_samples = 16;  // points that stand for all emissive surfaces together
 };
 
 struct EmitterSet {
     std::vector<Emitter> emitters;
-    std::vector<View> views;         // of all emitters, in order
-    std::size_t pixels = 0;          // of all views
+    std::vector<View> views;                // of all emitters, in order
+    std::size_t pixels = 0;                 // of all views
     std::vector<std::uint32_t> candidates;  // Halton candidates to try, by emitter; spots only
     std::size_t light_count = 0;
 };

@@ -12,7 +12,7 @@ enum class Math { strict, fast };
 // How a room's kernels are built. Results do not depend on packet_width or local_size.
 struct BuildOptions {
     Math math = Math::strict;
-    int packet_width = 0;       // lanes of a packet: 1, 4, 8 or 16; 0: what suits the device
+    int packet_width = 0;        // lanes of a packet: 1, 4, 8 or 16; 0: what suits the device
     std::size_t local_size = 0;  // work-items of a group; 0: 64, or what the device allows
     bool atomics64 = true;       // use 64-bit atomics where the device has them
     bool textures = true;        // without, kernels compile faster, for scenes without textures

@@ -28,8 +28,8 @@ struct Texture {
 
 // How a material reads a texture: KHR_texture_transform applied to one of two UV sets.
 struct TextureSlot {
-    int texture = -1;  // index into Scene::textures; -1: none
-    int uv_set = 0;    // 0 or 1
+    int texture = -1;                       // index into Scene::textures; -1: none
+    int uv_set = 0;                         // 0 or 1
     glm::mat3 transform = glm::mat3(1.0f);  // uv' = transform * (u, v, 1)
 };
 
@@ -40,8 +40,8 @@ struct Material {
     std::string name;
     glm::vec4 base_color = glm::vec4(1.0f);  // linear rgb in [0,1], alpha
     TextureSlot base_texture;
-    float metallic = 0.0f;                // [0,1]
-    float roughness = 1.0f;               // [0,1]
+    float metallic = 0.0f;                 // [0,1]
+    float roughness = 1.0f;                // [0,1]
     glm::vec3 emission = glm::vec3(0.0f);  // radiance, cd/m^2 (factor times strength)
     TextureSlot emission_texture;
     AlphaMode alpha_mode = AlphaMode::opaque;
@@ -62,9 +62,9 @@ struct Light {
     glm::dvec3 position = glm::dvec3(0.0);
     glm::vec3 direction = glm::vec3(0.0f, 0.0f, -1.0f);  // unit; spot and directional
     glm::vec3 intensity = glm::vec3(1.0f);  // color times intensity: candela, directional lux
-    float range = 0.0f;        // metres where the light ends; 0: unlimited
-    float inner_angle = 0.0f;  // radians from the axis, full intensity inside; spot
-    float outer_angle = 0.78539816f;  // radians from the axis, none outside; spot
+    float range = 0.0f;                     // metres where the light ends; 0: unlimited
+    float inner_angle = 0.0f;               // radians from the axis, full intensity inside; spot
+    float outer_angle = 0.78539816f;        // radians from the axis, none outside; spot
 };
 
 struct Camera {
@@ -95,7 +95,8 @@ struct Bounds {
 struct Scene {
     std::string name;
 
-    // One entry a vertex. uv: set 0 in xy, set 1 in zw; color: linear, empty when no vertex has one.
+    // One entry a vertex. uv: set 0 in xy, set 1 in zw; color: linear, empty when no vertex has
+    // one.
     std::vector<glm::dvec3> positions;  // metres
     std::vector<glm::vec3> normals;     // unit, world space
     std::vector<glm::vec4> uvs;         // empty when nothing is textured

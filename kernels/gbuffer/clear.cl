@@ -3,6 +3,7 @@
 //
 // Work size    1D, one work-item for every 8 pixels of the view (rounded up)
 // Writes       visibility of its pixels; work-item 0 also polygon_count
+// SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
 
 kernel void gbuffer_clear(

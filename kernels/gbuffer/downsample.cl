@@ -6,6 +6,7 @@
 // Work size    1D, one work-item for every CLGI_WIDTH low-resolution points of a row, rows padded
 //              to whole packets; any local size
 // Writes       its own points
+// SPDX-License-Identifier: MIT
 #include "packet.clh"
 #include "clgi/shared/gbuffer.h"
 

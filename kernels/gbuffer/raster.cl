@@ -11,6 +11,7 @@
 // Work size    1D, one work-item for every RASTER_BATCH * CLGI_WIDTH triangles (rounded up); any
 //              local size
 // Writes       visibility by integer minimum (no order), polygons (any order; all are drawn)
+// SPDX-License-Identifier: MIT
 #include "gbuffer/polygon.clh"
 #include "gbuffer/visibility.clh"
 #include "packet.clh"

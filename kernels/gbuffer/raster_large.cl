@@ -7,6 +7,7 @@
 //
 // Work size    1D, one work-item a tile; any local size; tail guarded
 // Writes       visibility of its own tile
+// SPDX-License-Identifier: MIT
 #include "gbuffer/surface.clh"
 #include "gbuffer/visibility.clh"
 

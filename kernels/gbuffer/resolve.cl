@@ -6,6 +6,7 @@
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       its own pixels of the planes asked for; past the last pixel of the view, inside
 //              the stride, zeros
+// SPDX-License-Identifier: MIT
 #include "gbuffer/surface.clh"
 #include "gbuffer/visibility.clh"
 

@@ -3,6 +3,7 @@
 //
 // Work size    1D, one work-item a vertex; any local size; tail guarded
 // Writes       only its own vertex
+// SPDX-License-Identifier: MIT
 #include "gbuffer/project.clh"
 
 kernel void gbuffer_transform(

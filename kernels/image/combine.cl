@@ -8,6 +8,7 @@
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
 //              that were not
+// SPDX-License-Identifier: MIT
 #include "lights/disc.clh"
 #include "lights/sample.clh"
 #include "lights/shadow.clh"

@@ -5,6 +5,7 @@
 //
 // Work size    1D, one work-item a block of COMPACT_BLOCK pixels; any local size; tail guarded
 // Writes       its own part of the list; the last block the count and zeros up to a whole packet
+// SPDX-License-Identifier: MIT
 #include "packet.clh"
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/image.h"

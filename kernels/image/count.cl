@@ -3,6 +3,7 @@
 //
 // Work size    1D, one work-item a block of COMPACT_BLOCK pixels; any local size; tail guarded
 // Writes       its own count
+// SPDX-License-Identifier: MIT
 #include "clgi/shared/image.h"
 
 kernel void image_count(

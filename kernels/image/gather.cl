@@ -10,6 +10,7 @@
 // Writes       its own points
 // Cost         38 flops and one division a pair; 48 bytes a light stay in cache, 24 bytes a point
 //              are read and 12 written once
+// SPDX-License-Identifier: MIT
 #include "lights/disc.clh"
 #include "packet.clh"
 #include "clgi/shared/gbuffer.h"

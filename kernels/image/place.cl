@@ -4,6 +4,7 @@
 // Work size    1D, one work-item for every CLGI_WIDTH listed points (rounded up), at most one for
 //              every CLGI_WIDTH pixels; any local size
 // Writes       irradiance of its own pixels; every pixel is listed once at most
+// SPDX-License-Identifier: MIT
 #include "packet.clh"
 #include "clgi/shared/image.h"
 

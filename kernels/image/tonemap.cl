@@ -3,6 +3,7 @@
 //
 // Work size    1D, one work-item a pixel; any local size; tail guarded
 // Writes       its own pixel
+// SPDX-License-Identifier: MIT
 #include "clgi/shared/image.h"
 
 static uint encode(float linear) {

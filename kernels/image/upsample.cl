@@ -8,6 +8,7 @@
 // Work size    1D, one work-item for every CLGI_WIDTH low-resolution points of a row, rows padded
 //              to whole packets; any local size
 // Writes       irradiance and flags of the pixels of its cells
+// SPDX-License-Identifier: MIT
 #include "image/cell.clh"
 
 static void put_row(const Cell* cell, const RefineParams* params, uint down, floatp even_lanes,

@@ -3,6 +3,7 @@
 // Work size    one work-group of any size; each work-item takes a run of mask words
 // Writes       accepted[first_light .. + light_count) of its emitter; candidates that were not
 //              found (the cone is narrower than the candidates are dense) stay 0
+// SPDX-License-Identifier: MIT
 #include "compact.clh"
 #include "clgi/shared/lights.h"
 

@@ -5,6 +5,7 @@
 //
 // Work size    1D, one work-item for every 32 candidates; any local size; tail guarded
 // Writes       its own word: bit k is candidate 32 * item + k + 1 (index 0, the pole, is not used)
+// SPDX-License-Identifier: MIT
 #include "clgi/shared/halton.h"
 #include "clgi/shared/lights.h"
 #include "frame.clh"

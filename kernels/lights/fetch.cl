@@ -12,6 +12,7 @@
 //               light stays put when its source turns
 // Work size     1D, one work-item a light; any local size; tail guarded
 // Writes        its own light; flux 0 where the sample leaves the scene or meets a back face
+// SPDX-License-Identifier: MIT
 #include "gbuffer/locate.clh"
 #include "gbuffer/surface.clh"
 #include "gbuffer/visibility.clh"

@@ -10,9 +10,12 @@
 // pixel, whose slant is bounded at 0.1. Lights in front of the surface carry no weight: the mean
 // is over the light that the surface stops.
 //
-// Unlike paper  only the sampled points are evaluated, not every pixel of the image
+// Unlike paper  only the sampled points are evaluated, not every pixel of the image; the mean
+//               direction is over the lights behind the surface; behind is judged by the geometric
+//               normal, so that interpolated normals stop no light
 // Work size     1D, one work-item a sample; any local size; tail guarded
 // Writes        its own negative light; flux 0 where nothing is stopped
+// SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/halton.h"
 #include "clgi/shared/lights.h"

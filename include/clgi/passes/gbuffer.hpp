@@ -1,13 +1,14 @@
-// The rasteriser and what follows it, one method a kernel. Buffers and layouts: clgi/shared/gbuffer.h.
+// The rasteriser and what follows it, one method a kernel. Buffers and layouts:
+// clgi/shared/gbuffer.h.
 //
 // Every method checks sizes, enqueues one kernel on the caller's queue and returns its event. It
 // allocates nothing and never waits. Throws Error for a buffer too small or a value out of range.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/shared/gbuffer.h>
 #include <clgi/device_scene.hpp>
 #include <clgi/pass.hpp>
-#include <clgi/shared/gbuffer.h>
 
 namespace clgi {
 

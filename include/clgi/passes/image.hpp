@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/shared/image.h>
 #include <clgi/device_scene.hpp>
 #include <clgi/pass.hpp>
 #include <clgi/passes/lights.hpp>
-#include <clgi/shared/image.h>
 
 namespace clgi {
 
@@ -26,14 +26,15 @@ public:
     cl::Event count(const cl::CommandQueue& queue, std::uint32_t pixels, const cl::Buffer& flags,
                     const cl::Buffer& counts, const WaitList& wait = {}) const;
 
-    // Flagged pixels in a row: listed [stride] uint, points [POINT_PLANES][stride], point_count [1].
+    // Flagged pixels in a row: listed [stride] uint, points [POINT_PLANES][stride], point_count
+    // [1].
     cl::Event compact(const cl::CommandQueue& queue, const RefineParams& params,
                       const cl::Buffer& flags, const cl::Buffer& counts, const cl::Buffer& planes,
                       const cl::Buffer& listed, const cl::Buffer& points,
                       const cl::Buffer& point_count, const WaitList& wait = {}) const;
 
-    // low [IRRADIANCE_PLANES][low_stride] -> irradiance [IRRADIANCE_PLANES][stride], and flags [width * height] uchar,
-    // 1 where low resolution does not suit.
+    // low [IRRADIANCE_PLANES][low_stride] -> irradiance [IRRADIANCE_PLANES][stride], and flags
+    // [width * height] uchar, 1 where low resolution does not suit.
     cl::Event upsample(const cl::CommandQueue& queue, const RefineParams& params,
                        const cl::Buffer& planes, const cl::Buffer& points, const cl::Buffer& low,
                        const cl::Buffer& irradiance, const cl::Buffer& flags,
@@ -48,9 +49,9 @@ public:
     // radiance: [RADIANCE_PLANES][stride] cd/m^2; non_finite [1] uint is only added to.
     cl::Event combine(const cl::CommandQueue& queue, const CombineParams& params, const View& view,
                       const DeviceScene& scene, const SourceBuffers& sources,
-                      const cl::Buffer& planes, const cl::Buffer& ids,
-                      const cl::Buffer& irradiance, const cl::Buffer& radiance,
-                      const cl::Buffer& non_finite, const WaitList& wait = {}) const;
+                      const cl::Buffer& planes, const cl::Buffer& ids, const cl::Buffer& irradiance,
+                      const cl::Buffer& radiance, const cl::Buffer& non_finite,
+                      const WaitList& wait = {}) const;
 
     // preview: [width * height] uint, RGBA8.
     cl::Event tonemap(const cl::CommandQueue& queue, const TonemapParams& params,

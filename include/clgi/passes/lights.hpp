@@ -3,17 +3,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/shared/lights.h>
 #include <clgi/device_scene.hpp>
 #include <clgi/pass.hpp>
-#include <clgi/shared/lights.h>
 
 namespace clgi {
 
 // The sources with their images of the scene.
 struct SourceBuffers {
-    cl::Buffer emitters;    // [emitter_count] Emitter
-    cl::Buffer views;       // of all emitters, View
-    cl::Buffer visibility;  // [pixels of all views] ulong
+    cl::Buffer emitters;         // [emitter_count] Emitter
+    cl::Buffer views;            // of all emitters, View
+    cl::Buffer visibility;       // [pixels of all views] ulong
+    std::size_t view_count = 0;  // how many views and pixels the buffers must hold at least
+    std::size_t pixels = 0;
 };
 
 class LightPasses {

@@ -36,8 +36,8 @@ typedef struct {
 typedef struct {
     uint emitter;          // index of the spotlight
     uint candidate_count;  // Halton indices 1 .. candidate_count are tried; a multiple of 32
-    uint pad0_;
-    uint pad1_;
+    uint light_count;      // of all emitters together: how long the list of accepted ones is
+    uint pad_;
 } AcceptParams;
 
 typedef struct {

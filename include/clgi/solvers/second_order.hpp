@@ -18,8 +18,8 @@ namespace clgi {
 struct SecondOrderOptions {
     int width = 640;  // pixels
     int height = 480;
-    EmitterOptions sources;     // sources.lights is N, the number of indirect lights
-    int negative_lights = 100;  // samples of the image that take light away; 0: none
+    EmitterOptions sources;      // sources.lights is N, the number of indirect lights
+    int negative_lights = 100;   // samples of the image that take light away; 0: none
     bool low_resolution = true;  // light every fourth pixel and interpolate where that suits
     // Differences from the interpolation points at which a pixel is lit in full: 1 is a right
     // angle between normals. 0: every pixel; infinity: none.
@@ -33,13 +33,13 @@ struct SecondOrderOptions {
 // What a frame will take, before any of it is allocated.
 struct Estimate {
     std::size_t bytes = 0;      // on the device, the scene left out
-    double milliseconds = 0.0;  // a rough guess from the device's nominal rate
+    double milliseconds = 0.0;  // a rough guess from clock, units and lanes of the device
 };
 
 // What a frame found out.
 struct FrameStatus {
-    std::uint32_t non_finite = 0;      // packets of pixels that had to be mended, since the start
-    std::uint32_t refined_pixels = 0;  // lit in full by the discontinuity test
+    std::uint32_t non_finite = 0;       // packets of pixels that had to be mended, since the start
+    std::uint32_t refined_pixels = 0;   // lit in full by the discontinuity test
     double low_resolution_share = 0.0;  // of all pixels, [0,1]
 };
 
@@ -52,7 +52,8 @@ struct PassEvent {
 // Called between the parts of a frame with the share done, [0,1]; false cancels the frame.
 using Progress = std::function<bool(double done)>;
 
-Estimate estimate(const DeviceScene& scene, const SecondOrderOptions& options);
+Estimate estimate(const cl::Device& device, const DeviceScene& scene,
+                  const SecondOrderOptions& options);
 
 // Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
 // outlive the solver. One solver is used by one thread at a time.
@@ -80,14 +81,16 @@ public:
 
     const SecondOrderOptions& options() const { return options_; }
     const EmitterSet& sources() const { return set_; }
-    std::size_t bytes() const { return bytes_; }  // allocated
+    std::size_t bytes() const { return bytes_; }      // allocated
     std::uint32_t stride() const { return stride_; }  // floats between planes
 
     // Results, valid when the frame's event is complete. Planes are `stride` floats apart.
-    const cl::Buffer& radiance() const { return radiance_; }      // [RADIANCE_PLANES][stride] cd/m^2
-    const cl::Buffer& irradiance() const { return irradiance_; }  // [IRRADIANCE_PLANES][stride], exposed
-    const cl::Buffer& planes() const { return planes_; }          // [GBUFFER_PLANES][stride]
-    const cl::Buffer& ids() const { return ids_; }                // [GBUFFER_ID_PLANES][stride]
+    const cl::Buffer& radiance() const { return radiance_; }  // [RADIANCE_PLANES][stride] cd/m^2
+    const cl::Buffer& irradiance() const {
+        return irradiance_;
+    }                                                     // [IRRADIANCE_PLANES][stride], exposed
+    const cl::Buffer& planes() const { return planes_; }  // [GBUFFER_PLANES][stride]
+    const cl::Buffer& ids() const { return ids_; }        // [GBUFFER_ID_PLANES][stride]
     const cl::Buffer& indirect_lights() const { return lights_; }  // [N] IndirectLight
     const cl::Buffer& negative_lights() const { return negative_; }
     const ImagePasses& image_passes() const { return image_; }

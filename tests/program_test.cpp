@@ -1,0 +1,195 @@
+// The program as its users meet it: commands, exit codes, one line on stderr, files whole or
+// absent. SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <clgi/clgi.hpp>
+#include <clgi/io/image.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int code = -1;
+    std::string out, err;
+};
+
+class Program : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() /
+                  ("clgi_program_" + std::to_string(::getpid()) + "_" +
+                   testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    fs::path file(const std::string& name) const { return folder_ / name; }
+
+    Outcome run(const std::string& arguments, const std::string& environment = "") const {
+        const std::string command = environment + " " + CLGI_PROGRAM + " " + arguments + " >" +
+                                    file("out").string() + " 2>" + file("err").string();
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, read("out"), read("err")};
+    }
+
+    std::string read(const std::string& name) const {
+        std::ifstream in(file(name));
+        std::stringstream text;
+        text << in.rdbuf();
+        return text.str();
+    }
+
+    std::string make(const std::string& arguments) const {
+        const fs::path path = file("scene.glb");
+        EXPECT_EQ(run("scene " + arguments + " -o " + path.string()).code, 0) << read("err");
+        return path.string();
+    }
+
+    void expect_one_error_line(const Outcome& outcome, int code) const {
+        EXPECT_EQ(outcome.code, code) << outcome.err;
+        EXPECT_EQ(outcome.err.rfind("clgi: error: ", 0), 0u) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+
+private:
+    fs::path folder_;
+};
+
+TEST_F(Program, ListsTheDeviceThatItWouldTake) {
+    const Outcome outcome = run("devices");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("* "), std::string::npos) << outcome.out;
+}
+
+TEST_F(Program, RendersEveryProceduralSceneToAFinitePicture) {
+    for (const std::string name : {"box", "cornell", "furnace", "corridor"}) {
+        const std::string scene = make(name);
+        const fs::path exr = file(name + ".exr");
+        const Outcome outcome = run("render " + scene + " -o " + exr.string() + " --png " +
+                                    file(name + ".png").string() + " --size 64x48 --quiet");
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        clgi::io::LoadReport report;
+        const clgi::io::Image image = clgi::io::load_image(exr, &report);
+        EXPECT_EQ(report.non_finite, 0u) << name;
+        double sum = 0.0;
+        for (const float value : image.find("G")->values) sum += value;
+        EXPECT_GT(sum, 0.0) << name << " is black";
+        EXPECT_EQ(image.attributes.at("clgi:unit"), "cd/m^2");
+        EXPECT_GT(fs::file_size(file(name + ".png")), 100u);
+    }
+}
+
+TEST_F(Program, TwoRunsGiveTheSameBytes) {
+    const std::string scene = make("box");
+    for (const char* name : {"a.exr", "b.exr"})
+        ASSERT_EQ(
+            run("render " + scene + " --size 65x47 --full --quiet -o " + file(name).string()).code,
+            0);
+    EXPECT_EQ(read("a.exr"), read("b.exr"));
+}
+
+TEST_F(Program, StatsSayWhatWasDone) {
+    const std::string scene = make("cornell --light spot");
+    ASSERT_EQ(run("render " + scene + " --png " + file("p.png").string() +
+                  " --size 64x48 --frames 3 --orbit --stats " + file("s.json").string())
+                  .code,
+              0);
+    const auto stats = nlohmann::json::parse(read("s.json"));
+    EXPECT_EQ(stats.at("method"), "second-order");
+    EXPECT_EQ(stats.at("frames"), 3);
+    EXPECT_EQ(stats.at("scene").at("triangles"), 30);
+    EXPECT_EQ(stats.at("non_finite"), 0);
+    EXPECT_FALSE(stats.at("passes").empty());
+    for (const char* key : {"clgi", "device", "effects", "memory_mb", "build_ms", "warnings"})
+        EXPECT_TRUE(stats.contains(key)) << key;
+}
+
+TEST_F(Program, NoDirectAndDirectAddUpToTheWhole) {
+    const std::string scene = make("box");
+    const std::string common = "render " + scene + " --size 64x48 --full --quiet --low-res off -o ";
+    ASSERT_EQ(run(common + file("all.exr").string()).code, 0);
+    ASSERT_EQ(run(common + file("direct.exr").string() + " --method direct").code, 0);
+    ASSERT_EQ(run(common + file("indirect.exr").string() + " --no-direct").code, 0);
+    const auto all = clgi::io::load_image(file("all.exr"));
+    const auto direct = clgi::io::load_image(file("direct.exr"));
+    const auto indirect = clgi::io::load_image(file("indirect.exr"));
+    const auto& a = all.find("R")->values;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const float sum = direct.find("R")->values[i] + indirect.find("R")->values[i];
+        // One more rounding of each part than of the whole.
+        EXPECT_NEAR(a[i], sum, 4e-6f * (std::abs(sum) + 1e-6f)) << i;
+    }
+}
+
+TEST_F(Program, ComparesAPictureWithItself) {
+    const std::string scene = make("cornell");
+    const std::string exr = file("a.exr").string();
+    ASSERT_EQ(run("render " + scene + " --size 32x32 --quiet -o " + exr).code, 0);
+    const Outcome outcome = run("compare " + exr + " " + exr + " --json");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report.at("rmse"), 0.0);
+    EXPECT_EQ(report.at("energy_ratio"), 1.0);
+    EXPECT_EQ(report.at("nonfinite_a"), 0.0);
+}
+
+TEST_F(Program, WrongUseEndsWithOne) {
+    expect_one_error_line(run("paint"), 1);
+    expect_one_error_line(run("render"), 1);
+    expect_one_error_line(run("scene nowhere -o " + file("x.glb").string()), 1);
+    const std::string scene = make("cornell");
+    expect_one_error_line(run("render " + scene + " --quiet"), 1);
+    for (const char* flags : {"--size 0x4", "--size 4", "--low-res -1", "--low-res nan",
+                              "--vpls -3", "--math slow", "--frames 0", "--camera 7"}) {
+        SCOPED_TRACE(flags);
+        expect_one_error_line(
+            run("render " + scene + " --quiet -o " + file("x.exr").string() + " " + flags), 1);
+        EXPECT_FALSE(fs::exists(file("x.exr")));
+    }
+}
+
+TEST_F(Program, BadInputEndsWithTwoAndLeavesNoFile) {
+    std::ofstream(file("broken.gltf")) << "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{}]}";
+    const std::string out = " --quiet -o " + file("x.exr").string();
+    expect_one_error_line(run("render " + file("broken.gltf").string() + out), 2);
+    expect_one_error_line(run("render " + file("absent.glb").string() + out), 2);
+    EXPECT_FALSE(fs::exists(file("x.exr")));
+    const std::string scene = make("cornell");
+    expect_one_error_line(
+        run("render " + scene + " --size 16x16 --quiet -o " + file("no/such/folder.exr").string()),
+        2);
+}
+
+TEST_F(Program, AMissingDeviceEndsWithThree) {
+    const std::string scene = make("cornell");
+    const std::string out = "render " + scene + " --quiet -o " + file("x.exr").string();
+    const Outcome none = run(out, "OCL_ICD_VENDORS=" + file("empty").string() + "/");
+    expect_one_error_line(none, 3);
+    EXPECT_NE(none.err.find("pocl-opencl-icd"), std::string::npos) << none.err;
+    expect_one_error_line(run(out + " --device nobody::"), 3);
+    EXPECT_FALSE(fs::exists(file("x.exr")));
+}
+
+TEST_F(Program, FastMathStaysCloseToStrict) {
+    const std::string scene = make("box");
+    const std::string common = "render " + scene + " --size 96x72 --quiet -o ";
+    ASSERT_EQ(run(common + file("s.exr").string()).code, 0);
+    ASSERT_EQ(run(common + file("f.exr").string() + " --math fast").code, 0);
+    const Outcome outcome =
+        run("compare " + file("f.exr").string() + " " + file("s.exr").string() + " --json");
+    const auto report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report.at("nonfinite_a"), 0.0);
+    // Rounding moves a few shadow edges by a texel; the picture as a whole stays.
+    EXPECT_LT(report.at("rel_rmse").get<double>(), 0.01);
+}
+
+}  // namespace
