@@ -1,9 +1,9 @@
 // Scenes and frames with nothing in them: black where nothing shines, finite always, and no work
 // where nothing can be lit.
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
 #include <clgi/procedural.hpp>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <limits>
 
 #include "frames.hpp"
@@ -88,7 +88,9 @@ TEST(Nothing, ThatTheSpotHits) {
     expect_black(render(scene));
 }
 
-TEST(Nothing, ThatTheCameraSees) { expect_black(render(lit_floor(), test::camera_at({0, 2, 0.1}, {0, 4, 0}))); }
+TEST(Nothing, ThatTheCameraSees) {
+    expect_black(render(lit_floor(), test::camera_at({0, 2, 0.1}, {0, 4, 0})));
+}
 
 TEST(Nothing, BetweenCameraAndWall) {
     Scene scene = lit_floor();
@@ -124,7 +126,8 @@ TEST(Nothing, OfNegativeLightsAndFootprint) {
 TEST(Hardly, AnyAreaInASliver) {
     Scene scene = lit_floor();
     for (int i = 0; i < 50; ++i)
-        test::add_triangle(scene, {-1, 0.1 + 0.01 * i, 0}, {1, 0.1 + 0.01 * i, 0}, {1, 0.1 + 0.01 * i, -1e-6});
+        test::add_triangle(scene, {-1, 0.1 + 0.01 * i, 0}, {1, 0.1 + 0.01 * i, 0},
+                           {1, 0.1 + 0.01 * i, -1e-6});
     expect_finite(render(scene));
 }
 

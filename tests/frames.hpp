@@ -14,10 +14,10 @@ struct Frame {
     SceneFrame place;
     FrameStatus status;
     std::size_t launches = 0;
-    std::vector<glm::vec3> radiance;        // [height][width] cd/m^2
-    std::vector<glm::vec3> position;        // [height][width] local frame
-    std::vector<glm::vec3> irradiance;      // [height][width] local frame, exposed; indirect
-    std::vector<IndirectLight> lights;      // [N]
+    std::vector<glm::vec3> radiance;    // [height][width] cd/m^2
+    std::vector<glm::vec3> position;    // [height][width] local frame
+    std::vector<glm::vec3> irradiance;  // [height][width] local frame, exposed; indirect
+    std::vector<IndirectLight> lights;  // [N]
     std::vector<IndirectLight> negative;
 
     glm::dvec3 world(std::size_t pixel) const {
@@ -56,11 +56,13 @@ inline Frame read_frame(const cl::CommandQueue& queue, const DeviceScene& scene,
     const auto read = [&](const cl::Buffer& buffer, std::size_t count) {
         std::vector<IndirectLight> lights(count);
         if (count > 0)
-            queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(IndirectLight), lights.data());
+            queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(IndirectLight),
+                                    lights.data());
         return lights;
     };
     out.lights = read(solver.indirect_lights(), solver.sources().light_count);
-    out.negative = read(solver.negative_lights(), static_cast<std::size_t>(options.negative_lights));
+    out.negative =
+        read(solver.negative_lights(), static_cast<std::size_t>(options.negative_lights));
     return out;
 }
 

@@ -1,8 +1,8 @@
 // The surface behind each pixel, against rays and planes in double precision.
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
 #include <cmath>
 #include <functional>
-#include <gtest/gtest.h>
 
 #include "drawing.hpp"
 #include "scenes.hpp"
@@ -35,8 +35,9 @@ struct Ray {
 Ray pixel_ray(const View& view, std::size_t pixel) {
     const double x = (static_cast<double>(pixel % view.width) + 0.5) * 2.0 / view.width - 1.0;
     const double y = 1.0 - (static_cast<double>(pixel / view.width) + 0.5) * 2.0 / view.height;
-    const glm::dvec3 aside = glm::dvec3(view.right) * (x * double{view.right.w} + double{view.window.x}) +
-                             glm::dvec3(view.up) * (y * double{view.up.w} + double{view.window.y});
+    const glm::dvec3 aside =
+        glm::dvec3(view.right) * (x * double{view.right.w} + double{view.window.x}) +
+        glm::dvec3(view.up) * (y * double{view.up.w} + double{view.window.y});
     const glm::dvec3 eye(view.eye), forward(view.forward);
     return view.eye.w == 0.0f ? Ray{eye, forward + aside} : Ray{eye + aside, forward};
 }
@@ -91,8 +92,8 @@ void expect_matches_rays(const Scene& scene, const std::function<View(const Devi
     EXPECT_LT(worst, 3e-5);
 }
 
-View looking(const DeviceScene& scene, glm::vec3 right, glm::vec3 up, float extent_x, float extent_y,
-             int width, int height) {
+View looking(const DeviceScene& scene, glm::vec3 right, glm::vec3 up, float extent_x,
+             float extent_y, int width, int height) {
     View view{};
     view.right = glm::vec4(right, extent_x);
     view.up = glm::vec4(up, extent_y);
@@ -151,7 +152,8 @@ TEST(GBuffer, CutsTrianglesAtTheEyeAndFarOutside) {
         for (std::size_t p = 0; p < drawing.pixels(); ++p) {
             const Ray ray = pixel_ray(drawing.view, p);
             const double depth = -height / ray.direction.y;
-            const double reach = depth * std::max(std::abs(ray.direction.x), std::abs(ray.direction.z));
+            const double reach =
+                depth * std::max(std::abs(ray.direction.x), std::abs(ray.direction.z));
             // The near plane of this camera cuts the floor below the image.
             const bool hit = ray.direction.y < -1e-9 && reach < 0.98 * half * placed.frame().scale;
             const bool missed = ray.direction.y > 0.0 || reach > 1.02 * half * placed.frame().scale;
@@ -165,7 +167,8 @@ TEST(GBuffer, CoversTheNearPlanesCutExactlyUpToIt) {
     // A wall seen end on: it starts behind the eye; what is nearer than `near` must be cut away.
     Scene scene = test::plain_scene();
     scene.materials[0].double_sided = true;
-    test::add_quad(scene, {glm::dvec3(0.5, -0.2, 3), {0.5, -0.2, -9}, {0.5, 0.2, -9}, {0.5, 0.2, 3}});
+    test::add_quad(scene,
+                   {glm::dvec3(0.5, -0.2, 3), {0.5, -0.2, -9}, {0.5, 0.2, -9}, {0.5, 0.2, 3}});
     Camera camera = test::camera_at({0, 0, 0}, {0, 0, -1}, 2.0f);
     camera.near = 1.0f;
     const Drawing drawing = test::draw(scene, camera, 128, 128);
@@ -183,11 +186,14 @@ TEST(GBuffer, HasUnitNormalsTowardsTheViewer) {
     scene.materials[0].double_sided = true;
     test::Random random(5);
     for (glm::vec3& normal : scene.normals)  // shading normals far off the faces
-        normal = glm::normalize(normal + glm::vec3(random(-0.5, 0.5), random(-0.5, 0.5), random(-0.5, 0.5)));
-    const Drawing drawing = test::draw(scene, test::camera_at({0.1, 0.2, 0.9}, {-0.3, 0, -0.6}, 1.2f), 99, 75);
+        normal = glm::normalize(normal +
+                                glm::vec3(random(-0.5, 0.5), random(-0.5, 0.5), random(-0.5, 0.5)));
+    const Drawing drawing =
+        test::draw(scene, test::camera_at({0.1, 0.2, 0.9}, {-0.3, 0, -0.6}, 1.2f), 99, 75);
     for (std::size_t p = 0; p < drawing.pixels(); ++p) {
         ASSERT_GE(drawing.triangle(p), 0) << "the box is closed";
-        const glm::vec3 towards = glm::normalize(glm::vec3(drawing.view.eye) - drawing.at(GBUFFER_POSITION, p));
+        const glm::vec3 towards =
+            glm::normalize(glm::vec3(drawing.view.eye) - drawing.at(GBUFFER_POSITION, p));
         for (const int plane : {int{GBUFFER_NORMAL}, int{GBUFFER_GEOMETRIC}}) {
             const glm::vec3 normal = drawing.at(plane, p);
             EXPECT_NEAR(glm::length(normal), 1.0f, 4e-7f);  // a root and a division
@@ -201,12 +207,14 @@ TEST(GBuffer, IsTheSameForEveryWorkGroupAndPacket) {
     for (int t = 0; t < 1500; ++t) {  // and dust, a pixel or less each
         test::Random random(static_cast<std::uint64_t>(t));
         const glm::dvec3 at(random(-0.9, 0.9), random(-0.9, 0.9), random(-0.9, 0.2));
-        const auto aside = [&] { return glm::dvec3(random(-0.02, 0.02), random(-0.02, 0.02), random(-0.02, 0.02)); };
+        const auto aside = [&] {
+            return glm::dvec3(random(-0.02, 0.02), random(-0.02, 0.02), random(-0.02, 0.02));
+        };
         test::add_triangle(scene, at + aside(), at + aside(), at + aside());
     }
     const DeviceScene placed = test::on_device(scene);
-    const View view = make_view(test::camera_at({0.1, 0.2, 0.9}, {-0.3, 0, -0.6}, 1.2f),
-                                placed.frame(), 133, 67);
+    const View view =
+        make_view(test::camera_at({0.1, 0.2, 0.9}, {-0.3, 0, -0.6}, 1.2f), placed.frame(), 133, 67);
     const Drawing usual = test::draw(placed, view);
     std::vector<BuildOptions> builds;
     for (const std::size_t size : {1, 7, 256}) builds.push_back({.local_size = size});
@@ -226,7 +234,8 @@ TEST(GBuffer, IsTheSameForEveryWorkGroupAndPacket) {
 }
 
 TEST(GBuffer, PicksEverySecondPointOfEverySecondRow) {
-    for (const auto& [width, height] : {std::pair(1u, 1u), {2u, 1u}, {3u, 5u}, {33u, 18u}, {64u, 6u}}) {
+    for (const auto& [width, height] :
+         {std::pair(1u, 1u), {2u, 1u}, {3u, 5u}, {33u, 18u}, {64u, 6u}}) {
         const std::uint32_t stride = test::padded(width * height);
         const std::uint32_t low_width = (width + 1) / 2, low_height = (height + 1) / 2;
         const std::uint32_t low_stride = test::padded(low_width * low_height);

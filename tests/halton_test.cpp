@@ -1,8 +1,8 @@
 // Radical inverses against exact fractions, on the host and on the device.
 // SPDX-License-Identifier: MIT
 #include <clgi/shared/halton.h>
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "device.hpp"
 #include "kernel_text.hpp"
@@ -13,7 +13,10 @@ namespace {
 
 struct Fraction {
     std::uint64_t top, bottom;
-    double value() const { return static_cast<double>(static_cast<long double>(top) / static_cast<long double>(bottom)); }
+    double value() const {
+        return static_cast<double>(static_cast<long double>(top) /
+                                   static_cast<long double>(bottom));
+    }
 };
 
 // Digit by digit, in integers.
@@ -44,13 +47,16 @@ std::vector<float> on_device(const std::vector<cl_uint>& indices, cl_uint base) 
 }
 
 std::vector<cl_uint> hard_indices() {
-    std::vector<cl_uint> out = {0, 1, 2, 3, 12345, 1000000, 0x7fffffffu, 0x80000000u, 0x80000001u,
-                                0xfffffffeu, 0xffffffffu};
+    std::vector<cl_uint> out = {0,           1,           2,           3,
+                                12345,       1000000,     0x7fffffffu, 0x80000000u,
+                                0x80000001u, 0xfffffffeu, 0xffffffffu};
     for (const std::uint64_t base : {2, 3, 5})  // one digit more begins
         for (std::uint64_t power = base; power <= 0xffffffffu; power *= base)
-            for (int step = -1; step <= 1; ++step) out.push_back(static_cast<cl_uint>(power + step));
+            for (int step = -1; step <= 1; ++step)
+                out.push_back(static_cast<cl_uint>(power + step));
     test::Random random(7);
-    for (int i = 0; i < 3000; ++i) out.push_back(static_cast<cl_uint>(random(2147480000.0, 4294967295.0)));
+    for (int i = 0; i < 3000; ++i)
+        out.push_back(static_cast<cl_uint>(random(2147480000.0, 4294967295.0)));
     for (int i = 0; i < 3000; ++i) out.push_back(static_cast<cl_uint>(random(0.0, 20000.0)));
     return out;
 }
@@ -62,7 +68,8 @@ double ulp(double value) {
 
 TEST(Halton, BeginsAsWrittenInThePapers) {
     const float two[] = {1 / 2.f, 1 / 4.f, 3 / 4.f, 1 / 8.f, 5 / 8.f, 3 / 8.f, 7 / 8.f, 1 / 16.f};
-    const float three[] = {1 / 3.f, 2 / 3.f, 1 / 9.f, 4 / 9.f, 7 / 9.f, 2 / 9.f, 5 / 9.f, 8 / 9.f, 1 / 27.f};
+    const float three[] = {1 / 3.f, 2 / 3.f, 1 / 9.f, 4 / 9.f, 7 / 9.f,
+                           2 / 9.f, 5 / 9.f, 8 / 9.f, 1 / 27.f};
     const float five[] = {1 / 5.f, 2 / 5.f, 3 / 5.f, 4 / 5.f, 1 / 25.f, 6 / 25.f, 11 / 25.f};
     for (uint i = 0; i < std::size(two); ++i) EXPECT_EQ(radical_inverse(i + 1, 2), two[i]);
     for (uint i = 0; i < std::size(three); ++i) EXPECT_EQ(radical_inverse(i + 1, 3), three[i]);
@@ -73,12 +80,19 @@ TEST(Halton, HasTheDigitsOfTheTable) {
     const struct {
         std::uint64_t index, base;
         Fraction wanted;
-    } rows[] = {{12345, 2, {9987, 16384}}, {12345, 3, {4849, 19683}}, {12345, 5, {2973, 15625}},
-                {1000000, 2, {9263, 1048576}}, {1000000, 3, {575656, 1594323}},
-                {1000000, 5, {112, 1953125}}, {0x7fffffff, 3, {1387926781, 3486784401}},
-                {0x7fffffff, 5, {3464728091, 6103515625}}, {0x80000000, 2, {1, 4294967296}},
-                {0x80000000, 3, {2550188248, 3486784401}}, {0x80000000, 5, {4685431216, 6103515625}},
-                {0xffffffff, 3, {2132907247, 10460353203}}, {0xffffffff, 5, {1060315563, 6103515625}}};
+    } rows[] = {{12345, 2, {9987, 16384}},
+                {12345, 3, {4849, 19683}},
+                {12345, 5, {2973, 15625}},
+                {1000000, 2, {9263, 1048576}},
+                {1000000, 3, {575656, 1594323}},
+                {1000000, 5, {112, 1953125}},
+                {0x7fffffff, 3, {1387926781, 3486784401}},
+                {0x7fffffff, 5, {3464728091, 6103515625}},
+                {0x80000000, 2, {1, 4294967296}},
+                {0x80000000, 3, {2550188248, 3486784401}},
+                {0x80000000, 5, {4685431216, 6103515625}},
+                {0xffffffff, 3, {2132907247, 10460353203}},
+                {0xffffffff, 5, {1060315563, 6103515625}}};
     for (const auto& row : rows) {
         const double wanted = row.wanted.value();
         EXPECT_DOUBLE_EQ(exact(row.index, row.base).value(), wanted);
@@ -96,7 +110,8 @@ TEST(Halton, IsWithinTwoUlpAndBelowOneEverywhere) {
         for (std::size_t i = 0; i < indices.size(); ++i) {
             const double wanted = exact(indices[i], base).value();
             for (const float value : {found[i], radical_inverse(indices[i], base)}) {
-                EXPECT_LE(std::abs(value - wanted), 2.0 * ulp(wanted)) << indices[i] << " base " << base;
+                EXPECT_LE(std::abs(value - wanted), 2.0 * ulp(wanted))
+                    << indices[i] << " base " << base;
                 EXPECT_LT(value, 1.0f);
                 EXPECT_GE(value, 0.0f);
             }
@@ -105,8 +120,12 @@ TEST(Halton, IsWithinTwoUlpAndBelowOneEverywhere) {
 }
 
 TEST(Halton, StopsShortOfOneWhereTheFractionRoundsToIt) {
-    for (const auto& [index, base] : {std::pair(33554431u, 2u), {43046720u, 3u}, {14348906u, 3u},
-                                      {48828124u, 5u}, {0x7fffffffu, 2u}, {0xffffffffu, 2u},
+    for (const auto& [index, base] : {std::pair(33554431u, 2u),
+                                      {43046720u, 3u},
+                                      {14348906u, 3u},
+                                      {48828124u, 5u},
+                                      {0x7fffffffu, 2u},
+                                      {0xffffffffu, 2u},
                                       {0xffffff80u, 2u}}) {
         EXPECT_LT(radical_inverse(index, base), 1.0f) << index;
         EXPECT_LT(on_device({index}, base)[0], 1.0f) << index;

@@ -1,8 +1,8 @@
-// What must not change a picture: where the scene is, how large, how bright, and how it is computed.
-// SPDX-License-Identifier: MIT
+// What must not change a picture: where the scene is, how large, how bright, and how it is
+// computed. SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
 #include <clgi/procedural.hpp>
 #include <cmath>
-#include <gtest/gtest.h>
 
 #include "frames.hpp"
 #include "scenes.hpp"
@@ -36,7 +36,8 @@ Scene table(Light::Kind kind) {
     } else if (kind == Light::Kind::point) {
         scene.lights = {test::point_light(lamp)};
     } else {
-        scene.triangles.erase(scene.triangles.begin() + 6, scene.triangles.begin() + 8);  // the ceiling
+        scene.triangles.erase(scene.triangles.begin() + 6,
+                              scene.triangles.begin() + 8);  // the ceiling
         scene.lights = {test::directional_light({0.25f, -1, -0.5f})};
     }
     scene.cameras = {test::camera_at({0, 0.125, 0.9375}, {0, -0.3, -1}, 1.1f)};
@@ -61,7 +62,8 @@ TEST(Picture, IsTheSameAtEveryPowerOfTwoInSize) {
             scaled.cameras[0].position *= size;
             scaled.lights[0].position *= size;
             // Candela over metres squared: four times the light at twice the distance.
-            if (kind != Light::Kind::directional) scaled.lights[0].intensity *= static_cast<float>(size * size);
+            if (kind != Light::Kind::directional)
+                scaled.lights[0].intensity *= static_cast<float>(size * size);
             EXPECT_TRUE(test::same_bits(render(scaled).radiance, usual.radiance)) << k;
         }
     }
@@ -71,7 +73,8 @@ TEST(Picture, IsTheSameFarFromTheOrigin) {
     for (const Light::Kind kind : kinds) {
         const Scene scene = table(kind);
         const Frame usual = render(scene);
-        for (const glm::dvec3& offset : {glm::dvec3(1e5, 0, 0), glm::dvec3(1e6, -1e6, 1e5), glm::dvec3(0.0625, -1e6, 3)}) {
+        for (const glm::dvec3& offset :
+             {glm::dvec3(1e5, 0, 0), glm::dvec3(1e6, -1e6, 1e5), glm::dvec3(0.0625, -1e6, 3)}) {
             Scene moved = scene;
             for (glm::dvec3& position : moved.positions) position += offset;
             moved.cameras[0].position += offset;
@@ -95,14 +98,16 @@ TEST(Picture, IsProportionalToItsLight) {
     }
 }
 
-// The exposure follows the brightest light: beside 1e20 cd one of 1e-20 is nothing, and does no harm.
+// The exposure follows the brightest light: beside 1e20 cd one of 1e-20 is nothing, and does no
+// harm.
 TEST(Picture, StaysFiniteWithLightsOfAllPowers) {
     Scene scene = table(Light::Kind::point);
     scene.lights[0].intensity = glm::vec3(1e20f);
     scene.lights.push_back(test::point_light({-0.25, 0.5, 0.5}, 1e-20f));
     const Frame frame = render(scene);
     EXPECT_EQ(frame.status.non_finite, 0u);
-    for (const glm::vec3& radiance : frame.radiance) EXPECT_TRUE(std::isfinite(radiance.x) && radiance.x >= 0.0f);
+    for (const glm::vec3& radiance : frame.radiance)
+        EXPECT_TRUE(std::isfinite(radiance.x) && radiance.x >= 0.0f);
 }
 
 TEST(Picture, OfTwoLightsIsTheSumOfTwoPictures) {
@@ -119,7 +124,8 @@ TEST(Picture, OfTwoLightsIsTheSumOfTwoPictures) {
     second.lights.erase(second.lights.begin());
     const Frame a = render(first, options), b = render(second, options);
     for (std::size_t p = 0; p < sum.pixels; ++p)  // a hundred additions in another order
-        EXPECT_NEAR(sum.radiance[p].x, a.radiance[p].x + b.radiance[p].x, 1e-5f * sum.radiance[p].x);
+        EXPECT_NEAR(sum.radiance[p].x, a.radiance[p].x + b.radiance[p].x,
+                    1e-5f * sum.radiance[p].x);
 }
 
 TEST(Picture, IsTheSameEveryTime) {
@@ -130,7 +136,8 @@ TEST(Picture, IsTheSameEveryTime) {
     const Frame first = test::read_frame(test::device().queue, placed, solver);
     for (int run = 0; run < 20; ++run) {
         solver.render(scene.cameras[0]).wait();
-        EXPECT_TRUE(test::same_bits(test::read_frame(test::device().queue, placed, solver).radiance, first.radiance));
+        EXPECT_TRUE(test::same_bits(test::read_frame(test::device().queue, placed, solver).radiance,
+                                    first.radiance));
     }
 }
 
@@ -141,17 +148,23 @@ TEST(Picture, IsTheSameOnAQueueOutOfOrder) {
     const cl::CommandQueue queue(on.context, on.device, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
     for (const Light::Kind kind : kinds) {
         const Scene scene = table(kind);
-        EXPECT_TRUE(test::same_bits(test::render(scene, scene.cameras[0], small_frame(), queue).radiance,
-                                    render(scene).radiance));
+        EXPECT_TRUE(
+            test::same_bits(test::render(scene, scene.cameras[0], small_frame(), queue).radiance,
+                            render(scene).radiance));
     }
 }
 
 TEST(Picture, IsTheSameForEveryWorkGroupAndPacket) {
     const Scene scene = table(Light::Kind::spot);
     const Frame usual = render(scene);
-    for (const BuildOptions& build :
-         {BuildOptions{.packet_width = 1}, {.packet_width = 4}, {.packet_width = 8}, {.local_size = 1},
-          {.local_size = 7}, {.local_size = 64}, {.local_size = 256}, {.atomics64 = false}}) {
+    for (const BuildOptions& build : {BuildOptions{.packet_width = 1},
+                                      {.packet_width = 4},
+                                      {.packet_width = 8},
+                                      {.local_size = 1},
+                                      {.local_size = 7},
+                                      {.local_size = 64},
+                                      {.local_size = 256},
+                                      {.atomics64 = false}}) {
         SecondOrderOptions options = small_frame();
         options.build = build;
         const Frame other = render(scene, options);

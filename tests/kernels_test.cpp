@@ -1,10 +1,10 @@
 // Every kernel is a program of its own: it builds alone, without macros and at every packet width,
 // and the compiler has nothing to remark.
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
 #include <filesystem>
 #include <fstream>
 #include <future>
-#include <gtest/gtest.h>
 #include <sstream>
 
 #include "device.hpp"

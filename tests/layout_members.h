@@ -28,12 +28,13 @@
     SIZE(IndirectLight) MEMBER(IndirectLight, position) MEMBER(IndirectLight, normal)           \
     MEMBER(IndirectLight, flux)                                                                 \
     SIZE(AcceptParams) MEMBER(AcceptParams, emitter) MEMBER(AcceptParams, candidate_count)      \
-    MEMBER(AcceptParams, pad0_) MEMBER(AcceptParams, pad1_)                                     \
+    MEMBER(AcceptParams, light_count) MEMBER(AcceptParams, pad_)                                     \
     SIZE(FetchParams) MEMBER(FetchParams, light_count) MEMBER(FetchParams, emitter_count)       \
     MEMBER(FetchParams, scale) MEMBER(FetchParams, pad_)                                        \
     SIZE(NegativeParams) MEMBER(NegativeParams, light_count)                                    \
     MEMBER(NegativeParams, negative_count) MEMBER(NegativeParams, stride)                       \
-    MEMBER(NegativeParams, back_facing)                                                         \
+    MEMBER(NegativeParams, back_facing) MEMBER(NegativeParams, footprint) \
+    MEMBER(NegativeParams, pad0_) MEMBER(NegativeParams, pad1_) MEMBER(NegativeParams, pad2_)                                                         \
     SIZE(GatherParams) MEMBER(GatherParams, stride) MEMBER(GatherParams, light_count)           \
     MEMBER(GatherParams, negative_count) MEMBER(GatherParams, footprint)                        \
     SIZE(RefineParams) MEMBER(RefineParams, width) MEMBER(RefineParams, height)                 \

@@ -1,8 +1,8 @@
 // Host and device agree about every byte of the structs that they share.
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
 #include <cstddef>
 #include <cstring>
-#include <gtest/gtest.h>
 #include <string>
 
 #include "device.hpp"

@@ -34,7 +34,8 @@ inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions&
     if (out.set.light_count == 0) return out;
     const RasterBuffers buffers = raster_buffers(scene, out.set.pixels);
     for (const View& view : out.set.views) draw_visibility(gbuffer_passes(), scene, view, buffers);
-    const SourceBuffers sources{upload(out.set.emitters), upload(out.set.views), buffers.visibility};
+    const SourceBuffers sources{upload(out.set.emitters), upload(out.set.views),
+                                buffers.visibility};
     const cl::Buffer accepted = upload(std::vector<cl_uint>(out.set.light_count));
     for (std::size_t e = 0; e < out.set.emitters.size(); ++e) {
         if (out.set.candidates[e] == 0) continue;
@@ -64,7 +65,8 @@ struct Receiver {
     glm::vec3 normal;
 };
 
-inline std::vector<float> point_planes(const std::vector<Receiver>& receivers, std::uint32_t stride) {
+inline std::vector<float> point_planes(const std::vector<Receiver>& receivers,
+                                       std::uint32_t stride) {
     std::vector<float> planes(POINT_PLANES * std::size_t{stride});
     for (std::size_t i = 0; i < receivers.size(); ++i)
         for (int c = 0; c < 3; ++c) {

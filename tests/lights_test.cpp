@@ -1,8 +1,8 @@
 // Indirect lights against scenes whose one-bounce light has a closed form.
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
 #include <clgi/procedural.hpp>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <numbers>
 
 #include "lighting.hpp"
@@ -25,7 +25,8 @@ std::vector<glm::dvec3> around(int count) {
     std::vector<glm::dvec3> out;
     for (int i = 0; i < count; ++i) {
         const double y = 1.0 - (2.0 * i + 1.0) / count, turn = i * pi * (3.0 - std::sqrt(5.0));
-        out.emplace_back(std::sqrt(1 - y * y) * std::cos(turn), y, std::sqrt(1 - y * y) * std::sin(turn));
+        out.emplace_back(std::sqrt(1 - y * y) * std::cos(turn), y,
+                         std::sqrt(1 - y * y) * std::sin(turn));
     }
     return out;
 }
@@ -69,8 +70,9 @@ TEST(AreaLightInASphere, LightsEveryPointAlike) {
     lamp.emission = glm::vec3(3.0f);
     const auto material = test::add_material(world, lamp);
     const double half = 0.05;
-    test::add_quad(world, {glm::dvec3(-half, 0, -half), {half, 0, -half}, {half, 0, half}, {-half, 0, half}},
-                   material);  // facing down
+    test::add_quad(
+        world, {glm::dvec3(-half, 0, -half), {half, 0, -half}, {half, 0, half}, {-half, 0, half}},
+        material);  // facing down
     const DeviceScene scene = test::on_device(world);
     const double flux = pi * 3.0 * 4 * half * half;
     expect_even_in_sphere(scene, test::place_lights(scene, {.lights = 512}).lights, flux, 0.5);
@@ -92,9 +94,11 @@ TEST(SpotOverAFloor, LightsItsOwnPlaceAsTheIntegralSays) {
     for (const auto& [angle, wanted] : rows) {
         EXPECT_NEAR(floor_seen_from_spot(angle * degree), wanted, 1e-10);
         const DeviceScene scene = test::on_device(spot_over_floor(angle * degree));
-        const PlacedLights placed = test::place_lights(scene, {.lights = 10000, .shadow_size = 256});
+        const PlacedLights placed =
+            test::place_lights(scene, {.lights = 10000, .shadow_size = 256});
         // Halton sums of 10,000 points are within 0.01 % here; corners at 1/256 pixel add as much.
-        EXPECT_NEAR(test::lux_at(scene, placed.lights, {0, 1, 0}, {0, -1, 0}, 1.0f), wanted, 0.005 * wanted)
+        EXPECT_NEAR(test::lux_at(scene, placed.lights, {0, 1, 0}, {0, -1, 0}, 1.0f), wanted,
+                    0.005 * wanted)
             << angle;
     }
 }
@@ -150,20 +154,24 @@ TEST(IndirectLights, CarryHalfWhereHalfTheConeLeavesTheScene) {
     world.lights = {test::spot_light({0, 1, 0}, {0, -1, 0}, 40 * degree)};
     const DeviceScene scene = test::on_device(world);
     const double half = 0.5 * pi * (1 - std::cos(40 * degree));  // times albedo 1/2
-    EXPECT_NEAR(test::total_flux(scene, test::place_lights(scene, {.lights = 4000}).lights), half, 0.01 * half);
+    EXPECT_NEAR(test::total_flux(scene, test::place_lights(scene, {.lights = 4000}).lights), half,
+                0.01 * half);
 }
 
 TEST(IndirectLights, CarryASunsLightOnAFloor) {
     Scene world = test::plain_scene();
     test::add_floor(world, 2.0);
     for (const double slant : {0.0, 45.0, 80.0}) {
-        world.lights = {test::directional_light(
-            {static_cast<float>(std::sin(slant * degree)), static_cast<float>(-std::cos(slant * degree)), 0}, 5.0f)};
+        world.lights = {test::directional_light({static_cast<float>(std::sin(slant * degree)),
+                                                 static_cast<float>(-std::cos(slant * degree)), 0},
+                                                5.0f)};
         const DeviceScene scene = test::on_device(world);
         const double flux = 0.5 * 5.0 * 16.0 * std::cos(slant * degree);
         // A strip of the disc at 80 degrees: 2500 of 20000 samples, whose border counts 1 %.
-        EXPECT_NEAR(test::total_flux(scene, test::place_lights(scene, {.lights = 20000, .shadow_size = 1024}).lights),
-                    flux, 0.01 * flux)
+        EXPECT_NEAR(
+            test::total_flux(
+                scene, test::place_lights(scene, {.lights = 20000, .shadow_size = 1024}).lights),
+            flux, 0.01 * flux)
             << slant;
     }
 }

@@ -8,7 +8,7 @@
 command -v oclgrind > /dev/null || { echo "oclgrind is not installed: nothing was checked"; exit 77; }
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
-CLGI_DEVICE=oclgrind oclgrind --data-races --uninitialized --log "$log" "$@" || exit 1
+CLGI_DEVICE=oclgrind oclgrind --build-options "-cl-opt-disable -Dalways_inline=noinline" --data-races --uninitialized --log "$log" "$@" || exit 1
 if [ -s "$log" ]; then
     head -n 200 "$log"
     exit 1

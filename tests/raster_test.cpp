@@ -1,8 +1,8 @@
 // Which pixels a triangle covers, against exact integers: a pixel belongs to the triangle that its
 // centre lies in, moved right and down by nothing at all where it lies on an edge.
 // SPDX-License-Identifier: MIT
-#include <cstring>
 #include <gtest/gtest.h>
+#include <cstring>
 #include <numbers>
 
 #include "drawing.hpp"
@@ -113,8 +113,7 @@ TEST_P(RasterSize, CoversWhatExactIntegersSay) {
     const auto [width, height] = GetParam();
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Scene scene = random_triangles(500, width, height, seed);
-        const Drawing drawing =
-            test::draw(scene, test::pixel_camera(width, height), width, height);
+        const Drawing drawing = test::draw(scene, test::pixel_camera(width, height), width, height);
         const auto words = expected(drawing);
         int wrong = 0;
         for (std::size_t p = 0; p < words.size(); ++p) wrong += drawing.visibility[p] != words[p];
@@ -132,7 +131,8 @@ TEST(Raster, CoversAFanOnce) {
     const double pi = std::numbers::pi;
     for (int k = 0; k < spokes; ++k) {
         const double from = 2 * pi * k / spokes, to = 2 * pi * ((k + 1) % spokes) / spokes;
-        test::add_triangle(scene, {31.3, 29.7, 0}, {31.3 + 80 * cos(from), 29.7 + 80 * sin(from), 0},
+        test::add_triangle(scene, {31.3, 29.7, 0},
+                           {31.3 + 80 * cos(from), 29.7 + 80 * sin(from), 0},
                            {31.3 + 80 * cos(to), 29.7 + 80 * sin(to), 0});
     }
     expect_each_covered_once(scene, 64, 64);
@@ -148,7 +148,8 @@ TEST(Raster, CoversARandomMeshOnce) {
             for (int x = 0; x <= cells; ++x) {
                 const bool inner = x > 0 && y > 0 && x < cells && y < cells;
                 const double most = inner ? 0.3 * cell : 0.0;
-                grid.emplace_back(x * cell + random(-most, most), y * cell + random(-most, most), 0);
+                grid.emplace_back(x * cell + random(-most, most), y * cell + random(-most, most),
+                                  0);
             }
         Scene scene = test::plain_scene();
         for (int y = 0; y < cells; ++y)

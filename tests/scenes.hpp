@@ -69,7 +69,8 @@ inline void add_quad(Scene& scene, const std::array<glm::dvec3, 4>& corners,
 
 // A horizontal square of side 2 * half about (0, y, 0) that faces up.
 inline void add_floor(Scene& scene, double half, double y = 0.0, std::uint32_t material = 0) {
-    add_quad(scene, {glm::dvec3(-half, y, half), {half, y, half}, {half, y, -half}, {-half, y, -half}},
+    add_quad(scene,
+             {glm::dvec3(-half, y, half), {half, y, half}, {half, y, -half}, {-half, y, -half}},
              material);
 }
 

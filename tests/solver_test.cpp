@@ -1,8 +1,8 @@
 // Whole frames against closed forms, and what a frame promises about negative lights and shadows.
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
 #include <clgi/procedural.hpp>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <numbers>
 
 #include "frames.hpp"
@@ -34,7 +34,8 @@ TEST(SecondOrder, LightsASphereEvenly) {
     options.direct = false;
     for (const bool low : {false, true}) {
         options.low_resolution = low;
-        const Frame frame = test::render(scene, test::camera_at({0, 0, 0}, {0.1, 1, 0.2}, 1.4f), options);
+        const Frame frame =
+            test::render(scene, test::camera_at({0, 0, 0}, {0.1, 1, 0.2}, 1.4f), options);
         // rho/pi times rho Phi/(4 pi R^2); 0.5 %: facets for the sphere.
         const double wanted = 0.5 / pi * 0.0334936491;
         for (std::size_t p = 0; p < frame.pixels; ++p)
@@ -47,7 +48,8 @@ TEST(SecondOrder, KeepsItsIndirectLightsWhenTheCameraMoves) {
         const Scene scene = cornell({.lamp = lamp});
         const SecondOrderOptions options = options_for(40, 30, 200, 20);
         const Frame here = test::render(scene, scene.cameras[0], options);
-        const Frame there = test::render(scene, test::camera_at({0.1, 0.4, -0.5}, {0.4, 0.2, 0.3}), options);
+        const Frame there =
+            test::render(scene, test::camera_at({0.1, 0.4, -0.5}, {0.4, 0.2, 0.3}), options);
         EXPECT_TRUE(test::same_bits(here.lights, there.lights));
         EXPECT_FALSE(here.radiance == there.radiance);
     }
@@ -104,9 +106,11 @@ TEST(Shadow, DoesNotDarkenAPlaneByItself) {
             if (metres != 1.0 && slant != 60.0 && slant != 89.0) continue;  // size changes little
             Scene world = test::plain_scene();
             test::add_floor(world, metres);
-            const glm::dvec3 lamp = 0.5 * metres * glm::dvec3(std::sin(slant * degree), std::cos(slant * degree), 0.1);
+            const glm::dvec3 lamp =
+                0.5 * metres * glm::dvec3(std::sin(slant * degree), std::cos(slant * degree), 0.1);
             const double angle = std::min(20.0, 0.5 * (90.0 - slant)) * degree;
-            world.lights = {test::spot_light(lamp, -lamp, angle, static_cast<float>(metres * metres))};
+            world.lights = {
+                test::spot_light(lamp, -lamp, angle, static_cast<float>(metres * metres))};
             Camera camera = test::camera_at({0, metres, 0}, {0, 0, 0});
             camera.kind = Camera::Kind::orthographic;
             camera.half_height = static_cast<float>(0.3 * metres);
@@ -118,10 +122,13 @@ TEST(Shadow, DoesNotDarkenAPlaneByItself) {
                 const double cosine = glm::dot(glm::normalize(lamp), glm::normalize(ray));
                 if (cosine < std::cos(0.97 * angle)) continue;
                 const double square = glm::dot(ray, ray);
-                const double wanted = 0.5 / pi * metres * metres / square * ray.y / std::sqrt(square);
+                const double wanted =
+                    0.5 / pi * metres * metres / square * ray.y / std::sqrt(square);
                 ++lit;
-                // 1e-3: float positions at grazing incidence; a shadowed texel is a quarter or more.
-                dark += std::abs(frame.radiance[p].x / wanted - 1.0) > 1e-3 + 1e-5 / std::cos(slant * degree);
+                // 1e-3: float positions at grazing incidence; a shadowed texel is a quarter or
+                // more.
+                dark += std::abs(frame.radiance[p].x / wanted - 1.0) >
+                        1e-3 + 1e-5 / std::cos(slant * degree);
             }
             EXPECT_GT(lit, 20u) << slant;
             EXPECT_EQ(dark, 0u) << slant << " degrees, " << metres << " m, of " << lit;
@@ -157,17 +164,21 @@ TEST(DirectLight, IsIntensityOverDistanceSquared) {
     camera.kind = Camera::Kind::orthographic;
     camera.half_height = 1e-3f;
     world.lights = {test::spot_light({0, 2, 0}, {0, -1, 0}, 0.5, 3.0f)};
-    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 0.75 * 0.5 / pi, 1e-6);
+    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 0.75 * 0.5 / pi,
+                1e-6);
     world.lights = {test::point_light({0, 2, 0}, 3.0f)};
-    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 0.75 * 0.5 / pi, 1e-6);
+    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 0.75 * 0.5 / pi,
+                1e-6);
     world.lights = {test::directional_light({0, -1, 0}, 3.0f)};
-    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 3.0 * 0.5 / pi, 1e-6);
+    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 3.0 * 0.5 / pi,
+                1e-6);
 }
 
 TEST(SecondOrder, RefusesOptionsOutOfRange) {
     const DeviceScene scene = test::on_device(cornell());
     for (const auto& break_one : std::initializer_list<void (*)(SecondOrderOptions&)>{
-             [](SecondOrderOptions& o) { o.width = 0; }, [](SecondOrderOptions& o) { o.height = 16385; },
+             [](SecondOrderOptions& o) { o.width = 0; },
+             [](SecondOrderOptions& o) { o.height = 16385; },
              [](SecondOrderOptions& o) { o.negative_lights = -1; },
              [](SecondOrderOptions& o) { o.footprint = -1.0f; },
              [](SecondOrderOptions& o) { o.discontinuity_threshold = std::nanf(""); },

@@ -1,7 +1,7 @@
 // Colours of surfaces: factors, vertex colours, textures and alpha masks, against closed forms.
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "drawing.hpp"
 #include "scenes.hpp"
@@ -46,7 +46,8 @@ TEST(Texture, ShowsACheckerTexelByTexel) {
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 8; ++x)
             if ((x + y) % 2) checker.rgba[4 * (8 * y + x)] = 0;
-    const Drawing drawing = test::draw(textured(checker, 64, 32), test::pixel_camera(64, 32), 64, 32);
+    const Drawing drawing =
+        test::draw(textured(checker, 64, 32), test::pixel_camera(64, 32), 64, 32);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x)
             EXPECT_EQ(drawing.at(GBUFFER_ALBEDO, 64 * y + x).x, (x / 8 + y / 8) % 2 ? 0.0f : 1.0f);
@@ -75,10 +76,10 @@ TEST(Texture, WrapsAsItsSamplerSays) {
         for (int x = 0; x < 128; ++x) {
             const int texel = x / 4 - 12;
             const int folded = ((texel % 8) + 8) % 8;
-            const int wanted = wrap == Wrap::repeat            ? folded % 4
+            const int wanted = wrap == Wrap::repeat          ? folded % 4
                                : wrap == Wrap::clamp_to_edge ? std::min(std::max(texel, 0), 3)
-                               : folded < 4                    ? folded
-                                                               : 7 - folded;
+                               : folded < 4                  ? folded
+                                                             : 7 - folded;
             EXPECT_NEAR(drawing.at(GBUFFER_ALBEDO, 128 + x).x, decoded(60 * wanted / 255.0), 1e-7)
                 << static_cast<int>(wrap) << ", pixel " << x;
         }
@@ -100,7 +101,7 @@ TEST(Texture, FollowsItsTransformAndUvSet) {
     Scene scene = textured(steps, 16, 4);
     for (glm::vec4& uv : scene.uvs) uv = {0.3f, 0.4f, uv.x, uv.y};
     scene.materials[0].base_texture.uv_set = 1;
-    scene.materials[0].base_texture.transform[0][0] = 0.5f;  // half as fast
+    scene.materials[0].base_texture.transform[0][0] = 0.5f;   // half as fast
     scene.materials[0].base_texture.transform[2][0] = 0.25f;  // from the second texel
     const Drawing drawing = test::draw(scene, test::pixel_camera(16, 4), 16, 4);
     for (int x = 0; x < 16; ++x)
@@ -132,10 +133,9 @@ TEST(Mask, LetsThroughWhereAlphaIsBelowItsCutoff) {
     scene.uvs.resize(scene.positions.size());
     for (const int width : {1, 4, 8}) {
         const DeviceScene placed = test::on_device(scene);
-        const Drawing drawing =
-            test::draw(placed, make_view(test::pixel_camera(32, 32), placed.frame(), 32, 32),
-                       GBufferPasses(test::device().context, test::device().device,
-                                     {.packet_width = width}));
+        const Drawing drawing = test::draw(
+            placed, make_view(test::pixel_camera(32, 32), placed.frame(), 32, 32),
+            GBufferPasses(test::device().context, test::device().device, {.packet_width = width}));
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x) {
                 const int alpha = 4 * (8 * (y / 4) + x / 4);

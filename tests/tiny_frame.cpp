@@ -19,14 +19,18 @@ Scene stamp() {
     Material masked;
     masked.alpha_mode = AlphaMode::mask;
     masked.base_texture.texture = 0;
-    test::add_quad(scene, {glm::dvec3(-0.8, 0, -0.6), {-0.2, 0, -0.6}, {-0.2, 0.6, -0.6}, {-0.8, 0.6, -0.6}},
-                   test::add_material(scene, masked));
+    test::add_quad(
+        scene, {glm::dvec3(-0.8, 0, -0.6), {-0.2, 0, -0.6}, {-0.2, 0.6, -0.6}, {-0.8, 0.6, -0.6}},
+        test::add_material(scene, masked));
     Material glowing;
     glowing.emission = glm::vec3(1.0f);
-    test::add_quad(scene, {glm::dvec3(-0.2, 0.99, -0.2), {0.2, 0.99, -0.2}, {0.2, 0.99, 0.2}, {-0.2, 0.99, 0.2}},
-                   test::add_material(scene, glowing));
+    test::add_quad(
+        scene,
+        {glm::dvec3(-0.2, 0.99, -0.2), {0.2, 0.99, -0.2}, {0.2, 0.99, 0.2}, {-0.2, 0.99, 0.2}},
+        test::add_material(scene, glowing));
     for (int k = 0; k < 8; ++k)  // and dust
-        test::add_triangle(scene, {0.1 * k, 0.3, 0.1}, {0.1 * k + 0.05, 0.3, 0.1}, {0.1 * k, 0.35, 0.1});
+        test::add_triangle(scene, {0.1 * k, 0.3, 0.1}, {0.1 * k + 0.05, 0.3, 0.1},
+                           {0.1 * k, 0.35, 0.1});
     scene.uvs.assign(scene.positions.size(), glm::vec4(0, 0, 0.7f, 0.3f));
     for (std::size_t i = 0; i < scene.uvs.size(); ++i) scene.uvs[i].x = static_cast<float>(i % 2);
     scene.colors.assign(scene.positions.size(), glm::vec4(0.9f, 0.8f, 0.7f, 1.0f));
@@ -46,10 +50,12 @@ void draw(bool atomics64) {
     options.sources = {.lights = 8, .shadow_size = 16, .face_size = 8, .area_samples = 1};
     options.negative_lights = 4;
     options.build = {.packet_width = 4, .local_size = 16, .atomics64 = atomics64};
-    const test::Frame frame = test::render(stamp(), test::camera_at({0, 0.1, 0.9}, {0, -0.2, -1}, 1.2f), options);
+    const test::Frame frame =
+        test::render(stamp(), test::camera_at({0, 0.1, 0.9}, {0, -0.2, -1}, 1.2f), options);
     double sum = 0.0;
     for (const glm::vec3& radiance : frame.radiance) sum += double{radiance.x};
-    std::printf("%zu passes, mean radiance %g\n", frame.launches, sum / static_cast<double>(frame.pixels));
+    std::printf("%zu passes, mean radiance %g\n", frame.launches,
+                sum / static_cast<double>(frame.pixels));
 }
 
 }  // namespace

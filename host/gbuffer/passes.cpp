@@ -119,6 +119,8 @@ cl::Event GBufferPasses::downsample(const cl::CommandQueue& queue, const Downsam
                                     const WaitList& wait) const {
     const std::size_t low_width = (params.width + 1) / 2;
     const std::size_t low_height = (params.height + 1) / 2;
+    need_stride(downsample_, "stride", params.stride,
+                static_cast<std::size_t>(params.width) * params.height);
     need_stride(downsample_, "low_stride", params.low_stride, low_width * low_height);
     need(downsample_, "planes", planes, sizeof(float) * POINT_PLANES * params.stride);
     need(downsample_, "points", points, sizeof(float) * POINT_PLANES * params.low_stride);

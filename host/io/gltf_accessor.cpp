@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <clgi/error.hpp>
+#include <cmath>
 #include <cstring>
 
 namespace clgi::io::gltf {
@@ -26,6 +27,13 @@ std::uint32_t load_index(const std::uint8_t* bytes, Component component) {
         default:
             return load<std::uint32_t>(bytes);
     }
+}
+
+bool all_finite(const std::uint8_t* floats, std::size_t length) {
+    for (std::size_t at = 0; at < length; at += sizeof(float)) {
+        if (!std::isfinite(load<float>(floats + at))) return false;
+    }
+    return true;
 }
 
 const std::uint8_t* view_data(const Document& document, int view) {
@@ -180,6 +188,21 @@ std::uint32_t AccessorReader::integer(std::size_t element, std::size_t component
     const std::uint8_t* bytes = find(element);
     if (!bytes) return 0;
     return load_index(bytes + component * byte_size(accessor_.component), accessor_.component);
+}
+
+std::size_t AccessorReader::first_not_finite() const {
+    if (accessor_.component != Component::float32) return size();
+    const std::size_t length = accessor_.element_bytes();
+    const std::size_t replaced = accessor_.sparse ? accessor_.sparse->count : 0;
+    std::size_t next = 0;  // of those replaced; quicker than to find each
+    for (std::size_t element = 0; element < size(); ++element) {
+        const std::uint8_t* bytes = data_ ? data_ + element * stride_ : nullptr;
+        if (next < replaced && sparse_index(next) == element) {
+            bytes = sparse_values_ + next++ * length;
+        }
+        if (bytes && !all_finite(bytes, length)) return element;
+    }
+    return size();
 }
 
 glm::dvec2 AccessorReader::vec2(std::size_t element) const {

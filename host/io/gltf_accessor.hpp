@@ -25,6 +25,9 @@ public:
     double number(std::size_t element, std::size_t component) const;
     std::uint32_t integer(std::size_t element, std::size_t component = 0) const;
 
+    // The first element with a number that is not finite, size() when there is none.
+    std::size_t first_not_finite() const;
+
     glm::dvec2 vec2(std::size_t element) const;
     glm::dvec3 vec3(std::size_t element) const;
     glm::dvec4 vec4(std::size_t element) const;

@@ -1,4 +1,4 @@
-// Checks of what the buffers hold, for every mesh of the file whether it is placed or not.
+// Checks of what the buffers hold, whether a node places it or not.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,7 +7,8 @@
 namespace clgi::io::gltf {
 
 // Throws InputError for attributes of the wrong format or of unequal length, for indices past the
-// last vertex, and for positions that are not finite. Expects check_accessors to have passed.
+// last vertex, and for numbers that are not finite except where they are mended: in the attributes
+// other than POSITION. Expects check_accessors to have passed.
 void check_meshes(const Document& document);
 
 }  // namespace clgi::io::gltf

@@ -81,7 +81,13 @@ struct MaterialSource {
     int metal_rough_texture = -1;
 };
 
+struct Attribute {
+    std::string name;
+    int accessor = -1;
+};
+
 struct Attributes {
+    std::vector<Attribute> all;  // those below and those that are not read
     int position = -1;
     int normal = -1;
     int uv[2] = {-1, -1};
@@ -91,6 +97,7 @@ struct Attributes {
 };
 
 struct MorphTarget {
+    std::vector<Attribute> all;
     int position = -1;
     int normal = -1;
 };

@@ -59,6 +59,7 @@ BufferView read_view(const Value& value, const std::vector<Buffer>& buffers) {
     if (const auto target = value.find("target")) {
         const std::uint64_t code = target->integer();
         if (code != 34962 && code != 34963) target->fail("is neither 34962 nor 34963");
+        if (code == 34963 && view.stride > 0) value.fail("holds indices, but has a byteStride");
     }
     return view;
 }

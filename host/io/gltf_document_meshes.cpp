@@ -8,14 +8,21 @@ namespace clgi::io::gltf {
 
 namespace {
 
+// Every attribute counts, also those that are not used here.
+std::vector<Attribute> read_all(const Value& value, std::size_t accessors) {
+    std::vector<Attribute> all;
+    for (const auto& [name, member] : value.members()) {
+        all.push_back({printable(name), member.index(accessors, "accessors")});
+    }
+    return all;
+}
+
 Attributes read_attributes(const Value& value, std::size_t accessors) {
     Attributes attributes;
+    attributes.all = read_all(value, accessors);
     const auto accessor = [&](const char* key) {
         return value.index_or_none(key, accessors, "accessors");
     };
-    // Every reference counts, also those of attributes that are not used here.
-    for (const auto& [name, member] : value.members()) member.index(accessors, "accessors");
-
     attributes.position = accessor("POSITION");
     attributes.normal = accessor("NORMAL");
     attributes.uv[0] = accessor("TEXCOORD_0");
@@ -45,10 +52,8 @@ Primitive read_primitive(const Value& value, const Document& document) {
     if (const auto targets = value.find("targets")) {
         for (std::size_t i = 0; i < targets->count(); ++i) {
             const Value target = targets->item(i);
-            for (const auto& [name, member] : target.members()) {
-                member.index(accessors, "accessors");
-            }
-            primitive.targets.push_back({target.index_or_none("POSITION", accessors, "accessors"),
+            primitive.targets.push_back({read_all(target, accessors),
+                                         target.index_or_none("POSITION", accessors, "accessors"),
                                          target.index_or_none("NORMAL", accessors, "accessors")});
         }
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_image.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <clgi/error.hpp>
 #include <climits>
 #include <cstring>
@@ -44,13 +46,21 @@ struct Size {
     std::uint64_t height;
 };
 
+std::string to_text(Size size) {
+    return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+void require_pixels(Size size) {
+    if (size.width == 0 || size.height == 0 || size.width > INT_MAX || size.height > INT_MAX) {
+        throw InputError("is of " + to_text(size) + " pixels");
+    }
+}
+
 // Refuses a size that is too large, or that so few bytes cannot stand for: the densest coding
 // spends most_per_byte pixels on a byte.
 void judge(Size size, std::size_t most, std::size_t bytes, std::size_t most_per_byte) {
-    const std::string text = std::to_string(size.width) + "x" + std::to_string(size.height);
-    if (size.width == 0 || size.height == 0 || size.width > INT_MAX || size.height > INT_MAX) {
-        throw InputError("is of " + text + " pixels");
-    }
+    require_pixels(size);
+    const std::string text = to_text(size);
     const std::uint64_t pixels = size.width * size.height;
     if (pixels > most) {
         throw InputError("is of " + text + " pixels, " + std::to_string(most) + " are allowed");
@@ -61,9 +71,35 @@ void judge(Size size, std::size_t most, std::size_t bytes, std::size_t most_per_
     }
 }
 
+Size png_size(Bytes bytes) {
+    if (bytes.size() < 33 || !has_at(bytes, 8, "\0\0\0\rIHDR"sv)) {
+        throw InputError("is no complete PNG");
+    }
+    return {big_endian(bytes, 16), big_endian(bytes, 20)};
+}
+
+// Follows the segments of a JPEG to the one with its size.
+void check_jpeg_start(Bytes start) {
+    constexpr std::size_t size_end = 9;  // in the segment with the size
+    std::size_t at = 2;
+    while (at + size_end <= start.size()) {
+        if (start[at] != 0xff || start[at + 1] == 0xff) {  // decoders skip what lies between
+            ++at;
+            continue;
+        }
+        const int marker = start[at + 1];
+        const bool frame = marker >= 0xc0 && marker <= 0xcf;
+        if (frame && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) return;
+        const std::size_t length = std::size_t{start[at + 2]} << 8 | start[at + 3];
+        const bool segment = frame || marker >= 0xdb;  // not a restart, an end, or the pixels
+        if (!segment || length < 2) throw InputError("is a damaged JPEG");
+        at += 2 + length;
+    }
+    if (start.size() < inspected_bytes) throw InputError("is no complete JPEG");
+}
+
 Pixels decode_png_file(Bytes bytes, std::size_t most) {
-    if (bytes.size() < 33 || !has_at(bytes, 12, "IHDR"sv)) throw InputError("is no complete PNG");
-    const Size size{big_endian(bytes, 16), big_endian(bytes, 20)};
+    const Size size = png_size(bytes);
     // Deflate at best packs 1032 bytes into one, and a byte holds up to 8 pixels.
     judge(size, most, bytes.size(), 1032 * 8);
     Pixels pixels{static_cast<int>(size.width), static_cast<int>(size.height), {}};
@@ -94,22 +130,38 @@ Pixels decode_jpeg_file(Bytes bytes, std::size_t most) {
     return {width, height, std::vector<std::uint8_t>(decoded.get(), decoded.get() + size)};
 }
 
+bool is_png(Bytes bytes) { return has_at(bytes, 0, "\x89PNG\r\n\x1a\n"sv); }
+
 }  // namespace
 
-ImageFormat image_format(Bytes bytes) {
-    if (has_at(bytes, 0, "\x89PNG\r\n\x1a\n"sv)) return ImageFormat::png;
-    if (has_at(bytes, 0, "\xff\xd8\xff"sv)) return ImageFormat::jpeg;
+ImageFormat inspect_image(Bytes bytes) {
+    if (is_png(bytes)) {
+        require_pixels(png_size(bytes));
+        return ImageFormat::png;
+    }
+    if (has_at(bytes, 0, "\xff\xd8\xff"sv)) {
+        check_jpeg_start(bytes.first(std::min(bytes.size(), inspected_bytes)));
+        return ImageFormat::jpeg;
+    }
     const bool webp = has_at(bytes, 0, "RIFF"sv) && has_at(bytes, 8, "WEBP"sv);
     const bool avif = has_at(bytes, 4, "ftyp"sv);
     const bool ktx = has_at(bytes, 0, "\xabKTX "sv);
     const bool other =
         has_at(bytes, 0, "DDS "sv) || has_at(bytes, 0, "GIF8"sv) || has_at(bytes, 0, "BM"sv);
-    return webp || avif || ktx || other ? ImageFormat::unsupported : ImageFormat::unknown;
+    if (!webp && !avif && !ktx && !other) throw InputError("is neither PNG nor JPEG");
+    return ImageFormat::unsupported;
+}
+
+bool contradicts(std::string_view media_type, ImageFormat format) {
+    std::string type(media_type);
+    for (char& c : type) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (!type.starts_with("image/") || format == ImageFormat::unsupported) return false;
+    if (format == ImageFormat::png) return type != "image/png";
+    return type != "image/jpeg" && type != "image/jpg";
 }
 
 Pixels decode_image(Bytes bytes, std::size_t most) {
-    return image_format(bytes) == ImageFormat::png ? decode_png_file(bytes, most)
-                                                   : decode_jpeg_file(bytes, most);
+    return is_png(bytes) ? decode_png_file(bytes, most) : decode_jpeg_file(bytes, most);
 }
 
 }  // namespace clgi::io::gltf

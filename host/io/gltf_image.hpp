@@ -3,16 +3,25 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "io/gltf_container.hpp"
 
 namespace clgi::io::gltf {
 
-enum class ImageFormat { png, jpeg, unsupported, unknown };
+enum class ImageFormat { png, jpeg, unsupported };
 
-// By the first bytes; 16 are enough. unsupported: a known format that glTF extensions allow.
-ImageFormat image_format(Bytes bytes);
+// How much of an image inspect_image looks at: a page of a file. A JPEG whose size comes later is
+// not judged.
+constexpr std::size_t inspected_bytes = 4096;
+
+// unsupported: a known format that glTF extensions allow. Throws InputError for one that is not
+// known, and for a PNG or JPEG that is broken before it says its size.
+ImageFormat inspect_image(Bytes bytes);
+
+// Whether a media type like "image/gif" calls a PNG or JPEG something else.
+bool contradicts(std::string_view media_type, ImageFormat format);
 
 struct Pixels {
     int width = 0;

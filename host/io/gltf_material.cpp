@@ -4,6 +4,7 @@
 #include <clgi/error.hpp>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 #include "io/gltf_buffer.hpp"
@@ -77,19 +78,36 @@ public:
                                   static_cast<double>(green) / full};
     }
 
-    // Every image, used or not, must exist and be something.
+    // Every image, used or not, must exist and be what it says.
     void check_pictures() {
         for (std::size_t i = 0; i < document_.pictures.size(); ++i) {
             const int picture = static_cast<int>(i);
             std::vector<std::uint8_t> held;
-            formats_.push_back(image_format(read(picture, 16, held)));
-            if (formats_.back() == ImageFormat::unknown) fail(picture, "is neither PNG nor JPEG");
+            const Bytes bytes = read(picture, inspected_bytes, held);
+            try {
+                formats_.push_back(inspect_image(bytes));
+            } catch (const InputError& error) {
+                fail(picture, error.what());
+            }
+            check_types(picture);
         }
     }
 
 private:
     [[noreturn]] void fail(int picture, const std::string& what) const {
         throw InputError("images[" + std::to_string(picture) + "] " + what);
+    }
+
+    // What a data uri says of itself must be true; files and views are known by their bytes alone.
+    void check_types(int picture) const {
+        const Picture& source = document_.pictures[picture];
+        if (!is_data_uri(source.uri)) return;
+        for (const std::string_view type :
+             {data_uri_type(source.uri), std::string_view(source.mime)}) {
+            if (!contradicts(type, formats_[picture])) continue;
+            fail(picture, "calls its data " + printable(std::string(type)) + ", but they are a " +
+                              (formats_[picture] == ImageFormat::png ? "PNG" : "JPEG"));
+        }
     }
 
     Bytes read(int picture, std::size_t limit, std::vector<std::uint8_t>& held) {

@@ -93,12 +93,19 @@ bool is_inside(const fs::path& folder, const fs::path& file) {
 
 bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
 
+std::string_view data_uri_type(std::string_view uri) {
+    return uri.substr(5, uri.find_first_of(";,") - 5);
+}
+
 std::vector<std::uint8_t> decode_data_uri(std::string_view uri) {
     const std::size_t comma = uri.find(',');
     constexpr std::string_view marker = ";base64";
     if (comma == std::string_view::npos || comma < marker.size() ||
         uri.substr(comma - marker.size(), marker.size()) != marker) {
         throw InputError("a data uri that is not base64");
+    }
+    if (uri.substr(0, comma).find(";;") != std::string_view::npos) {
+        throw InputError("a data uri with an empty parameter");
     }
     return decode_base64(uri.substr(comma + 1));
 }

@@ -12,6 +12,9 @@ namespace clgi::io::gltf {
 
 bool is_data_uri(std::string_view uri);
 
+// The media type of a data uri, "" when it names none.
+std::string_view data_uri_type(std::string_view uri);
+
 // The bytes of "data:<type>;base64,<text>". Throws InputError.
 std::vector<std::uint8_t> decode_data_uri(std::string_view uri);
 

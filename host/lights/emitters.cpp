@@ -12,7 +12,9 @@
 namespace clgi {
 namespace {
 
-constexpr float widest_single_view = 1.0472f;  // 60 degrees
+constexpr float widest_single_view = 1.0472f;              // 60 degrees
+constexpr double most_candidates = 4194304.0;              // 2^22: a millisecond or two
+constexpr std::size_t most_pixels = std::size_t{1} << 30;  // kernels count view pixels in ints
 constexpr double pi = glm::pi<double>();
 
 float luminance(const glm::vec3& rgb) {
@@ -184,11 +186,12 @@ std::vector<std::uint32_t> divide(const std::vector<Source>& sources, int lights
     return shares;
 }
 
+// Halton candidates to try; 0 where nothing is rejected, or where too much would be.
 std::uint32_t candidate_count(const Source& source, std::uint32_t share) {
     if (source.emitter.kind != EMITTER_SPOT || share == 0) return 0;
     // Twice what is expected, and some more for few lights: the sequence's discrepancy is far less.
-    const double expected = share / std::max(source.acceptance, 1e-12);
-    const double tried = std::min(2.0 * expected + 1024.0, 4194304.0);
+    const double tried = 2.0 * share / std::max(source.acceptance, 1e-12) + 1024.0;
+    if (tried > most_candidates) return 0;
     return (static_cast<std::uint32_t>(tried) + 31) / 32 * 32;
 }
 
@@ -228,12 +231,18 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         source.emitter.light_count = shares[i];
         out.light_count += shares[i];
         out.candidates.push_back(candidate_count(source, shares[i]));
+        if (source.emitter.kind == EMITTER_SPOT && out.candidates.back() == 0)
+            source.emitter.kind |= EMITTER_MAPPED;
         out.emitters.push_back(source.emitter);
         for (View& view : source.views) {
             view.first_pixel = static_cast<std::uint32_t>(out.pixels);
             out.pixels += static_cast<std::size_t>(view.width) * view.height;
             out.views.push_back(view);
         }
+        if (out.pixels > most_pixels)
+            throw Error(
+                "emitters: the sources' views have more than 2^30 pixels; fewer "
+                "area_samples or smaller shadow_size and face_size needed");
     }
     return out;
 }

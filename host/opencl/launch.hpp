@@ -25,20 +25,20 @@ cl::Event launch(const PassKernel& pass, const cl::CommandQueue& queue, std::siz
                  const WaitList& wait, const Arguments&... arguments) {
     cl::Event event;
     const WaitList* waits = wait.empty() ? nullptr : &wait;
-    if (items == 0) {
-        queue.enqueueMarkerWithWaitList(waits, &event);
-        return event;
-    }
-    cl::Kernel kernel = pass.kernel;  // a second handle: arguments live in the kernel itself
-    cl_uint index = 0;
-    (set_argument(kernel, index, arguments), ...);
-    const std::size_t groups = (items + pass.local_size - 1) / pass.local_size;
     try {
+        if (items == 0) {
+            queue.enqueueMarkerWithWaitList(waits, &event);
+            return event;
+        }
+        cl::Kernel kernel = pass.kernel;  // a second handle: arguments live in the kernel itself
+        cl_uint index = 0;
+        (set_argument(kernel, index, arguments), ...);
+        const std::size_t groups = (items + pass.local_size - 1) / pass.local_size;
         queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups * pass.local_size),
                                    cl::NDRange(pass.local_size), waits, &event);
     } catch (const cl::Error& error) {
         throw DeviceError(pass.name + ": enqueueing failed with OpenCL error " +
-                          std::to_string(error.err()));
+                          std::to_string(error.err()) + " in " + error.what());
     }
     return event;
 }

@@ -69,9 +69,10 @@ std::vector<PassKernel> build_room(const cl::Context& context, const cl::Device&
                                    const std::string& room,
                                    std::initializer_list<const char*> passes,
                                    const BuildOptions& options) {
+    const auto how = options.parallel ? std::launch::async : std::launch::deferred;
     std::vector<std::future<PassKernel>> builds;
     for (const char* pass : passes)
-        builds.push_back(std::async(std::launch::async, [&, name = std::string(pass)] {
+        builds.push_back(std::async(how, [&, name = std::string(pass)] {
             return build_pass(context, device, room, name, options);
         }));
     for (auto& build : builds) build.wait();  // context and device outlive every thread

@@ -36,23 +36,44 @@ struct Level {
     std::vector<std::uint32_t> texels;
 };
 
+struct Tap {
+    int texel;
+    float weight;  // sum 1 over a texel's taps
+};
+
+// The texels of an axis that each texel of half the size covers, by how much: two, or three where
+// the size is odd.
+std::vector<std::vector<Tap>> box_taps(int size, int half) {
+    std::vector<std::vector<Tap>> taps(half);
+    const double step = static_cast<double>(size) / half;
+    for (int i = 0; i < half; ++i)
+        for (int t = static_cast<int>(i * step); t < size && t < (i + 1) * step; ++t) {
+            const double covered =
+                std::min(t + 1.0, (i + 1) * step) - std::max<double>(t, i * step);
+            if (covered > 1e-9) taps[i].push_back({t, static_cast<float>(covered / step)});
+        }
+    return taps;
+}
+
 Level halve(const Level& level, const std::vector<float>& decode, const Encoder& encode) {
     Level out{std::max(level.width / 2, 1), std::max(level.height / 2, 1), {}};
-    out.texels.resize(static_cast<std::size_t>(out.width) * out.height);
-    for (int y = 0; y < out.height; ++y)
-        for (int x = 0; x < out.width; ++x) {
+    out.texels.reserve(static_cast<std::size_t>(out.width) * out.height);
+    const auto columns = box_taps(level.width, out.width);
+    const auto rows = box_taps(level.height, out.height);
+    for (const auto& row : rows)
+        for (const auto& column : columns) {
             float rgb[3] = {0, 0, 0};
-            std::uint32_t alpha = 2;
-            for (int k = 0; k < 4; ++k) {
-                const int sx = std::min(2 * x + (k & 1), level.width - 1);
-                const int sy = std::min(2 * y + (k >> 1), level.height - 1);
-                const std::uint32_t t =
-                    level.texels[static_cast<std::size_t>(sy) * level.width + sx];
-                for (int c = 0; c < 3; ++c) rgb[c] += 0.25f * decode[t >> (8 * c) & 255];
-                alpha += t >> 24;
-            }
-            out.texels[static_cast<std::size_t>(y) * out.width + x] =
-                encode(rgb[0]) | encode(rgb[1]) << 8 | encode(rgb[2]) << 16 | (alpha / 4) << 24;
+            float alpha = 0.5f;
+            for (const Tap& y : row)
+                for (const Tap& x : column) {
+                    const std::uint32_t t =
+                        level.texels[static_cast<std::size_t>(y.texel) * level.width + x.texel];
+                    const float weight = x.weight * y.weight;
+                    for (int c = 0; c < 3; ++c) rgb[c] += weight * decode[t >> (8 * c) & 255];
+                    alpha += weight * static_cast<float>(t >> 24);
+                }
+            out.texels.push_back(encode(rgb[0]) | encode(rgb[1]) << 8 | encode(rgb[2]) << 16 |
+                                 static_cast<std::uint32_t>(alpha) << 24);
         }
     return out;
 }

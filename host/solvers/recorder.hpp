@@ -9,10 +9,12 @@ namespace clgi {
 
 class SecondOrderSolver::Recorder {
 public:
-    Recorder(const cl::CommandQueue& queue, std::vector<PassEvent>& events)
+    // before: what the first pass must wait for, a frame still on the queue; may be empty.
+    Recorder(const cl::CommandQueue& queue, const WaitList& before, std::vector<PassEvent>& events)
         : in_order_(
               !(queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)),
-          events_(events) {
+          events_(events),
+          last_(before) {
         events_.clear();
     }
 
@@ -24,12 +26,14 @@ public:
         events_.push_back({name, items, event});
     }
 
+    const WaitList& wait() const { return last_; }
     cl::Event last() const { return last_.empty() ? cl::Event() : last_.front(); }
 
 private:
     bool in_order_;
     std::vector<PassEvent>& events_;
-    WaitList none_, last_;
+    WaitList none_;
+    WaitList last_;
 };
 
 }  // namespace clgi

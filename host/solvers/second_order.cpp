@@ -20,6 +20,17 @@ constexpr float plane_distance = 0.1f;
 cl::Context context_of(const cl::CommandQueue& queue) { return queue.getInfo<CL_QUEUE_CONTEXT>(); }
 cl::Device device_of(const cl::CommandQueue& queue) { return queue.getInfo<CL_QUEUE_DEVICE>(); }
 
+// What OpenCL throws becomes a DeviceError that says what was being done.
+template <typename Work>
+void on_device(const char* what, Work&& work) {
+    try {
+        work();
+    } catch (const cl::Error& error) {
+        throw DeviceError("second-order: " + std::string(what) + " (OpenCL error " +
+                          std::to_string(error.err()) + ")");
+    }
+}
+
 // Kernels are built with textures only where the scene calls for them.
 SecondOrderOptions checked(SecondOrderOptions options, const DeviceScene& scene) {
     check(options);
@@ -50,10 +61,13 @@ void SecondOrderSolver::lights_changed() {
         set_.emitters.size() == before.emitters.size() && set_.candidates == before.candidates;
     if (!same_shape) return allocate();
     if (set_.emitters.empty()) return;
-    queue_.enqueueWriteBuffer(sources_.emitters, CL_TRUE, 0, set_.emitters.size() * sizeof(Emitter),
-                              set_.emitters.data());
-    queue_.enqueueWriteBuffer(sources_.views, CL_TRUE, 0, set_.views.size() * sizeof(View),
-                              set_.views.data());
+    on_device("the sources cannot be written", [&] {
+        queue_.enqueueWriteBuffer(sources_.emitters, CL_TRUE, 0,
+                                  set_.emitters.size() * sizeof(Emitter), set_.emitters.data(),
+                                  &frame_end_);
+        queue_.enqueueWriteBuffer(sources_.views, CL_TRUE, 0, set_.views.size() * sizeof(View),
+                                  set_.views.data(), &frame_end_);
+    });
 }
 
 void SecondOrderSolver::draw_view(Recorder& record, const View& view,
@@ -125,8 +139,13 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
     if (options_.negative_lights > 0) {
         // Behind by less than the spacing of floats across the scene is not behind.
         const NegativeParams params{static_cast<std::uint32_t>(set_.light_count),
-                                    static_cast<std::uint32_t>(options_.negative_lights), stride_,
-                                    16.0f * 5.96e-8f * (2.0f * scene_.frame().radius)};
+                                    static_cast<std::uint32_t>(options_.negative_lights),
+                                    stride_,
+                                    16.0f * 5.96e-8f * (2.0f * scene_.frame().radius),
+                                    options_.footprint,
+                                    0,
+                                    0,
+                                    0};
         record("lights.negative", params.negative_count, [&](const WaitList& wait) {
             return light_passes_.negative(queue_, params, view, planes_, lights_, negative_, wait);
         });
@@ -201,24 +220,36 @@ void SecondOrderSolver::combine(Recorder& record, const View& view) {
     });
 }
 
+// Nothing to see, or nothing that shines: black, without a kernel.
+cl::Event SecondOrderSolver::black_frame() {
+    const auto fill = [&](const cl::Buffer& buffer, auto value) {
+        cl::Event event;
+        const std::size_t bytes = buffer.getInfo<CL_MEM_SIZE>() / sizeof value * sizeof value;
+        queue_.enqueueFillBuffer(buffer, value, 0, bytes, &frame_end_, &event);
+        frame_end_.assign(1, event);
+    };
+    on_device("the black frame cannot be filled", [&] {
+        for (const cl::Buffer* buffer : {&planes_, &irradiance_, &radiance_}) fill(*buffer, 0.0f);
+        fill(ids_, std::int32_t{-1});
+    });
+    return frame_end_.front();
+}
+
 cl::Event SecondOrderSolver::frame(const Camera& camera, const Progress& progress,
                                    bool& cancelled) {
-    Recorder record(queue_, events_);
+    Recorder record(queue_, frame_end_, events_);
     const View view = make_view(camera, scene_.frame(), options_.width, options_.height);
     cancelled = false;
     const auto go_on = [&](double done) {
         if (!progress || cancelled) return !cancelled;
-        if (record.last()()) record.last().wait();
+        if (!record.wait().empty()) cl::Event::waitForEvents(record.wait());
         cancelled = !progress(done);
         return !cancelled;
     };
     const bool empty = scene_.info().triangle_count == 0;
     const bool dark = set_.emitters.empty() && !(scene_.info().flags & SCENE_HAS_EMISSION);
     if (empty || dark) {
-        // Nothing to see, or nothing that shines: black, without a kernel.
-        cl::Event event;
-        queue_.enqueueFillBuffer(radiance_, 0.0f, 0, RADIANCE_PLANES * stride_ * sizeof(float),
-                                 nullptr, &event);
+        const cl::Event event = black_frame();
         go_on(1.0);
         return event;
     }
@@ -226,8 +257,9 @@ cl::Event SecondOrderSolver::frame(const Camera& camera, const Progress& progres
     if (go_on(0.2)) draw_camera(record, view);
     if (go_on(0.4) && indirect_) light_points(record, view);
     if (go_on(0.9)) combine(record, view);
+    frame_end_ = record.wait();
     go_on(1.0);
-    return record.last();
+    return frame_end_.empty() ? cl::Event() : frame_end_.front();
 }
 
 cl::Event SecondOrderSolver::render(const Camera& camera) {
@@ -244,13 +276,19 @@ bool SecondOrderSolver::run(const Camera& camera, const Progress& progress) {
 
 FrameStatus SecondOrderSolver::status() const {
     FrameStatus out;
-    queue_.enqueueReadBuffer(non_finite_, CL_TRUE, 0, sizeof out.non_finite, &out.non_finite);
+    const auto read = [&](const cl::Buffer& buffer) {
+        std::uint32_t word = 0;
+        on_device("the frame's status cannot be read", [&] {
+            queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, sizeof word, &word, &frame_end_);
+        });
+        return word;
+    };
+    out.non_finite = read(non_finite_);
     if (!indirect_) return out;
     const auto pixels = static_cast<std::uint32_t>(pixel_count(options_));
     out.refined_pixels = refine_ ? 0 : pixels;
     if (refine_ && !std::isinf(options_.discontinuity_threshold))
-        queue_.enqueueReadBuffer(listed_count_, CL_TRUE, 0, sizeof out.refined_pixels,
-                                 &out.refined_pixels);
+        out.refined_pixels = read(listed_count_);
     out.low_resolution_share = 1.0 - static_cast<double>(out.refined_pixels) / pixels;
     return out;
 }

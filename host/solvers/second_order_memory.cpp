@@ -144,7 +144,12 @@ void SecondOrderSolver::allocate() {
     };
     const auto filled = [&](const void* data, std::size_t bytes) {
         cl::Buffer out = buffer(bytes);
-        if (bytes > 0) queue_.enqueueWriteBuffer(out, CL_TRUE, 0, bytes, data);
+        try {
+            if (bytes > 0) queue_.enqueueWriteBuffer(out, CL_TRUE, 0, bytes, data);
+        } catch (const cl::Error& error) {
+            throw DeviceError("second-order: a buffer cannot be written (OpenCL error " +
+                              std::to_string(error.err()) + ")");
+        }
         return out;
     };
     const auto word = [&](std::size_t value) {

@@ -28,9 +28,9 @@ struct EmitterSet {
 // with its views and its share of the indirect lights. Lamps without power are left out.
 //
 // A spot of more than 60 degrees from its axis is seen through a cube, like a point light.
-// At most 2^22 candidates are tried; a cone so narrow that they do not yield its share is given
-// what they do, and the rest of the share stays dark (a half-angle below about 0.5 degrees with
-// 300 lights).
+// Where more than 2^22 candidates would have to be tried (300 lights below a degree), the cone is
+// mapped directly instead: its samples then turn with the light.
+// Throws Error for options out of range and for more than 2^30 pixels of views.
 EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options);
 
 }  // namespace clgi

@@ -15,6 +15,7 @@ struct BuildOptions {
     int packet_width = 0;        // lanes of a packet: 1, 4, 8 or 16; 0: what suits the device
     std::size_t local_size = 0;  // work-items of a group; 0: 64, or what the device allows
     bool atomics64 = true;       // use 64-bit atomics where the device has them
+    bool parallel = true;        // compile several kernels at a time; not every driver can
     bool textures = true;        // without, kernels compile faster, for scenes without textures
                                  // and alpha masks only (DeviceScene::needs_textures)
 };

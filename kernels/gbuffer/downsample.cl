@@ -5,7 +5,7 @@
 //
 // Work size    1D, one work-item for every CLGI_WIDTH low-resolution points of a row, rows padded
 //              to whole packets; any local size
-// Writes       its own points
+// Writes       its own points; the last one zeros up to a whole packet
 // SPDX-License-Identifier: MIT
 #include "packet.clh"
 #include "clgi/shared/gbuffer.h"
@@ -31,8 +31,11 @@ kernel void gbuffer_downsample(
         if (whole) {
             packet_store(packet_even(source), target);
         } else {
-            for (uint k = 0; column + k < low_width && k < CLGI_WIDTH; ++k)
-                target[k] = source[2 * k];
+            uint k = 0;
+            for (; column + k < low_width && k < CLGI_WIDTH; ++k) target[k] = source[2 * k];
+            // Behind the last point, zeros up to a whole packet: gather reads it.
+            if (row + 1 == low_height && column + CLGI_WIDTH >= low_width)
+                for (; (to + k) % CLGI_WIDTH != 0; ++k) target[k] = 0.0f;
         }
     }
 }

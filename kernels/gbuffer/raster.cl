@@ -89,8 +89,9 @@ static void draw_small(const View* view, uint stage, const uint* index, int coun
     floatp closest = packet_max(near0, packet_max(near1, near2));
     floatp farthest = packet_min(near0, packet_min(near1, near2));
 
-    intp across = t.right - t.left;
-    intp down = packet_select((intp)(-1), t.bottom - t.top, packet_lanes < count);
+    intp wanted = packet_lanes < count;
+    intp across = packet_select((intp)(-1), t.right - t.left, wanted);
+    intp down = packet_select((intp)(-1), t.bottom - t.top, wanted);
     intp first_pixel = (int)view->first_pixel + t.top * (int)view->width + t.left;
     for (int v = 0; packet_any(down >= v); ++v) {
         for (int u = 0; packet_any(across >= u); ++u) {

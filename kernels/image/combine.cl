@@ -25,10 +25,12 @@ static floatp dot3(floatp x, floatp y, floatp z, float4 v) {
 // Not a number and not finite become 0 and the largest float; counted, so never in silence.
 static floatp finite(floatp value, volatile global uint* non_finite) {
     floatp zero = packet_zero;
-    intp bad = (fabs(value) <= LARGEST_FLOAT) == 0;
+    // By bits: fast math takes every number for finite.
+    uintp magnitude = packet_bits(value) & 0x7fffffffu;
+    intp bad = magnitude >= 0x7f800000u;
     if (packet_any(bad)) {
         atomic_inc(non_finite);
-        value = packet_select(value, zero, value != value);
+        value = packet_select(value, zero, magnitude > 0x7f800000u);
     }
     return packet_min(packet_max(value, zero), packet_splat(LARGEST_FLOAT));
 }
@@ -101,7 +103,7 @@ kernel void image_combine(
 
         for (uint e = 0; e < params.emitter_count; ++e) {
             global const Emitter* emitter = emitters + e;
-            uint kind = emitter->kind;
+            uint kind = emitter->kind & EMITTER_KIND;
             float4 axis = emitter->axis;
             floatp tx = packet_splat(-axis.x), ty = packet_splat(-axis.y), tz = packet_splat(-axis.z);
             floatp strength = one;  // times the intensity: irradiance at normal incidence

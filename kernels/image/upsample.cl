@@ -57,7 +57,9 @@ static Blend blend(const CellPoint* pixel, const CellPoint* points, int count,
     }
     floatp per_sum = 1.0f / sum;
     for (int i = 0; i < count; ++i) out.weight[i] *= per_sum;
-    out.difference = difference * per_sum;
+    // Nothing is lit in full where nothing is.
+    intp seen = packet_dot(pixel->nx, pixel->ny, pixel->nz, pixel->nx, pixel->ny, pixel->nz) > 0.0f;
+    out.difference = packet_select(packet_zero, difference * per_sum, seen);
     return out;
 }
 

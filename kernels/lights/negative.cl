@@ -49,7 +49,8 @@ kernel void lights_negative(
             float leaving = -dot(lights[l].normal.xyz, t);
             if (!(behind > params.back_facing) || !(leaving > 0.0f)) continue;
             float square = dot(t, t);
-            float factor = disc_kernel(behind * leaving, square, position.w);
+            float factor = disc_kernel_one(behind * leaving, square,
+                                       params.footprint * position.w);
             float3 light = lights[l].flux.xyz * factor;
             stopped += light;
             float weight = dot(light, (float3)(0.2126f, 0.7152f, 0.0722f));
@@ -61,8 +62,10 @@ kernel void lights_negative(
     out.position = (float4)(0.0f);
     out.normal = (float4)(0.0f);
     out.flux = (float4)(0.0f);
-    float length_square = dot(toward, toward);
-    if (length_square > 0.0f) {
+    // Brought near 1 first: the square of a dim light's weight would vanish.
+    float largest = max(fabs(toward.x), max(fabs(toward.y), fabs(toward.z)));
+    if (largest > 0.0f) {
+        toward /= largest;
         float3 d = p - view.eye.xyz;
         float z = dot(d, view.forward.xyz);
         float pixel = 4.0f * view.right.w * view.up.w;
@@ -77,7 +80,7 @@ kernel void lights_negative(
         }
         float area = pixel / (slant * (float)params.negative_count);
         out.position = (float4)(p, area);
-        out.normal = (float4)(toward * (-1.0f / sqrt(length_square)), 0.0f);
+        out.normal = (float4)(toward * (-1.0f / length(toward)), 0.0f);
         out.flux = (float4)(stopped * area, 1.0f);
     }
     negative[sample] = out;

@@ -21,7 +21,7 @@ CLGI_INLINE float radical_inverse(uint index, uint base) {
     while (index != 0) {
         uint rest = index / base;
         reversed = reversed * base + (index - rest * base);
-        scale *= base;  // at most 2^32 * base: no overflow for the bases in use (2, 3, 5)
+        scale *= base;  // at most 2^32 * base: no overflow for the bases in use (2, 3, 5, 7)
         index = rest;
     }
     float value = (float)reversed / (float)scale;

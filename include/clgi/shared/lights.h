@@ -9,6 +9,9 @@ CLGI_SHARED_BEGIN
 
 enum { EMITTER_SPOT = 0, EMITTER_POINT = 1, EMITTER_DIRECTIONAL = 2, EMITTER_AREA = 3 };
 
+// Added to the kind of a spot too narrow for rejection: its cone is mapped directly.
+enum { EMITTER_KIND = 3, EMITTER_MAPPED = 4 };
+
 // One source of direct light: a lamp, or one sample of the emissive surfaces.
 typedef struct {
     float4 position;   // xyz; directional: centre of the lit disc
@@ -18,7 +21,7 @@ typedef struct {
     float range;       // where the light ends; 0: unlimited
     float measure;     // what the samples share: steradians; directional: area of the disc
     float area;        // of the emitting surface that this sample stands for; area lights
-    uint kind;         // EMITTER_...
+    uint kind;         // EMITTER_..., EMITTER_MAPPED
     uint first_view;   // its images of the scene: 1 (spot, directional), 5 (area) or 6 (point)
     uint view_count;
     uint first_light;  // its share of the indirect lights
@@ -52,6 +55,10 @@ typedef struct {
     uint negative_count;  // samples of the camera image
     uint stride;          // of the G-buffer planes
     float back_facing;    // least cosine * distance that counts as behind; float spacing
+    float footprint;      // multiplies the disc area that bounds each light; 1
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
 } NegativeParams;
 
 CLGI_SHARED_END

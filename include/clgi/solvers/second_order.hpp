@@ -104,6 +104,7 @@ private:
     void light_points(Recorder& record, const View& view);
     void combine(Recorder& record, const View& view);
     GatherParams gather_params(std::uint32_t stride) const;
+    cl::Event black_frame();
     cl::Event frame(const Camera& camera, const Progress& progress, bool& cancelled);
 
     cl::CommandQueue queue_;
@@ -114,6 +115,7 @@ private:
     ImagePasses image_;
     EmitterSet set_;
     std::vector<PassEvent> events_;
+    WaitList frame_end_;  // of the last frame; empty before the first
     std::size_t bytes_ = 0;
     std::uint32_t stride_ = 0;
     std::uint32_t low_stride_ = 0;

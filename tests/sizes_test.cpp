@@ -1,0 +1,261 @@
+// Every pass refuses a buffer that is one byte too small, and says which and by how much; with
+// nothing to do it does nothing.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <clgi/procedural.hpp>
+#include <functional>
+
+#include "lighting.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::uint32_t width = 5, height = 3, pixels = width * height, stride = 16, low = 6;
+
+// One argument of a pass: what it needs, and the pass called with a buffer in its place.
+struct Argument {
+    const char* pass;
+    const char* name;
+    std::size_t needed;  // bytes
+    std::function<void(const cl::Buffer&)> call;
+};
+
+// The buffers of a frame of 5x3 pixels, all of them large enough.
+struct Plenty {
+    DeviceScene scene = test::on_device(cornell({.lamp = Lamp::spot}));
+    View view = make_view(cornell().cameras[0], scene.frame(), width, height);
+    RasterBuffers raster = test::raster_buffers(scene, pixels);
+    EmitterSet set = make_emitters(scene, {.lights = 4, .shadow_size = 8});
+    SourceBuffers sources{test::upload(set.emitters), test::upload(set.views),
+                          test::empty<std::uint64_t>(64)};
+    cl::Buffer any = test::empty<float>(1 << 16);
+};
+
+// A copy of buffers with one of them replaced.
+RasterBuffers with(RasterBuffers buffers, cl::Buffer RasterBuffers::*which,
+                   const cl::Buffer& other) {
+    buffers.*which = other;
+    return buffers;
+}
+
+SourceBuffers with(SourceBuffers buffers, cl::Buffer SourceBuffers::*which,
+                   const cl::Buffer& other) {
+    buffers.*which = other;
+    return buffers;
+}
+
+void expect_refusals(const std::vector<Argument>& arguments) {
+    const cl::Context& context = test::device().context;
+    for (const Argument& argument : arguments) {
+        const std::string label = std::string(argument.pass) + ", " + argument.name;
+        EXPECT_NO_THROW(argument.call(cl::Buffer(context, CL_MEM_READ_WRITE, argument.needed)))
+            << label;
+        test::device().queue.finish();
+        try {
+            argument.call(cl::Buffer(context, CL_MEM_READ_WRITE, argument.needed - 1));
+            ADD_FAILURE() << label << " took a buffer one byte too small";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.what(), std::string(argument.pass) + ": " + argument.name + " holds " +
+                                        std::to_string(argument.needed - 1) + " bytes, " +
+                                        std::to_string(argument.needed) + " needed");
+        }
+        EXPECT_THROW(argument.call(cl::Buffer()), Error) << label << " that is none";
+    }
+}
+
+TEST(Sizes, OfGBufferPasses) {
+    const Plenty p;
+    const GBufferPasses& passes = test::gbuffer_passes();
+    const cl::CommandQueue& queue = test::device().queue;
+    const std::uint32_t stage = passes.fused() ? RASTER_FUSED : RASTER_DEPTH;
+    const std::size_t vertices = p.scene.info().vertex_count,
+                      triangles = p.scene.info().triangle_count;
+    using R = RasterBuffers;
+    const auto clear = [&](const R& b) { passes.clear(queue, p.view, b); };
+    const auto transform = [&](const R& b) { passes.transform(queue, p.view, p.scene, b); };
+    const auto raster = [&](const R& b) {
+        passes.clear(queue, p.view, p.raster);
+        passes.transform(queue, p.view, p.scene, p.raster);
+        passes.raster(queue, p.view, p.scene, stage, b);
+    };
+    const auto large = [&](const R& b) {
+        queue.enqueueFillBuffer(b.polygon_count, cl_uint{0}, 0, sizeof(cl_uint));
+        passes.raster_large(queue, p.view, p.scene, b);
+    };
+    const auto resolve = [&](const cl::Buffer& visibility, const cl::Buffer& planes,
+                             const cl::Buffer& ids) {
+        passes.clear(queue, p.view, p.raster);
+        if (visibility()) queue.enqueueFillBuffer(visibility, cl_uchar{255}, 0, pixels * 8 - 8);
+        passes.resolve(queue, p.view, p.scene, {stride, RESOLVE_ALL, 0, 0}, visibility, planes,
+                       ids);
+    };
+    const auto down = [&](const cl::Buffer& planes, const cl::Buffer& points) {
+        passes.downsample(queue, {width, height, stride, stride}, planes, points);
+    };
+    expect_refusals({
+        {"gbuffer.clear", "visibility", pixels * 8,
+         [&](const cl::Buffer& b) { clear(with(p.raster, &R::visibility, b)); }},
+        {"gbuffer.clear", "polygon_count", 4,
+         [&](const cl::Buffer& b) { clear(with(p.raster, &R::polygon_count, b)); }},
+        {"gbuffer.transform", "vertices", vertices * sizeof(ScreenVertex),
+         [&](const cl::Buffer& b) { transform(with(p.raster, &R::vertices, b)); }},
+        {"gbuffer.raster", "visibility", pixels * 8,
+         [&](const cl::Buffer& b) { raster(with(p.raster, &R::visibility, b)); }},
+        {"gbuffer.raster", "polygons", triangles * sizeof(RasterPolygon),
+         [&](const cl::Buffer& b) { raster(with(p.raster, &R::polygons, b)); }},
+        {"gbuffer.raster_large", "visibility", pixels * 8,
+         [&](const cl::Buffer& b) { large(with(p.raster, &R::visibility, b)); }},
+        {"gbuffer.resolve", "planes", GBUFFER_PLANES * stride * 4,
+         [&](const cl::Buffer& b) { resolve(p.raster.visibility, b, p.any); }},
+        {"gbuffer.resolve", "ids", GBUFFER_ID_PLANES * stride * 4,
+         [&](const cl::Buffer& b) { resolve(p.raster.visibility, p.any, b); }},
+        {"gbuffer.downsample", "planes", POINT_PLANES * stride * 4,
+         [&](const cl::Buffer& b) { down(b, p.any); }},
+        {"gbuffer.downsample", "points", POINT_PLANES * stride * 4,
+         [&](const cl::Buffer& b) { down(p.any, b); }},
+    });
+    EXPECT_THROW(passes.raster(queue, p.view, p.scene, 3, p.raster), Error);
+    EXPECT_THROW(
+        passes.resolve(queue, p.view, p.scene, {15, 0, 0, 0}, p.raster.visibility, p.any, p.any),
+        Error);
+    EXPECT_THROW(passes.downsample(queue, {width, height, stride, low - 1}, p.any, p.any), Error);
+}
+
+TEST(Sizes, OfLightPasses) {
+    const Plenty p;
+    const LightPasses& passes = test::light_passes();
+    const cl::CommandQueue& queue = test::device().queue;
+    const cl::Buffer zeros = test::upload(std::vector<float>(1 << 14));
+    const AcceptParams accept{0, 64, 0, 0};
+    const FetchParams fetch{4, 1, 1.0f, 0};
+    const NegativeParams negative{4, 3, stride, 0.0f, 1.0f, 0, 0, 0};
+    const std::size_t light = sizeof(IndirectLight);
+    expect_refusals({
+        {"lights.accept_mask", "mask", 8,
+         [&](const cl::Buffer& b) { passes.accept_mask(queue, accept, p.sources.emitters, b); }},
+        {"lights.accept_list", "mask", 8,
+         [&](const cl::Buffer& b) {
+             passes.accept_list(queue, accept, p.sources.emitters, b, p.any);
+         }},
+        {"lights.fetch", "lights", 4 * light,
+         [&](const cl::Buffer& b) { passes.fetch(queue, fetch, p.scene, p.sources, zeros, b); }},
+        {"lights.negative", "negative", 3 * light,
+         [&](const cl::Buffer& b) { passes.negative(queue, negative, p.view, zeros, zeros, b); }},
+    });
+    // Buffers whose contents a kernel follows are only refused here, not used.
+    const cl::Buffer tiny = test::empty<char>(1);
+    EXPECT_THROW(passes.accept_mask(queue, accept, tiny, p.any), Error);
+    EXPECT_THROW(passes.accept_list(queue, accept, tiny, p.any, p.any), Error);
+    EXPECT_THROW(passes.accept_list(queue, accept, p.sources.emitters, p.any, tiny), Error);
+    EXPECT_THROW(passes.fetch(queue, fetch, p.scene,
+                              with(p.sources, &SourceBuffers::emitters, tiny), zeros, p.any),
+                 Error);
+    EXPECT_THROW(passes.fetch(queue, fetch, p.scene, p.sources, tiny, p.any), Error);
+    EXPECT_THROW(passes.negative(queue, negative, p.view, tiny, zeros, p.any), Error);
+    EXPECT_THROW(passes.negative(queue, negative, p.view, zeros, tiny, p.any), Error);
+    EXPECT_THROW(passes.accept_mask(queue, {0, 33, 0, 0}, p.sources.emitters, p.any), Error);
+    EXPECT_THROW(passes.negative(queue, {4, 3, pixels - 1, 0.0f}, p.view, zeros, zeros, p.any),
+                 Error);
+}
+
+TEST(Sizes, OfImagePasses) {
+    const Plenty p;
+    const ImagePasses& passes = test::image_passes();
+    const cl::CommandQueue& queue = test::device().queue;
+    const cl::Buffer z = test::upload(std::vector<float>(1 << 14));
+    RefineParams refine{};
+    refine.width = width;
+    refine.height = height;
+    refine.stride = refine.low_stride = stride;
+    CombineParams combine{};
+    combine.width = width;
+    combine.height = height;
+    combine.stride = stride;
+    combine.effects = COMBINE_INDIRECT;
+    const GatherParams gather{stride, 0, 0, 1.0f};
+    const std::size_t plane = stride * sizeof(float);
+    const std::size_t points = POINT_PLANES * plane, irradiance = IRRADIANCE_PLANES * plane;
+    const auto into = [&](const cl::Buffer& b) {
+        queue.enqueueFillBuffer(b, cl_uchar{0}, 0, b.getInfo<CL_MEM_SIZE>());
+    };
+    using B = const cl::Buffer&;
+    const cl::Buffer& a = p.any;
+    into(a);
+    expect_refusals({
+        {"image.gather", "points", points,
+         [&](B b) { passes.gather(queue, gather, pixels, z, b, z, z, a); }},
+        {"image.gather", "irradiance", irradiance,
+         [&](B b) { passes.gather(queue, gather, pixels, z, z, z, z, b); }},
+        {"image.count", "flags", pixels, [&](B b) { passes.count(queue, pixels, b, a); }},
+        {"image.count", "counts", 4, [&](B b) { passes.count(queue, pixels, z, b); }},
+        {"image.compact", "flags", pixels,
+         [&](B b) {
+             if (b()) into(b);
+             passes.compact(queue, refine, b, z, z, a, a, a);
+         }},
+        {"image.compact", "planes", points,
+         [&](B b) { passes.compact(queue, refine, z, z, b, a, a, a); }},
+        {"image.compact", "listed", plane,
+         [&](B b) { passes.compact(queue, refine, z, z, z, b, a, a); }},
+        {"image.compact", "points", points,
+         [&](B b) { passes.compact(queue, refine, z, z, z, a, b, a); }},
+        {"image.compact", "point_count", 4,
+         [&](B b) { passes.compact(queue, refine, z, z, z, a, a, b); }},
+        {"image.upsample", "planes", points,
+         [&](B b) { passes.upsample(queue, refine, b, z, z, a, a); }},
+        {"image.upsample", "points", points,
+         [&](B b) { passes.upsample(queue, refine, z, b, z, a, a); }},
+        {"image.upsample", "low", irradiance,
+         [&](B b) { passes.upsample(queue, refine, z, z, b, a, a); }},
+        {"image.upsample", "irradiance", irradiance,
+         [&](B b) { passes.upsample(queue, refine, z, z, z, b, a); }},
+        {"image.upsample", "flags", pixels,
+         [&](B b) { passes.upsample(queue, refine, z, z, z, a, b); }},
+        {"image.place", "listed", plane, [&](B b) { passes.place(queue, refine, z, b, z, a); }},
+        {"image.place", "refined", irradiance,
+         [&](B b) { passes.place(queue, refine, z, z, b, a); }},
+        {"image.place", "irradiance", irradiance,
+         [&](B b) { passes.place(queue, refine, z, z, z, b); }},
+        {"image.combine", "planes", GBUFFER_PLANES * plane,
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, b, z, z, a, a); }},
+        {"image.combine", "ids", GBUFFER_ID_PLANES * plane,
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, b, z, a, a); }},
+        {"image.combine", "irradiance", irradiance,
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, b, a, a); }},
+        {"image.combine", "radiance", RADIANCE_PLANES * plane,
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, z, b, a); }},
+        {"image.combine", "non_finite", 4,
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, z, a, b); }},
+        {"image.tonemap", "radiance", RADIANCE_PLANES * plane,
+         [&](B b) {
+             passes.tonemap(queue, {width, height, stride, 1.0f}, b, a);
+         }},
+        {"image.tonemap", "preview", pixels * 4,
+         [&](B b) {
+             passes.tonemap(queue, {width, height, stride, 1.0f}, z, b);
+         }},
+    });
+    const cl::Buffer tiny = test::empty<char>(1);
+    EXPECT_THROW(passes.gather(queue, {stride, 1, 0, 1.0f}, pixels, z, z, tiny, z, a), Error);
+    EXPECT_THROW(passes.gather(queue, {stride, 0, 1, 1.0f}, pixels, z, z, z, tiny, a), Error);
+    EXPECT_THROW(passes.gather(queue, gather, pixels, tiny, z, z, z, a), Error);
+    EXPECT_THROW(passes.gather(queue, {15, 0, 0, 1.0f}, pixels, z, z, z, z, a), Error);
+    EXPECT_THROW(passes.place(queue, refine, tiny, z, z, a), Error);
+    EXPECT_THROW(passes.compact(queue, refine, z, tiny, z, a, a, a), Error);
+}
+
+TEST(Sizes, OfNothingAtAllAreFine) {
+    const cl::CommandQueue& queue = test::device().queue;
+    const cl::Buffer any = test::empty<float>(1024);
+    test::image_passes().gather(queue, {16, 0, 0, 1.0f}, 0, any, any, any, any, any).wait();
+    test::image_passes().count(queue, 0, any, any).wait();
+    test::image_passes().tonemap(queue, {0, 0, 16, 1.0f}, any, any).wait();
+    const DeviceScene scene = test::on_device(Scene());
+    const RasterBuffers buffers = test::raster_buffers(scene, 1);
+    const View view = make_view(Camera(), scene.frame(), 1, 1);
+    test::draw_visibility(test::gbuffer_passes(), scene, view, buffers);
+    EXPECT_EQ(test::download<std::uint64_t>(buffers.visibility, 1)[0], ~std::uint64_t{0});
+}
+
+}  // namespace
+}  // namespace clgi
