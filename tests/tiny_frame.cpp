@@ -1,6 +1,7 @@
 // One frame of every kernel at the size of a stamp, for tools that interpret kernels.
 // SPDX-License-Identifier: MIT
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include "frames.hpp"
@@ -49,7 +50,7 @@ void draw(bool atomics64) {
     options.height = 16;
     options.sources = {.lights = 8, .shadow_size = 16, .face_size = 8, .area_samples = 1};
     options.negative_lights = 4;
-    options.build = {.packet_width = 4, .local_size = 16, .atomics64 = atomics64};
+    options.build = {.packet_width = 4, .local_size = 16, .atomics64 = atomics64, .parallel = false};
     const test::Frame frame =
         test::render(stamp(), test::camera_at({0, 0.1, 0.9}, {0, -0.2, -1}, 1.2f), options);
     double sum = 0.0;
@@ -68,5 +69,7 @@ int main() {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;
     }
-    return 0;
+    // The tests' shared context would be released at exit, where oclgrind 21.10 corrupts its heap.
+    std::fflush(stdout);
+    std::_Exit(0);
 }

@@ -41,10 +41,10 @@ static TrianglePacket fetch_packet(const View* view, const uint4* corner,
     t.y2 = (intp)(packet_collect(row[2], y));
     intp low_x = min(t.x0, min(t.x1, t.x2)), high_x = max(t.x0, max(t.x1, t.x2));
     intp low_y = min(t.y0, min(t.y1, t.y2)), high_y = max(t.y0, max(t.y1, t.y2));
-    t.left = max((low_x + SUBPIXELS / 2 - 1) >> 8, 0);
-    t.right = min((high_x - SUBPIXELS / 2) >> 8, (int)view->width - 1);
-    t.top = max((low_y + SUBPIXELS / 2 - 1) >> 8, 0);
-    t.bottom = min((high_y - SUBPIXELS / 2) >> 8, (int)view->height - 1);
+    t.left = max((low_x + SUBPIXELS / 2 - 1) >> 8, (intp)(0));
+    t.right = min((high_x - SUBPIXELS / 2) >> 8, (intp)((int)view->width - 1));
+    t.top = max((low_y + SUBPIXELS / 2 - 1) >> 8, (intp)(0));
+    t.bottom = min((high_y - SUBPIXELS / 2) >> 8, (intp)((int)view->height - 1));
     return t;
 }
 
