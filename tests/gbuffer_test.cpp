@@ -233,24 +233,31 @@ TEST(GBuffer, IsTheSameForEveryWorkGroupAndPacket) {
     }
 }
 
-TEST(GBuffer, PicksEverySecondPointOfEverySecondRow) {
-    for (const auto& [width, height] :
-         {std::pair(1u, 1u), {2u, 1u}, {3u, 5u}, {33u, 18u}, {64u, 6u}}) {
-        const std::uint32_t stride = test::padded(width * height);
-        const std::uint32_t low_width = (width + 1) / 2, low_height = (height + 1) / 2;
-        const std::uint32_t low_stride = test::padded(low_width * low_height);
-        std::vector<float> planes(POINT_PLANES * stride);
-        for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = static_cast<float>(i);
-        const cl::Buffer points = test::empty<float>(POINT_PLANES * low_stride);
-        test::gbuffer_passes().downsample(test::device().queue, {width, height, stride, low_stride},
-                                          test::upload(planes), points);
-        const auto low = test::download<float>(points, POINT_PLANES * low_stride);
-        for (std::uint32_t plane = 0; plane < POINT_PLANES; ++plane)
-            for (std::uint32_t y = 0; y < low_height; ++y)
-                for (std::uint32_t x = 0; x < low_width; ++x)
-                    EXPECT_EQ(low[plane * low_stride + y * low_width + x],
-                              planes[plane * stride + 2 * y * width + 2 * x]);
-    }
+// Every step-th point of every step-th row, to the bit.
+void expect_picked(std::uint32_t width, std::uint32_t height, std::uint32_t step) {
+    const std::uint32_t stride = test::padded(width * height);
+    const std::uint32_t low_width = (width + step - 1) / step;
+    const std::uint32_t low_height = (height + step - 1) / step;
+    const std::uint32_t low_stride = test::padded(low_width * low_height);
+    std::vector<float> planes(POINT_PLANES * stride);
+    for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = static_cast<float>(i);
+    const cl::Buffer points = test::empty<float>(POINT_PLANES * low_stride);
+    test::gbuffer_passes().downsample(test::device().queue,
+                                      {width, height, stride, low_stride, step, 0, 0, 0},
+                                      test::upload(planes), points);
+    const auto low = test::download<float>(points, POINT_PLANES * low_stride);
+    for (std::uint32_t plane = 0; plane < POINT_PLANES; ++plane)
+        for (std::uint32_t y = 0; y < low_height; ++y)
+            for (std::uint32_t x = 0; x < low_width; ++x)
+                EXPECT_EQ(low[plane * low_stride + y * low_width + x],
+                          planes[plane * stride + step * (y * width + x)]);
+}
+
+TEST(GBuffer, PicksTheFirstPointOfEveryCell) {
+    for (const std::uint32_t step : {2u, 4u})
+        for (const auto& [width, height] :
+             {std::pair(1u, 1u), {2u, 1u}, {3u, 5u}, {33u, 18u}, {64u, 6u}})
+            expect_picked(width, height, step);
 }
 
 }  // namespace

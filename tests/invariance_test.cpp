@@ -114,7 +114,7 @@ TEST(Picture, OfTwoLightsIsTheSumOfTwoPictures) {
     Scene both = table(Light::Kind::point);
     both.lights.push_back(test::point_light({-0.5, 0.75, 0.25}));
     SecondOrderOptions options = small_frame();
-    options.low_resolution = false;
+    options.low_resolution_step = 1;
     options.negative_lights = 0;  // their directions depend on all lights together
     options.sources.lights = 200;
     const Frame sum = render(both, options);

@@ -21,6 +21,8 @@
     MEMBER(ResolveParams, pad0_) MEMBER(ResolveParams, pad1_)                                   \
     SIZE(DownsampleParams) MEMBER(DownsampleParams, width) MEMBER(DownsampleParams, height)     \
     MEMBER(DownsampleParams, stride) MEMBER(DownsampleParams, low_stride)                       \
+    MEMBER(DownsampleParams, step) MEMBER(DownsampleParams, pad0_)                              \
+    MEMBER(DownsampleParams, pad1_) MEMBER(DownsampleParams, pad2_)                             \
     SIZE(Emitter) MEMBER(Emitter, position) MEMBER(Emitter, axis) MEMBER(Emitter, right)        \
     MEMBER(Emitter, intensity) MEMBER(Emitter, range) MEMBER(Emitter, measure)                  \
     MEMBER(Emitter, area) MEMBER(Emitter, kind) MEMBER(Emitter, first_view)                     \
@@ -30,17 +32,17 @@
     SIZE(AcceptParams) MEMBER(AcceptParams, emitter) MEMBER(AcceptParams, candidate_count)      \
     MEMBER(AcceptParams, light_count) MEMBER(AcceptParams, pad_)                                     \
     SIZE(FetchParams) MEMBER(FetchParams, light_count) MEMBER(FetchParams, emitter_count)       \
-    MEMBER(FetchParams, scale) MEMBER(FetchParams, pad_)                                        \
+    MEMBER(FetchParams, scale) MEMBER(FetchParams, footprint)                                   \
     SIZE(NegativeParams) MEMBER(NegativeParams, light_count)                                    \
     MEMBER(NegativeParams, negative_count) MEMBER(NegativeParams, stride)                       \
     MEMBER(NegativeParams, back_facing) MEMBER(NegativeParams, footprint) \
     MEMBER(NegativeParams, pad0_) MEMBER(NegativeParams, pad1_) MEMBER(NegativeParams, pad2_)                                                         \
     SIZE(GatherParams) MEMBER(GatherParams, stride) MEMBER(GatherParams, light_count)           \
-    MEMBER(GatherParams, negative_count) MEMBER(GatherParams, footprint)                        \
+    MEMBER(GatherParams, negative_count) MEMBER(GatherParams, pad_)                             \
     SIZE(RefineParams) MEMBER(RefineParams, width) MEMBER(RefineParams, height)                 \
     MEMBER(RefineParams, stride) MEMBER(RefineParams, low_stride)                               \
     MEMBER(RefineParams, threshold) MEMBER(RefineParams, position_scale)                        \
-    MEMBER(RefineParams, pad0_) MEMBER(RefineParams, pad1_)                                     \
+    MEMBER(RefineParams, step) MEMBER(RefineParams, pad_)                                     \
     SIZE(CombineParams) MEMBER(CombineParams, width) MEMBER(CombineParams, height)              \
     MEMBER(CombineParams, stride) MEMBER(CombineParams, emitter_count)                          \
     MEMBER(CombineParams, exposure) MEMBER(CombineParams, texel_bias)                           \

@@ -47,7 +47,7 @@ inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions&
     }
     const cl::Buffer lights = empty<IndirectLight>(out.set.light_count);
     const FetchParams params{static_cast<cl_uint>(out.set.light_count),
-                             static_cast<cl_uint>(out.set.emitters.size()), 1.0f, 0};
+                             static_cast<cl_uint>(out.set.emitters.size()), 1.0f, 1.0f};
     passes.fetch(queue, params, scene, sources, accepted, lights);
     out.accepted = download<cl_uint>(accepted, out.set.light_count);
     out.lights = download<IndirectLight>(lights, out.set.light_count);
@@ -79,7 +79,7 @@ inline std::vector<float> point_planes(const std::vector<Receiver>& receivers,
 // Irradiance of every receiver as the device has it: in local units, exposed.
 inline std::vector<glm::vec3> gather(const std::vector<Receiver>& receivers,
                                      const std::vector<IndirectLight>& lights,
-                                     const std::vector<IndirectLight>& negative, float footprint,
+                                     const std::vector<IndirectLight>& negative,
                                      const ImagePasses& passes = image_passes()) {
     const auto count = static_cast<cl_uint>(receivers.size());
     const std::uint32_t stride = std::max(padded(count), 16u);
@@ -92,7 +92,7 @@ inline std::vector<glm::vec3> gather(const std::vector<Receiver>& receivers,
     };
     const cl::Buffer positive_lights = held(lights), negative_lights = held(negative);
     const GatherParams params{stride, static_cast<cl_uint>(lights.size()),
-                              static_cast<cl_uint>(negative.size()), footprint};
+                              static_cast<cl_uint>(negative.size()), 0};
     passes.gather(device().queue, params, count, point_count, points, positive_lights,
                   negative_lights, irradiance);
     const auto planes = download<float>(irradiance, IRRADIANCE_PLANES * stride);
@@ -102,10 +102,16 @@ inline std::vector<glm::vec3> gather(const std::vector<Receiver>& receivers,
     return out;
 }
 
+// The same lights without their discs: the pure 1/d^2 kernel, which the closed forms are about.
+inline std::vector<IndirectLight> bare(std::vector<IndirectLight> lights) {
+    for (IndirectLight& light : lights) light.position.w = light.normal.w = 0.0f;
+    return lights;
+}
+
 // Lux at one place of the world from these lights.
 inline double lux_at(const DeviceScene& scene, const std::vector<IndirectLight>& lights,
-                     const glm::dvec3& position, const glm::vec3& normal, float footprint) {
-    return gather({{scene.frame().to_local(position), normal}}, lights, {}, footprint)[0].x *
+                     const glm::dvec3& position, const glm::vec3& normal) {
+    return gather({{scene.frame().to_local(position), normal}}, lights, {})[0].x *
            scene.frame().exposure;
 }
 

@@ -15,7 +15,6 @@ using test::PlacedLights;
 
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180.0;
-constexpr float bare = 0.0f;  // footprint: the pure 1/d^2 kernel, which the closed forms are about
 
 // A sphere of facets is a little smaller than the true one: 0.05 % in radius at this fineness.
 constexpr int fine = 5;
@@ -35,7 +34,7 @@ std::vector<glm::dvec3> around(int count) {
 void expect_even_in_sphere(const DeviceScene& scene, const std::vector<IndirectLight>& lights,
                            double flux, double albedo) {
     for (const glm::dvec3& direction : around(40))
-        EXPECT_NEAR(test::lux_at(scene, lights, direction, glm::vec3(-direction), bare),
+        EXPECT_NEAR(test::lux_at(scene, test::bare(lights), direction, glm::vec3(-direction)),
                     albedo * flux / (4 * pi), facets * albedo * flux / (4 * pi))
             << direction.y;
 }
@@ -97,7 +96,7 @@ TEST(SpotOverAFloor, LightsItsOwnPlaceAsTheIntegralSays) {
         const PlacedLights placed =
             test::place_lights(scene, {.lights = 10000, .shadow_size = 256});
         // Halton sums of 10,000 points are within 0.01 % here; corners at 1/256 pixel add as much.
-        EXPECT_NEAR(test::lux_at(scene, placed.lights, {0, 1, 0}, {0, -1, 0}, 1.0f), wanted,
+        EXPECT_NEAR(test::lux_at(scene, placed.lights, {0, 1, 0}, {0, -1, 0}), wanted,
                     0.005 * wanted)
             << angle;
     }
@@ -107,10 +106,10 @@ TEST(SpotOverAFloor, LightsItsOwnPlaceAsTheIntegralSays) {
 double convergence(const std::vector<glm::dvec3>& places) {
     const DeviceScene scene = test::on_device(spot_over_floor(45 * degree));
     const auto lit = [&](int n) {
-        const PlacedLights placed = test::place_lights(scene, {.lights = n});
+        const auto lights = test::bare(test::place_lights(scene, {.lights = n}).lights);
         std::vector<double> out;
         for (const glm::dvec3& place : places)
-            out.push_back(test::lux_at(scene, placed.lights, place, {0, -1, 0}, bare));
+            out.push_back(test::lux_at(scene, lights, place, {0, -1, 0}));
         return out;
     };
     const std::vector<double> converged = lit(100000);

@@ -90,7 +90,7 @@ TEST(Sizes, OfGBufferPasses) {
                        ids);
     };
     const auto down = [&](const cl::Buffer& planes, const cl::Buffer& points) {
-        passes.downsample(queue, {width, height, stride, stride}, planes, points);
+        passes.downsample(queue, {width, height, stride, stride, 2, 0, 0, 0}, planes, points);
     };
     expect_refusals({
         {"gbuffer.clear", "visibility", pixels * 8,
@@ -118,7 +118,12 @@ TEST(Sizes, OfGBufferPasses) {
     EXPECT_THROW(
         passes.resolve(queue, p.view, p.scene, {15, 0, 0, 0}, p.raster.visibility, p.any, p.any),
         Error);
-    EXPECT_THROW(passes.downsample(queue, {width, height, stride, low - 1}, p.any, p.any), Error);
+    EXPECT_THROW(
+        passes.downsample(queue, {width, height, stride, low - 1, 2, 0, 0, 0}, p.any, p.any), Error);
+    for (const std::uint32_t step : {0u, 1u, 3u, 8u})
+        EXPECT_THROW(
+            passes.downsample(queue, {width, height, stride, stride, step, 0, 0, 0}, p.any, p.any),
+            Error);
 }
 
 TEST(Sizes, OfLightPasses) {
@@ -127,7 +132,7 @@ TEST(Sizes, OfLightPasses) {
     const cl::CommandQueue& queue = test::device().queue;
     const cl::Buffer zeros = test::upload(std::vector<float>(1 << 14));
     const AcceptParams accept{0, 64, 0, 0};
-    const FetchParams fetch{4, 1, 1.0f, 0};
+    const FetchParams fetch{4, 1, 1.0f, 1.0f};
     const NegativeParams negative{4, 3, stride, 0.0f, 1.0f, 0, 0, 0};
     const std::size_t light = sizeof(IndirectLight);
     expect_refusals({
@@ -167,12 +172,13 @@ TEST(Sizes, OfImagePasses) {
     refine.width = width;
     refine.height = height;
     refine.stride = refine.low_stride = stride;
+    refine.step = 2;
     CombineParams combine{};
     combine.width = width;
     combine.height = height;
     combine.stride = stride;
     combine.effects = COMBINE_INDIRECT;
-    const GatherParams gather{stride, 0, 0, 1.0f};
+    const GatherParams gather{stride, 0, 0, 0};
     const std::size_t plane = stride * sizeof(float);
     const std::size_t points = POINT_PLANES * plane, irradiance = IRRADIANCE_PLANES * plane;
     const auto into = [&](const cl::Buffer& b) {
@@ -236,10 +242,10 @@ TEST(Sizes, OfImagePasses) {
          }},
     });
     const cl::Buffer tiny = test::empty<char>(1);
-    EXPECT_THROW(passes.gather(queue, {stride, 1, 0, 1.0f}, pixels, z, z, tiny, z, a), Error);
-    EXPECT_THROW(passes.gather(queue, {stride, 0, 1, 1.0f}, pixels, z, z, z, tiny, a), Error);
+    EXPECT_THROW(passes.gather(queue, {stride, 1, 0, 0}, pixels, z, z, tiny, z, a), Error);
+    EXPECT_THROW(passes.gather(queue, {stride, 0, 1, 0}, pixels, z, z, z, tiny, a), Error);
     EXPECT_THROW(passes.gather(queue, gather, pixels, tiny, z, z, z, a), Error);
-    EXPECT_THROW(passes.gather(queue, {15, 0, 0, 1.0f}, pixels, z, z, z, z, a), Error);
+    EXPECT_THROW(passes.gather(queue, {15, 0, 0, 0}, pixels, z, z, z, z, a), Error);
     EXPECT_THROW(passes.place(queue, refine, tiny, z, z, a), Error);
     EXPECT_THROW(passes.compact(queue, refine, z, tiny, z, a, a, a), Error);
 }
@@ -247,7 +253,7 @@ TEST(Sizes, OfImagePasses) {
 TEST(Sizes, OfNothingAtAllAreFine) {
     const cl::CommandQueue& queue = test::device().queue;
     const cl::Buffer any = test::empty<float>(1024);
-    test::image_passes().gather(queue, {16, 0, 0, 1.0f}, 0, any, any, any, any, any).wait();
+    test::image_passes().gather(queue, {16, 0, 0, 0}, 0, any, any, any, any, any).wait();
     test::image_passes().count(queue, 0, any, any).wait();
     test::image_passes().tonemap(queue, {0, 0, 16, 1.0f}, any, any).wait();
     const DeviceScene scene = test::on_device(Scene());

@@ -32,8 +32,8 @@ TEST(SecondOrder, LightsASphereEvenly) {
     SecondOrderOptions options = options_for(48, 40, 300, 0);
     options.footprint = 0.0f;  // the closed form is that of the pure kernel
     options.direct = false;
-    for (const bool low : {false, true}) {
-        options.low_resolution = low;
+    for (const int step : {1, 2, 4}) {
+        options.low_resolution_step = step;
         const Frame frame =
             test::render(scene, test::camera_at({0, 0, 0}, {0.1, 1, 0.2}, 1.4f), options);
         // rho/pi times rho Phi/(4 pi R^2); 0.5 %: facets for the sphere.
@@ -60,9 +60,9 @@ TEST(NegativeLights, AreNoneInAnEmptyConvexBox) {
     test::add_box(room, {-1, -1, -1.5}, {1, 1, 1.5}, -1);
     room.lights = {test::spot_light({0.2, 0.9, 0.3}, {0.1, -1, 0.2}, 40 * degree)};
     const Camera camera = test::camera_at({0, 0, 1.3}, {0.1, -0.1, -1}, 1.2f);
-    for (const bool low : {false, true}) {
+    for (const int step : {1, 2, 4}) {
         SecondOrderOptions options = options_for(61, 43, 150, 100);
-        options.low_resolution = low;
+        options.low_resolution_step = step;
         const Frame with = test::render(room, camera, options);
         options.negative_lights = 0;
         const Frame without = test::render(room, camera, options);
@@ -79,7 +79,7 @@ TEST(NegativeLights, OnlyTakeAwayAndNeverTooMuch) {
     test::add_box(room, {-0.5, -0.4, -0.5}, {0.5, -0.3, 0.5}, 1);
     room.lights = {test::spot_light({0.2, 0.9, 0.3}, {-0.3, -1, -0.3}, 30 * degree)};
     SecondOrderOptions options = options_for(64, 48, 150, 300);
-    options.low_resolution = false;
+    options.low_resolution_step = 1;
     options.direct = false;
     const Camera camera = test::camera_at({0, 0.1, 0.95}, {0, -0.5, -1}, 1.2f);
     const Frame with = test::render(room, camera, options);

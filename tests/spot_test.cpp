@@ -121,7 +121,7 @@ TEST(Spot, KeepsTheLightsItStillCoversWhenItTurns) {
             after.lights[static_cast<std::size_t>(same - after.accepted.begin())];
         // Another image shows the same plane: a few float spacings of a room of size 1.
         EXPECT_LT(glm::length(glm::vec3(moved.position - before.lights[i].position)), 2e-6f);
-        EXPECT_EQ(moved.normal, before.lights[i].normal);
+        EXPECT_EQ(glm::vec3(moved.normal), glm::vec3(before.lights[i].normal));
     }
     EXPECT_GT(kept, 240u);  // two 30 degree caps 5 degrees apart share 0.89 of their area
 }

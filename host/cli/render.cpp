@@ -47,7 +47,7 @@ void parse_size(const std::string& text, SecondOrderOptions& options) {
 void parse_low_res(const std::string& text, SecondOrderOptions& options) {
     if (text.empty()) return;
     if (text == "off") {
-        options.low_resolution = false;
+        options.low_resolution_step = 1;
         return;
     }
     std::size_t used = 0;
@@ -192,6 +192,10 @@ void add_render(CLI::App& app) {
     command->add_option("--negative-vpls", options.negative_lights, "Negative indirect lights")
         ->check(CLI::Range(0, 1 << 20));
     command->add_option("--low-res", flags->low_res, "off, or the discontinuity threshold");
+    command
+        ->add_option("--low-res-step", flags->options.low_resolution_step,
+                     "pixels from one low-resolution point to the next")
+        ->check(CLI::IsMember({2, 4}));
     command
         ->add_option("--shadow-size", options.sources.shadow_size,
                      "Pixels of a spot's or directional light's image")

@@ -2,6 +2,7 @@
 #include <clgi/passes/gbuffer.hpp>
 
 #include "opencl/launch.hpp"
+#include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 
 namespace clgi {
@@ -16,12 +17,6 @@ std::size_t last_pixel(const View& view) {
 
 void need_visibility(const PassKernel& pass, const View& view, const cl::Buffer& visibility) {
     need(pass, "visibility", visibility, last_pixel(view) * sizeof(std::uint64_t));
-}
-
-void need_stride(const PassKernel& pass, const char* name, std::size_t stride, std::size_t pixels) {
-    if (stride < pixels || stride % 16 != 0)
-        throw Error(pass.name + ": " + name + " is " + std::to_string(stride) +
-                    ", a multiple of 16 of at least " + std::to_string(pixels) + " needed");
 }
 
 void need_textures(const PassKernel& pass, const DeviceScene& scene, bool built) {
@@ -117,8 +112,9 @@ cl::Event GBufferPasses::resolve(const cl::CommandQueue& queue, const View& view
 cl::Event GBufferPasses::downsample(const cl::CommandQueue& queue, const DownsampleParams& params,
                                     const cl::Buffer& planes, const cl::Buffer& points,
                                     const WaitList& wait) const {
-    const std::size_t low_width = (params.width + 1) / 2;
-    const std::size_t low_height = (params.height + 1) / 2;
+    need_step(downsample_, params.step);
+    const std::size_t low_width = low_size(params.width, params.step);
+    const std::size_t low_height = low_size(params.height, params.step);
     need_stride(downsample_, "stride", params.stride,
                 static_cast<std::size_t>(params.width) * params.height);
     need_stride(downsample_, "low_stride", params.low_stride, low_width * low_height);

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
 
 #include "opencl/launch.hpp"
+#include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 
 namespace clgi {
 namespace {
-
-// Work-items of the kernels that go through the image cell by cell.
-std::size_t cell_items(const PassKernel& pass, const RefineParams& params) {
-    return packets(pass, (params.width + 1) / 2) * ((params.height + 1) / 2);
-}
 
 std::size_t blocks(std::size_t pixels) { return (pixels + COMPACT_BLOCK - 1) / COMPACT_BLOCK; }
 
@@ -18,19 +15,12 @@ std::size_t pixels_of(const RefineParams& params) {
     return static_cast<std::size_t>(params.width) * params.height;
 }
 
-// Planes are read and written in whole packets, so a row of them must hold the last one.
-void need_stride(const PassKernel& pass, const char* name, std::size_t stride, std::size_t points) {
-    if (stride < points || stride % 16 != 0)
-        throw Error(pass.name + ": " + name + " is " + std::to_string(stride) +
-                    ", a multiple of 16 of at least " + std::to_string(points) + " needed");
-}
-
 void need_strides(const PassKernel& pass, const RefineParams& params) {
-    const std::size_t low =
-        static_cast<std::size_t>((params.width + 1) / 2) * ((params.height + 1) / 2);
+    need_step(pass, params.step);
     need_stride(pass, "stride", params.stride,
                 static_cast<std::size_t>(params.width) * params.height);
-    need_stride(pass, "low_stride", params.low_stride, low);
+    need_stride(pass, "low_stride", params.low_stride,
+                low_size(params.width, params.step) * low_size(params.height, params.step));
 }
 
 std::size_t plane_bytes(std::size_t planes, std::size_t stride) {
@@ -105,8 +95,9 @@ cl::Event ImagePasses::upsample(const cl::CommandQueue& queue, const RefineParam
     need(upsample_, "low", low, plane_bytes(IRRADIANCE_PLANES, params.low_stride));
     need(upsample_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
     need(upsample_, "flags", flags, pixels_of(params));
-    return launch(upsample_, queue, cell_items(upsample_, params), wait, params, planes, points,
-                  low, irradiance, flags);
+    return launch(upsample_, queue,
+                  packets(upsample_, params.width) * low_size(params.height, params.step), wait,
+                  params, planes, points, low, irradiance, flags);
 }
 
 cl::Event ImagePasses::place(const cl::CommandQueue& queue, const RefineParams& params,

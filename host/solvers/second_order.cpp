@@ -113,7 +113,8 @@ void SecondOrderSolver::place_lights(Recorder& record) {
         });
     }
     const FetchParams params{static_cast<std::uint32_t>(set_.light_count),
-                             static_cast<std::uint32_t>(set_.emitters.size()), 1.0f, 0};
+                             static_cast<std::uint32_t>(set_.emitters.size()), 1.0f,
+                             options_.footprint};
     record("lights.fetch", params.light_count, [&](const WaitList& wait) {
         return light_passes_.fetch(queue_, params, scene_, sources_, accepted_, lights_, wait);
     });
@@ -131,7 +132,7 @@ void SecondOrderSolver::draw_camera(Recorder& record, const View& view) {
 
 GatherParams SecondOrderSolver::gather_params(std::uint32_t stride) const {
     return {stride, static_cast<std::uint32_t>(set_.light_count),
-            static_cast<std::uint32_t>(options_.negative_lights), options_.footprint};
+            static_cast<std::uint32_t>(options_.negative_lights), 0};
 }
 
 // I_s and I_n at every pixel. [sections 3.2, 3.3, 3.5]
@@ -161,6 +162,7 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
 
     const auto width = static_cast<std::uint32_t>(options_.width);
     const auto height = static_cast<std::uint32_t>(options_.height);
+    const auto step = static_cast<std::uint32_t>(options_.low_resolution_step);
     const std::size_t low_pixels = low_pixel_count(options_);
     const RefineParams params{width,
                               height,
@@ -168,11 +170,11 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
                               low_stride_,
                               options_.discontinuity_threshold,
                               1.0f / (plane_distance * scene_.frame().radius),
-                              0,
+                              step,
                               0};
     record("gbuffer.downsample", low_pixels, [&](const WaitList& wait) {
-        return gbuffer_.downsample(queue_, {width, height, stride_, low_stride_}, planes_,
-                                   low_points_, wait);
+        return gbuffer_.downsample(queue_, {width, height, stride_, low_stride_, step, 0, 0, 0},
+                                   planes_, low_points_, wait);
     });
     record("image.gather_low", low_pixels, [&](const WaitList& wait) {
         return image_.gather(queue_, gather_params(low_stride_), low_pixels, low_count_,

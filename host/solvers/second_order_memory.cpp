@@ -12,7 +12,11 @@ namespace clgi {
 namespace second_order {
 
 std::uint32_t padded(std::size_t count) {
-    return static_cast<std::uint32_t>((count + 15) / 16 * 16);
+    constexpr std::size_t line = 16, page = 1024, skew = 5 * line;  // floats
+    const std::size_t whole = (count + line - 1) / line * line;
+    if (whole < page) return static_cast<std::uint32_t>(whole);
+    // The same pixel of all planes would fall into the same set of a CPU's cache.
+    return static_cast<std::uint32_t>((whole + page - 1 - skew) / page * page + skew);
 }
 
 std::size_t pixel_count(const SecondOrderOptions& options) {
@@ -20,7 +24,11 @@ std::size_t pixel_count(const SecondOrderOptions& options) {
 }
 
 std::size_t low_pixel_count(const SecondOrderOptions& options) {
-    return static_cast<std::size_t>((options.width + 1) / 2) * ((options.height + 1) / 2);
+    const auto size = [&](int side) {
+        return low_size(static_cast<std::uint32_t>(side),
+                        static_cast<std::uint32_t>(options.low_resolution_step));
+    };
+    return size(options.width) * size(options.height);
 }
 
 void check(const SecondOrderOptions& options) {
@@ -33,12 +41,16 @@ void check(const SecondOrderOptions& options) {
     in("height", options.height, 1, 16384);
     in("negative_lights", options.negative_lights, 0, 1 << 20);
     in("footprint", options.footprint, 0, 1e6);
+    const int step = options.low_resolution_step;
+    if (step != 1 && step != 2 && step != 4)
+        throw Error("second-order: low_resolution_step is " + std::to_string(step) +
+                    ", 1, 2 or 4 needed");
     if (!(options.discontinuity_threshold >= 0.0f))
         throw Error("second-order: discontinuity_threshold is negative or not a number");
 }
 
 bool refines(const SecondOrderOptions& options) {
-    return options.low_resolution && options.discontinuity_threshold > 0.0f;
+    return options.low_resolution_step > 1 && options.discontinuity_threshold > 0.0f;
 }
 
 }  // namespace second_order

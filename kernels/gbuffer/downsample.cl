@@ -1,4 +1,4 @@
-// The low-resolution points S_locam: every second pixel of every second row.
+// The low-resolution points S_locam: every `step`-th pixel of every `step`-th row.
 //
 // Points are picked, not averaged: the mean of two surfaces lies on neither, and a picked point's
 // illumination is exact for its own pixel.                          [Cochran07, section 3.5]
@@ -15,27 +15,24 @@ kernel void gbuffer_downsample(
     global const float*     restrict planes,  // [>= POINT_PLANES][stride]
     global float*           restrict points)  // [POINT_PLANES][low_stride]
 {
-    uint low_width = (params.width + 1) / 2;
-    uint low_height = (params.height + 1) / 2;
+    uint step = params.step;
+    uint low_width = (params.width + step - 1) / step;
+    uint low_height = (params.height + step - 1) / step;
     uint packets = (low_width + CLGI_WIDTH - 1) / CLGI_WIDTH;
     uint row = (uint)get_global_id(0) / packets;
     uint column = (uint)get_global_id(0) % packets * CLGI_WIDTH;
     if (row >= low_height) return;
 
-    uint from = 2 * row * params.width + 2 * column;
+    uint from = step * (row * params.width + column);
     uint to = row * low_width + column;
-    int whole = column + CLGI_WIDTH <= low_width && 2 * (column + CLGI_WIDTH) <= params.width;
+    uint count = min((uint)CLGI_WIDTH, low_width - column);
     for (int plane = 0; plane < POINT_PLANES; ++plane) {
         global const float* source = planes + plane * params.stride + from;
         global float* target = points + plane * params.low_stride + to;
-        if (whole) {
-            packet_store(packet_even(source), target);
-        } else {
-            uint k = 0;
-            for (; column + k < low_width && k < CLGI_WIDTH; ++k) target[k] = source[2 * k];
-            // Behind the last point, zeros up to a whole packet: gather reads it.
-            if (row + 1 == low_height && column + CLGI_WIDTH >= low_width)
-                for (; (to + k) % CLGI_WIDTH != 0; ++k) target[k] = 0.0f;
-        }
+        uint k = 0;
+        for (; k < count; ++k) target[k] = source[step * k];
+        // Behind the last point, zeros up to a whole packet: gather reads it.
+        if (row + 1 == low_height && column + CLGI_WIDTH >= low_width)
+            for (; (to + k) % CLGI_WIDTH != 0; ++k) target[k] = 0.0f;
     }
 }

@@ -23,16 +23,10 @@ static floatp dot3(floatp x, floatp y, floatp z, float4 v) {
 }
 
 // Not a number and not finite become 0 and the largest float; counted, so never in silence.
-static floatp finite(floatp value, volatile global uint* non_finite) {
-    floatp zero = packet_zero;
-    // By bits: fast math takes every number for finite.
+static floatp mended(floatp value) {
     uintp magnitude = packet_bits(value) & 0x7fffffffu;
-    intp bad = magnitude >= 0x7f800000u;
-    if (packet_any(bad)) {
-        atomic_inc(non_finite);
-        value = packet_select(value, zero, magnitude > 0x7f800000u);
-    }
-    return packet_min(packet_max(value, zero), packet_splat(LARGEST_FLOAT));
+    value = packet_select(value, packet_zero, magnitude > 0x7f800000u);
+    return packet_min(value, packet_splat(LARGEST_FLOAT));
 }
 
 kernel void image_combine(
@@ -121,8 +115,10 @@ kernel void image_combine(
                 floatp along = -dot3(tx, ty, tz, axis);  // cosine at the source
                 if (kind == EMITTER_AREA) {
                     // disc_kernel wants the cosines times d^2.
+                    float radius2 = emitter->area / CLGI_PI;
                     strength = disc_kernel(packet_max(along, zero) * square, square,
-                                           packet_splat(emitter->area));
+                                           packet_splat(radius2), packet_splat(radius2 * radius2)) *
+                               (1.0f / CLGI_PI);
                 } else {
                     strength = packet_select(zero, per_distance * per_distance, square > 0.0f);
                     if (kind == EMITTER_SPOT) {
@@ -165,15 +161,25 @@ kernel void image_combine(
             glossy[c] *= fma(share, albedo[c] * per_diffuse, coat);
     }
 
+    // By bits: fast math takes every number for finite.
+    intp bad = (intp)(0);
+    floatp out[3];
+    #pragma unroll
     for (int c = 0; c < 3; ++c) {
         floatp light = direct[c];
-        if (params.effects & COMBINE_INDIRECT) {
+        if (params.effects & COMBINE_INDIRECT)
             light += packet_max(packet_load(irradiance + c * stride + pixel), zero);
-        }
-        floatp out = fma(albedo[c] * (1.0f / CLGI_PI), light, glossy[c]);
+        out[c] = fma(albedo[c] * (1.0f / CLGI_PI), light, glossy[c]);
         if (params.effects & COMBINE_EMISSION)
-            out += packet_load(at + (GBUFFER_EMISSION + c) * stride);
-        out = packet_select(zero, out * params.exposure, surface);
-        packet_store(finite(out, non_finite), radiance + c * stride + pixel);
+            out[c] += packet_load(at + (GBUFFER_EMISSION + c) * stride);
+        out[c] = packet_select(zero, out[c] * params.exposure, surface);
+        bad |= (packet_bits(out[c]) & 0x7fffffffu) >= 0x7f800000u;
     }
+    if (packet_any(bad)) {
+        atomic_inc(non_finite);
+        for (int c = 0; c < 3; ++c) out[c] = mended(out[c]);
+    }
+    #pragma unroll
+    for (int c = 0; c < 3; ++c)
+        packet_store(packet_max(out[c], zero), radiance + c * stride + pixel);
 }

@@ -1,66 +1,119 @@
 // Brings low-resolution irradiance to every pixel without bleeding across edges, and marks the
 // pixels that it does not suit: the discontinuity buffer.
 //
-// Between two or four points, each weighs by how well it stands in for the pixel; on one plane
-// that is plain bilinear interpolation. Where the weighted mean of the differences reaches the
-// threshold, the pixel is to be lit in full.                   [Cochran07, section 3.5]
+// The four points around a pixel weigh as in bilinear interpolation, and by how well each stands
+// in for the pixel: a point across an edge all but vanishes. Where the weighted mean of the
+// differences, and of the distances, far less, reaches the threshold, the pixel is to be lit in
+// full.                                                        [Cochran07, section 3.5]
 //
-// Work size    1D, one work-item for every CLGI_WIDTH low-resolution points of a row, rows padded
-//              to whole packets; any local size
-// Writes       irradiance and flags of the pixels of its cells
+// Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up, by rows) of every
+//              `step` rows; any local size
+// Writes       irradiance and flags of its pixels
+// Cost         170 flops and a division a pixel; 24 bytes are read and 13 written
 // SPDX-License-Identifier: MIT
 #include "image/cell.clh"
-
-static void put_row(const Cell* cell, const RefineParams* params, uint down, floatp even_lanes,
-                    floatp odd_lanes, global float* plane) {
-    uint y = 2 * cell->row + down;
-    if (y >= params->height) return;
-    global float* target = plane + y * params->width + 2 * cell->column;
-    if (cell->whole) {
-        packet_weave(even_lanes, odd_lanes, target);
-        return;
-    }
-    float lanes[2][CLGI_WIDTH];
-    packet_store(even_lanes, lanes[0]);
-    packet_store(odd_lanes, lanes[1]);
-    for (uint k = 0; k < 2 * CLGI_WIDTH && 2 * cell->column + k < params->width; ++k)
-        target[k] = lanes[k & 1][k / 2];
-}
-
-static void put_flags(const Cell* cell, const RefineParams* params, uint down, floatp even_lanes,
-                      floatp odd_lanes, global uchar* flags) {
-    uint y = 2 * cell->row + down;
-    if (y >= params->height) return;
-    int lanes[2][CLGI_WIDTH];
-    packet_store(even_lanes >= params->threshold, lanes[0]);
-    packet_store(odd_lanes >= params->threshold, lanes[1]);
-    global uchar* target = flags + y * params->width + 2 * cell->column;
-    uint last = min(2u * CLGI_WIDTH, params->width - 2 * cell->column);
-    for (uint k = 0; k < last; ++k) target[k] = lanes[k & 1][k / 2] != 0;
-}
 
 typedef struct {
     floatp weight[4];   // sum 1
     floatp difference;  // weighted mean
 } Blend;
 
-static Blend blend(const CellPoint* pixel, const CellPoint* points, int count,
-                   float position_scale) {
-    Blend out;
-    floatp sum = packet_zero;
-    floatp difference = packet_zero;
-    for (int i = 0; i < count; ++i) {
-        floatp d = cell_difference(pixel, points + i, position_scale);
-        out.weight[i] = cell_weight(d);
-        sum += out.weight[i];
-        difference = fma(out.weight[i], d, difference);
+// right, down: where each pixel lies between its four points, [0,1).
+static Blend blend(const CellPoint* pixel, const CellPoint* points, float position_scale,
+                   floatp right, float down) {
+    floatp difference[4];
+    floatp base[4];
+    #pragma unroll
+    for (int i = 0; i < 4; ++i) {
+        floatp apart;
+        floatp d = cell_difference(pixel, points + i, position_scale, &apart);
+        difference[i] = d + apart;
+        base[i] = d + 0.01f;
     }
-    floatp per_sum = 1.0f / sum;
-    for (int i = 0; i < count; ++i) out.weight[i] *= per_sum;
+    // bilinear / base^2, all four times the product of base^2: one division instead of five.
+    floatp upper = base[0] * base[1];
+    floatp lower = base[2] * base[3];
+    floatp left = 1.0f - right;
+    floatp others[4] = {base[1] * lower, base[0] * lower, base[3] * upper, base[2] * upper};
+    Blend out;
+    out.weight[0] = left * (1.0f - down) * others[0] * others[0];
+    out.weight[1] = right * (1.0f - down) * others[1] * others[1];
+    out.weight[2] = left * down * others[2] * others[2];
+    out.weight[3] = right * down * others[3] * others[3];
+    floatp per_sum = 1.0f / ((out.weight[0] + out.weight[1]) + (out.weight[2] + out.weight[3]));
+    floatp mean = packet_zero;
+    #pragma unroll
+    for (int i = 0; i < 4; ++i) {
+        out.weight[i] *= per_sum;
+        mean = fma(out.weight[i], difference[i], mean);
+    }
     // Nothing is lit in full where nothing is.
     intp seen = packet_dot(pixel->nx, pixel->ny, pixel->nz, pixel->nx, pixel->ny, pixel->nz) > 0.0f;
-    out.difference = packet_select(packet_zero, difference * per_sum, seen);
+    out.difference = packet_select(packet_zero, mean, seen);
     return out;
+}
+
+static void put_row(const Cell* cell, uint width, floatp lanes, global float* row) {
+    if (cell->whole) {
+        packet_store(lanes, row + cell->x);
+        return;
+    }
+    float values[CLGI_WIDTH];
+    packet_store(lanes, values);
+    for (uint k = 0; cell->x + k < width; ++k) row[cell->x + k] = values[k];
+}
+
+static void put_flags(const Cell* cell, uint width, intp marked, global uchar* row) {
+    if (cell->whole && width % 4 == 0) {
+        packet_store_flags(marked & 1, row + cell->x);
+        return;
+    }
+    int values[CLGI_WIDTH];
+    packet_store(marked, values);
+    uint count = min((uint)CLGI_WIDTH, width - cell->x);
+    for (uint k = 0; k < count; ++k) row[cell->x + k] = values[k] != 0;
+}
+
+// Inlined with a constant step, so that lanes are spread by fixed shuffles.
+CLGI_INLINE void upsample(const RefineParams* params, uint item, uint step,
+                          global const float* restrict planes, global const float* restrict points,
+                          global const float* restrict low, global float* restrict irradiance,
+                          global uchar* restrict flags) {
+    Cell cell = cell_of_item(params, item, step);
+    if (cell.row >= cell.low_height) return;
+
+    CellPoint point[4];
+    cell_low_points(&cell, params, step, points, 0, point, point + 1);
+    cell_low_points(&cell, params, step, points, 1, point + 2, point + 3);
+    CellPair value[IRRADIANCE_PLANES][2];
+    #pragma unroll
+    for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane)
+        for (uint down = 0; down < 2; ++down)
+            value[plane][down] = cell_low(&cell, step, low + plane * params->low_stride, down);
+
+    intp phase = ((int)cell.x + packet_lanes) & (int)(step - 1);
+    floatp right = packet_float(phase) * (1.0f / (float)step);
+    uint last = min((cell.row + 1) * step, params->height);
+    for (uint y = cell.row * step; y < last; ++y) {
+        CellPoint pixel = cell_full_point(&cell, params, planes, y);
+        int first = y == cell.row * step;
+        Blend between = blend(&pixel, point, params->position_scale, right,
+                              (float)(y - cell.row * step) * (1.0f / (float)step));
+        put_flags(&cell, params->width, between.difference >= params->threshold,
+                  flags + y * params->width);
+        #pragma unroll
+        for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane) {
+            const CellPair* v = value[plane];
+            floatp mixed = fma(between.weight[0], v[0].left,
+                               fma(between.weight[1], v[0].right,
+                                   fma(between.weight[2], v[1].left,
+                                       between.weight[3] * v[1].right)));
+            // A low-resolution point has its own value, to the bit.
+            if (first) mixed = packet_select(mixed, v[0].left, phase == 0);
+            put_row(&cell, params->width, mixed,
+                    irradiance + plane * params->stride + y * params->width);
+        }
+    }
 }
 
 kernel void image_upsample(
@@ -71,40 +124,9 @@ kernel void image_upsample(
     global float*        restrict irradiance,  // [IRRADIANCE_PLANES][stride]
     global uchar*        restrict flags)       // [width * height] 1: light in full
 {
-    Cell cell = cell_of_item(&params, (uint)get_global_id(0));
-    if (cell.row >= cell.low_height) return;
-
-    CellPoint point[4];
-    point[0] = cell_low_point(&cell, &params, points, 0, 0);
-    point[1] = cell_low_point(&cell, &params, points, 1, 0);
-    point[2] = cell_low_point(&cell, &params, points, 0, 1);
-    point[3] = cell_low_point(&cell, &params, points, 1, 1);
-    float scale = params.position_scale;
-
-    CellPoint pixel = cell_full_point(&cell, &params, planes, 1, 0);
-    Blend right = blend(&pixel, point, 2, scale);
-    CellPoint column[2] = {point[0], point[2]};
-    pixel = cell_full_point(&cell, &params, planes, 0, 1);
-    Blend below = blend(&pixel, column, 2, scale);
-    pixel = cell_full_point(&cell, &params, planes, 1, 1);
-    Blend across = blend(&pixel, point, 4, scale);
-
-    // An even column of an even row is its point itself.
-    put_flags(&cell, &params, 0, packet_zero, right.difference, flags);
-    put_flags(&cell, &params, 1, below.difference, across.difference, flags);
-
-    for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane) {
-        global const float* source = low + plane * params.low_stride;
-        global float* target = irradiance + plane * params.stride;
-        floatp v0 = cell_low(&cell, source, 0, 0);
-        floatp v1 = cell_low(&cell, source, 1, 0);
-        floatp v2 = cell_low(&cell, source, 0, 1);
-        floatp v3 = cell_low(&cell, source, 1, 1);
-        put_row(&cell, &params, 0, v0, fma(right.weight[0], v0, right.weight[1] * v1), target);
-        put_row(&cell, &params, 1, fma(below.weight[0], v0, below.weight[1] * v2),
-                fma(across.weight[0], v0,
-                    fma(across.weight[1], v1,
-                        fma(across.weight[2], v2, across.weight[3] * v3))),
-                target);
-    }
+    uint item = (uint)get_global_id(0);
+    if (params.step == 4)
+        upsample(&params, item, 4, planes, points, low, irradiance, flags);
+    else
+        upsample(&params, item, 2, planes, points, low, irradiance, flags);
 }

@@ -79,8 +79,9 @@ kernel void lights_fetch(
                 int parallel = emitter->kind == EMITTER_DIRECTIONAL;
                 float area = sample.spread * (parallel ? 1.0f : distance * distance) / cosine;
                 float falloff = parallel ? 1.0f : range_falloff(distance, emitter->range);
-                out.position = (float4)(position, area);
-                out.normal = (float4)(normal, 0.0f);
+                float radius2 = params.footprint * area / CLGI_PI;
+                out.position = (float4)(position, radius2);
+                out.normal = (float4)(normal, radius2 * radius2);
                 out.flux = (float4)(albedo * sample.flux * (falloff * params.scale), 1.0f);
             }
         }

@@ -50,8 +50,8 @@ kernel void lights_negative(
             if (!(behind > params.back_facing) || !(leaving > 0.0f)) continue;
             float square = dot(t, t);
             float factor = disc_kernel_one(behind * leaving, square,
-                                       params.footprint * position.w);
-            float3 light = lights[l].flux.xyz * factor;
+                                       position.w, lights[l].normal.w);
+            float3 light = lights[l].flux.xyz * (factor / CLGI_PI);
             stopped += light;
             float weight = dot(light, (float3)(0.2126f, 0.7152f, 0.0722f));
             toward += t * (weight / sqrt(square));
@@ -79,8 +79,9 @@ kernel void lights_negative(
             slant = max(fabs(dot(n, view.forward.xyz)), 0.1f);
         }
         float area = pixel / (slant * (float)params.negative_count);
-        out.position = (float4)(p, area);
-        out.normal = (float4)(toward * (-1.0f / length(toward)), 0.0f);
+        float radius2 = params.footprint * area / CLGI_PI;
+        out.position = (float4)(p, radius2);
+        out.normal = (float4)(toward * (-1.0f / length(toward)), radius2 * radius2);
         out.flux = (float4)(stopped * area, 1.0f);
     }
     negative[sample] = out;

@@ -20,6 +20,11 @@ struct RasterBuffers {
     cl::Buffer polygon_count;  // [1] uint
 };
 
+// Low-resolution points along a side of `size` pixels, one for every `step`.
+inline std::size_t low_size(std::uint32_t size, std::uint32_t step) {
+    return (static_cast<std::size_t>(size) + step - 1) / step;
+}
+
 class GBufferPasses {
 public:
     GBufferPasses(const cl::Context& context, const cl::Device& device,

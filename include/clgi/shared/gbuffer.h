@@ -107,12 +107,16 @@ typedef struct {
     uint pad1_;
 } ResolveParams;
 
-// Every second pixel of every second row, as the low-resolution points S_locam.
+// Every `step`-th pixel of every `step`-th row, as the low-resolution points S_locam.
 typedef struct {
     uint width;  // of the full image
     uint height;
     uint stride;      // of the full planes
     uint low_stride;  // of the low-resolution planes
+    uint step;        // 2 or 4
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
 } DownsampleParams;
 
 // A set of points to be lit: position and shading normal, six planes in G-buffer order.

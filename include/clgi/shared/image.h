@@ -15,7 +15,7 @@ typedef struct {
     uint stride;          // of the point planes and the irradiance planes
     uint light_count;     // indirect lights
     uint negative_count;  // negative indirect lights
-    float footprint;      // multiplies the disc area that bounds each light; 1
+    uint pad_;
 } GatherParams;
 
 // Full and low-resolution image side by side (upsample, discontinuity, compact).
@@ -26,8 +26,8 @@ typedef struct {
     uint low_stride;  // of the low-resolution planes
     float threshold;  // discontinuity threshold; 0: every pixel is computed in full
     float position_scale;  // 1 / distance from a tangent plane that weighs as much as a right angle
-    float pad0_;
-    float pad1_;
+    uint step;             // 2 or 4: one low-resolution point for step x step pixels
+    uint pad_;
 } RefineParams;
 
 enum { COMPACT_BLOCK = 512 };  // pixels that one work-item counts and lists

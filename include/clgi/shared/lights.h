@@ -31,8 +31,8 @@ typedef struct {
 // A point light with a cosine lobe, standing for a disc around it: the irradiance it gives is
 // flux * cos * cos' / (pi d^2), bounded near by as in kernels/lights/disc.clh.
 typedef struct {
-    float4 position;  // xyz; w: area of the disc
-    float4 normal;    // xyz unit; w: 0
+    float4 position;  // xyz; w: squared radius of the disc
+    float4 normal;    // xyz unit; w: its square again
     float4 flux;      // rgb reflected flux, lumen, exposed; w: 1 when the light is on a surface
 } IndirectLight;
 
@@ -46,8 +46,8 @@ typedef struct {
 typedef struct {
     uint light_count;  // of all emitters together
     uint emitter_count;
-    float scale;  // multiplies every flux; 1
-    uint pad_;
+    float scale;      // multiplies every flux; 1
+    float footprint;  // multiplies the disc area that bounds each light; 1
 } FetchParams;
 
 typedef struct {

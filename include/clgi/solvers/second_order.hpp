@@ -18,9 +18,11 @@ namespace clgi {
 struct SecondOrderOptions {
     int width = 640;  // pixels
     int height = 480;
-    EmitterOptions sources;      // sources.lights is N, the number of indirect lights
-    int negative_lights = 100;   // samples of the image that take light away; 0: none
-    bool low_resolution = true;  // light every fourth pixel and interpolate where that suits
+    EmitterOptions sources;     // sources.lights is N, the number of indirect lights
+    int negative_lights = 100;  // samples of the image that take light away; 0: none
+    // Every n-th pixel of every n-th row is lit first, 2 or 4, and the others interpolated where
+    // that suits. 1: every pixel is lit in full.
+    int low_resolution_step = 4;
     // Differences from the interpolation points at which a pixel is lit in full: 1 is a right
     // angle between normals. 0: every pixel; infinity: none.
     float discontinuity_threshold = 0.02f;
