@@ -1,62 +1,44 @@
 // SPDX-License-Identifier: MIT
 #include "cli/picture.hpp"
 
-#include <algorithm>
-#include <clgi/io/image.hpp>
+#include <fmt/format.h>
+
+#include <clgi/error.hpp>
 #include <cmath>
-#include <vector>
+#include <cstdio>
+
+#include "report/preview.hpp"
 
 namespace clgi::cli {
-namespace {
 
-// All but three in a hundred of the pixels that are not black stay below white.
-float exposure_of(const std::vector<float>& radiance, std::size_t pixels, std::size_t stride) {
-    std::vector<float> luminance;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const float y = 0.2126f * radiance[i] + 0.7152f * radiance[stride + i] +
-                        0.0722f * radiance[2 * stride + i];
-        if (y > 0.0f) luminance.push_back(y);
-    }
-    if (luminance.empty()) return 1.0f;
-    const auto white = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() * 97 / 100);
-    std::nth_element(luminance.begin(), white, luminance.end());
-    return 1.0f / *white;
+void add_picture_flags(CLI::App& command, PictureFlags& flags) {
+    command.add_option("-o,--output", flags.exr, "EXR: radiance in cd/m^2");
+    command.add_option("--png", flags.png, "8-bit preview");
+    command.add_option("--exposure", flags.exposure,
+                       "Preview exposure in stops; default: from the picture");
+    command.add_flag("--full", flags.full, "32-bit EXR channels instead of half");
+    command.add_option("--size", flags.size, "WIDTHxHEIGHT");
 }
 
-}  // namespace
+void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height) {
+    if (flags.exr.empty() && flags.png.empty())
+        throw Error(command + ": nothing to write, -o FILE.exr or --png FILE.png needed");
+    if (flags.size.empty()) return;
+    int used = 0;
+    if (std::sscanf(flags.size.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
+        used != static_cast<int>(flags.size.size()) || width < 1 || height < 1 || width > 16384 ||
+        height > 16384)
+        throw Error(fmt::format("{}: --size is '{}', WIDTHxHEIGHT from 1x1 to 16384x16384 needed",
+                                command, flags.size));
+}
 
-void save_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver,
-                  const PictureFlags& flags) {
-    const int width = solver.options().width;
-    const int height = solver.options().height;
-    const std::size_t pixels = static_cast<std::size_t>(width) * height;
-    const std::size_t stride = solver.stride();
-    std::vector<float> radiance(RADIANCE_PLANES * stride);
-    queue.enqueueReadBuffer(solver.radiance(), CL_TRUE, 0, radiance.size() * sizeof(float),
-                            radiance.data());
-    if (!flags.exr.empty()) {
-        io::Image image;
-        image.width = width;
-        image.height = height;
-        image.attributes = {{"clgi:quantity", "radiance"}, {"clgi:unit", "cd/m^2"}};
-        for (int c = 0; c < 3; ++c) {
-            const auto first = radiance.begin() + static_cast<std::ptrdiff_t>(c * stride);
-            image.channels.push_back(
-                {std::string(1, "RGB"[c]), {first, first + static_cast<std::ptrdiff_t>(pixels)}});
-        }
-        io::save_exr(image, flags.exr, flags.full ? io::Storage::full : io::Storage::half);
-    }
+void save_picture(const io::Image& picture, const PictureFlags& flags) {
+    if (!flags.exr.empty())
+        io::save_exr(picture, flags.exr, flags.full ? io::Storage::full : io::Storage::half);
     if (!flags.png.empty()) {
         const float exposure =
-            flags.exposure ? std::exp2(*flags.exposure) : exposure_of(radiance, pixels, stride);
-        const cl::Context context = queue.getInfo<CL_QUEUE_CONTEXT>();
-        cl::Buffer preview(context, CL_MEM_READ_WRITE, 4 * pixels);
-        const TonemapParams params{static_cast<std::uint32_t>(width),
-                                   static_cast<std::uint32_t>(height), solver.stride(), exposure};
-        solver.image_passes().tonemap(queue, params, solver.radiance(), preview);
-        std::vector<std::uint8_t> rgba(4 * pixels);
-        queue.enqueueReadBuffer(preview, CL_TRUE, 0, rgba.size(), rgba.data());
-        io::save_png(width, height, rgba, flags.png);
+            flags.exposure ? std::exp2(*flags.exposure) : report::preview_exposure(picture);
+        io::save_png(picture.width, picture.height, report::preview(picture, exposure), flags.png);
     }
 }
 

@@ -1,8 +1,9 @@
-// From a finished frame to files.
+// From a finished picture to files.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/solvers/second_order.hpp>
+#include <CLI/App.hpp>
+#include <clgi/io/image.hpp>
 #include <optional>
 #include <string>
 
@@ -13,10 +14,14 @@ struct PictureFlags {
     std::string png;                // empty: none
     bool full = false;              // 32-bit EXR channels instead of half
     std::optional<float> exposure;  // stops, 0: radiance 1 is white; none: from the picture
+    std::string size;               // WIDTHxHEIGHT; empty: the default
 };
+void add_picture_flags(CLI::App& command, PictureFlags& flags);
 
-// Reads the solver's radiance back and writes what was asked for.
-void save_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver,
-                  const PictureFlags& flags);
+// Throws Error, begun with the command's name, when nothing is to be written or the size is wrong.
+void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height);
+
+// Writes what was asked for.
+void save_picture(const io::Image& picture, const PictureFlags& flags);
 
 }  // namespace clgi::cli

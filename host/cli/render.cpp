@@ -14,6 +14,7 @@
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
 #include "cli/stats.hpp"
+#include "report/preview.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -25,7 +26,6 @@ struct RenderFlags {
     int scene_index = -1;
     int camera = 0;
     std::string method = "auto";
-    std::string size = "640x480";
     std::string low_res;
     std::string stats;
     int frames = 1;
@@ -34,15 +34,6 @@ struct RenderFlags {
     bool no_direct = false;
     SecondOrderOptions options;
 };
-
-void parse_size(const std::string& text, SecondOrderOptions& options) {
-    int used = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%n", &options.width, &options.height, &used) != 2 ||
-        used != static_cast<int>(text.size()) || options.width < 1 || options.height < 1 ||
-        options.width > 16384 || options.height > 16384)
-        throw Error(fmt::format(
-            "render: --size is '{}', WIDTHxHEIGHT from 1x1 to 16384x16384 needed", text));
-}
 
 void parse_low_res(const std::string& text, SecondOrderOptions& options) {
     if (text.empty()) return;
@@ -99,9 +90,7 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderS
 }
 
 void run_render(RenderFlags flags) {
-    if (flags.picture.exr.empty() && flags.picture.png.empty())
-        throw Error("render: nothing to write, -o FILE.exr or --png FILE.png needed");
-    parse_size(flags.size, flags.options);
+    check_picture("render", flags.picture, flags.options.width, flags.options.height);
     parse_low_res(flags.low_res, flags.options);
     flags.options.direct = !flags.no_direct;
     flags.options.indirect = flags.method != "direct";
@@ -140,7 +129,7 @@ void run_render(RenderFlags flags) {
         if (interrupted()) throw Interrupted();
     }
     record.status = solver.status();
-    save_picture(session.queue, solver, flags.picture);
+    save_picture(report::radiance_picture(session.queue, solver), flags.picture);
 
     if (record.status.non_finite > 0)
         notice(false, fmt::format("warning: {} packets of pixels were not finite and were mended",
@@ -176,14 +165,9 @@ void add_render(CLI::App& app) {
     command->add_option("scene", flags->scene, ".gltf or .glb file")
         ->required()
         ->type_name("SCENE");
-    command->add_option("-o,--output", flags->picture.exr, "EXR: radiance in cd/m^2");
-    command->add_option("--png", flags->picture.png, "8-bit preview");
-    command->add_option("--exposure", flags->picture.exposure,
-                        "Preview exposure in stops; default: from the picture");
-    command->add_flag("--full", flags->picture.full, "32-bit EXR channels instead of half");
+    add_picture_flags(*command, flags->picture);
     command->add_option("--method", flags->method, "auto, second-order or direct")
         ->check(CLI::IsMember({"auto", "second-order", "direct"}));
-    command->add_option("--size", flags->size, "WIDTHxHEIGHT");
     command->add_option("--scene", flags->scene_index, "Which scene of the file");
     command->add_option("--camera", flags->camera, "Which camera of the scene")
         ->check(CLI::NonNegativeNumber);

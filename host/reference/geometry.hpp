@@ -1,0 +1,39 @@
+// The scene as rays meet it: a copy in floats around its centre, scaled to unit radius.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/scene.hpp>
+#include <vector>
+
+namespace clgi::reference {
+
+constexpr float pi = 3.14159265358979f;
+
+struct Geometry {
+    explicit Geometry(const Scene& scene);
+
+    glm::vec3 to_local(const glm::dvec3& world) const {
+        return glm::vec3((world - origin) * scale);
+    }
+
+    glm::dvec3 origin;
+    double scale;  // local units per metre
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> uvs;     // may be empty
+    std::vector<glm::vec4> colors;  // may be empty
+    std::vector<SceneTriangle> triangles;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+};
+
+// A point of a triangle: corner weights 1 - b1 - b2, b1, b2.
+struct Hit {
+    std::uint32_t triangle = 0;
+    float b1 = 0.0f;
+    float b2 = 0.0f;
+};
+
+inline float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+}  // namespace clgi::reference

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "reference/path.hpp"
+
+#include <algorithm>
+
+namespace clgi::reference {
+namespace {
+
+// Up to so many lamps are all asked; of more, one at random.
+constexpr std::size_t few_lamps = 8;
+
+float greatest(const glm::vec3& c) { return std::max(c.x, std::max(c.y, c.z)); }
+
+// Share of the first of two ways to draw a direction. [Veach95, the power heuristic]
+float power_heuristic(float density, float other) {
+    return density * density / (density * density + other * other);
+}
+
+bool above(const Surface& surface, const glm::vec3& direction) {
+    return glm::dot(surface.normal, direction) > 0.0f &&
+           glm::dot(surface.geometric, direction) > 0.0f;
+}
+
+glm::vec3 reflected(const Bsdf& bsdf, bool glossy, const glm::vec3& light) {
+    return glossy ? bsdf.diffuse() + bsdf.lobe(light) : bsdf.diffuse();
+}
+
+}  // namespace
+
+bool Paths::counts(int bounces) const {
+    if (bounces == 0) return effects_.direct;
+    return bounces >= effects_.first_bounce && bounces <= effects_.last_bounce;
+}
+
+bool Paths::glossy(int bounces) const {
+    return bounces == 0 ? effects_.direct_gloss : effects_.indirect_gloss;
+}
+
+glm::vec3 Paths::by_lamp(std::size_t lamp, const Surface& surface, const Bsdf& bsdf,
+                         bool glossy) const {
+    const std::optional<Arrival> light = lights_.from_lamp(lamp, surface.position);
+    if (!light || !above(surface, light->direction)) return glm::vec3(0.0f);
+    if (tracer_.blocked(off_surface(surface.position, surface.geometric), light->from))
+        return glm::vec3(0.0f);
+    return reflected(bsdf, glossy, light->direction) * light->irradiance *
+           glm::dot(surface.normal, light->direction);
+}
+
+// Direct light. also_met: emissive surfaces are met by sampled directions as well.
+glm::vec3 Paths::lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool also_met,
+                     Random& random) const {
+    glm::vec3 sum(0.0f);
+    const std::size_t lamps = lights_.lamp_count();
+    if (lamps <= few_lamps) {
+        for (std::size_t lamp = 0; lamp < lamps; ++lamp)
+            sum += by_lamp(lamp, surface, bsdf, glossy);
+    } else {
+        const auto lamp = static_cast<std::size_t>(random() * static_cast<float>(lamps));
+        sum +=
+            by_lamp(std::min(lamp, lamps - 1), surface, bsdf, glossy) * static_cast<float>(lamps);
+    }
+    if (!lights_.has_surfaces()) return sum;
+    const std::optional<Arrival> light = lights_.from_surface(surface.position, random);
+    if (!light || !above(surface, light->direction)) return sum;
+    if (tracer_.blocked(off_surface(surface.position, surface.geometric), light->from)) return sum;
+    const bool lobe_drawn = effects_.direct_gloss || effects_.indirect_gloss;
+    const float share =
+        also_met ? power_heuristic(light->density, bsdf.density(light->direction, lobe_drawn))
+                 : 1.0f;
+    return sum + share * reflected(bsdf, glossy, light->direction) * light->irradiance *
+                     glm::dot(surface.normal, light->direction);
+}
+
+// Reflections 0 to last, shadowed.
+glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& random) const {
+    glm::vec3 sum(0.0f);
+    glm::vec3 weight(1.0f);
+    const bool lobe_drawn = effects_.direct_gloss || effects_.indirect_gloss;
+    for (int k = 0; k <= last && surface.reflects; ++k) {
+        const Bsdf bsdf(surface, -direction);
+        const bool counted = counts(k);
+        if (counted) sum += weight * lit(surface, bsdf, glossy(k), true, random);
+        if (k == last && !(counted && lights_.has_surfaces())) break;
+
+        const glm::vec3 onward = bsdf.sample(random, lobe_drawn);
+        const float density = bsdf.density(onward, lobe_drawn);
+        if (!above(surface, onward) || !(density > 0.0f)) break;
+        const float cosine = glm::dot(surface.normal, onward);
+        const std::optional<Hit> hit =
+            tracer_.first({off_surface(surface.position, surface.geometric), onward});
+        if (!hit) break;
+        Surface next = surface_at(geometry_, *hit, onward);
+        if (counted && greatest(next.emission) > 0.0f) {
+            const float other = lights_.density(*hit, surface.position);
+            sum += weight * reflected(bsdf, glossy(k), onward) * next.emission *
+                   (cosine / density * power_heuristic(density, other));
+        }
+        weight *= reflected(bsdf, effects_.indirect_gloss, onward) * (cosine / density);
+        if (k >= roulette_depth_) {
+            const float survival = std::min(greatest(weight), 0.95f);
+            if (!(random() < survival)) break;
+            weight /= survival;
+        }
+        if (!(greatest(weight) > 0.0f)) break;
+        surface = next;
+        direction = onward;
+    }
+    return sum;
+}
+
+// One bounce off every surface in a direction, near or far, hidden or not: integrated over the
+// hemisphere that is the integral over all surfaces with visibility 1. [Cochran07, section 3.2]
+glm::vec3 Paths::unshadowed(const Surface& surface, const glm::vec3& direction,
+                            Random& random) const {
+    glm::vec3 sum(0.0f);
+    if (!surface.reflects) return sum;
+    const Bsdf bsdf(surface, -direction);
+    const glm::vec3 onward = bsdf.sample(random, effects_.indirect_gloss);
+    const float density = bsdf.density(onward, effects_.indirect_gloss);
+    if (!above(surface, onward) || !(density > 0.0f)) return sum;
+    thread_local std::vector<Hit> hits;
+    tracer_.all({off_surface(surface.position, surface.geometric), onward}, hits);
+    // Embree finds them in any order, and sums depend on it.
+    std::sort(hits.begin(), hits.end(),
+              [](const Hit& a, const Hit& b) { return a.triangle < b.triangle; });
+    for (const Hit& hit : hits) {
+        const Surface other = surface_at(geometry_, hit, onward);
+        if (other.reflects)
+            sum += lit(other, Bsdf(other, -onward), effects_.indirect_gloss, false, random);
+    }
+    return sum * reflected(bsdf, effects_.indirect_gloss, onward) *
+           (glm::dot(surface.normal, onward) / density);
+}
+
+glm::vec3 Paths::sample(const Surface& seen, const glm::vec3& direction, Random& random) const {
+    glm::vec3 sum = effects_.emission ? seen.emission : glm::vec3(0.0f);
+    if (effects_.shadowed) return sum + walk(seen, direction, effects_.last_bounce, random);
+    if (effects_.direct) sum += walk(seen, direction, 0, random);
+    return sum + unshadowed(seen, direction, random);
+}
+
+}  // namespace clgi::reference

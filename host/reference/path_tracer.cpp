@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <clgi/error.hpp>
+#include <cmath>
+#include <optional>
+
+#include "reference/camera_rays.hpp"
+#include "reference/path.hpp"
+
+namespace clgi::reference {
+
+struct PathTracer::World {
+    explicit World(const Scene& scene)
+        : geometry(scene), tracer(geometry), lights(scene, geometry) {}
+    Geometry geometry;
+    Tracer tracer;
+    Lights lights;
+};
+
+namespace {
+
+// Sums of the samples of one pixel.
+struct Tally {
+    glm::dvec3 sum = glm::dvec3(0.0);
+    double luminance = 0.0;
+    double square = 0.0;
+
+    void add(const glm::vec3& sample) {
+        sum += glm::dvec3(sample);
+        const auto light = double{reference::luminance(sample)};
+        luminance += light;
+        square += light * light;
+    }
+    double standard_error(int samples) const {
+        if (samples < 2) return 0.0;
+        const double mean = luminance / samples;
+        return std::sqrt(std::max(square / samples - mean * mean, 0.0) / (samples - 1));
+    }
+};
+
+void check(const Options& options) {
+    const auto in = [](const char* name, double value, double low, double high) {
+        if (!(value >= low && value <= high))
+            throw Error(std::string("reference: ") + name + " is " + std::to_string(value) + ", " +
+                        std::to_string(low) + " to " + std::to_string(high) + " needed");
+    };
+    in("width", options.width, 1, 16384);
+    in("height", options.height, 1, 16384);
+    in("samples", options.samples, 1, 1 << 24);
+    in("target", options.target, 0, 1e9);
+    in("threads", options.threads, 0, 4096);
+    in("roulette_depth", options.roulette_depth, 0, 1e6);
+    const Effects& effects = options.effects;
+    if (!effects.shadowed && (effects.first_bounce != 1 || effects.last_bounce != 1))
+        throw Error("reference: unshadowed indirect light has one bounce");
+}
+
+double relative_error(const std::vector<Tally>& tallies, int samples) {
+    double mean = 0.0, square = 0.0;
+    for (const Tally& tally : tallies) {
+        mean += tally.luminance / samples;
+        const double error = tally.standard_error(samples);
+        square += error * error;
+    }
+    const auto count = static_cast<double>(tallies.size());
+    return mean > 0.0 ? std::sqrt(square / count) / (mean / count) : 0.0;
+}
+
+// Passes over all items, each item with randomness of its own: sums do not depend on threads.
+// sample(item, random) -> radiance. Returns the samples taken of each.
+template <typename Sample>
+int accumulate(const Options& options, std::vector<Tally>& tallies, const Progress& progress,
+               bool& cancelled, Sample&& sample) {
+    std::optional<tbb::global_control> limit;
+    if (options.threads > 0)
+        limit.emplace(tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(options.threads));
+    constexpr int least = 16;  // before an estimate of the error is believed
+    int taken = 0;
+    while (taken < options.samples) {
+        const int pass = std::min({std::max(taken, 1), 4, options.samples - taken});
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tallies.size(), 64),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t item = range.begin(); item < range.end(); ++item)
+                                  for (int k = taken; k < taken + pass; ++k) {
+                                      Random random(options.seed, item,
+                                                    static_cast<std::uint64_t>(k));
+                                      tallies[item].add(sample(item, random));
+                                  }
+                          });
+        taken += pass;
+        if (progress && !progress(static_cast<double>(taken) / options.samples)) {
+            cancelled = true;
+            break;
+        }
+        if (options.target > 0.0 && taken >= least &&
+            relative_error(tallies, taken) <= options.target)
+            break;
+    }
+    return taken;
+}
+
+}  // namespace
+
+PathTracer::PathTracer(const Scene& scene) {
+    validate(scene);
+    world_ = std::make_unique<World>(scene);
+}
+
+PathTracer::~PathTracer() = default;
+
+Picture PathTracer::render(const Camera& camera, const Options& options,
+                           const Progress& progress) const {
+    check(options);
+    const auto start = std::chrono::steady_clock::now();
+    const Geometry& geometry = world_->geometry;
+    const Paths paths(geometry, world_->tracer, world_->lights, options.effects,
+                      options.roulette_depth);
+    const CameraRays rays(camera, geometry, options.width, options.height);
+    const auto width = static_cast<std::size_t>(options.width);
+    std::vector<Tally> tallies(width * static_cast<std::size_t>(options.height));
+
+    Picture out;
+    out.width = options.width;
+    out.height = options.height;
+    out.samples = accumulate(
+        options, tallies, progress, out.cancelled, [&](std::size_t pixel, Random& random) {
+            const auto x = static_cast<float>(pixel % width);
+            const auto y = static_cast<float>(pixel / width);
+            const Ray ray = rays.through(x + 0.5f, y + 0.5f);
+            const std::optional<Hit> hit = world_->tracer.first(ray, true);
+            if (!hit) return glm::vec3(0.0f);
+            const Ray beside = rays.through(x + random(), y + random());
+            const glm::vec3 direction = glm::normalize(ray.direction);
+            const Surface seen =
+                surface_at(geometry, *hit, direction, on_plane(geometry, hit->triangle, beside));
+            return paths.sample(seen, direction, random);
+        });
+    for (const Tally& tally : tallies) {
+        out.radiance.emplace_back(tally.sum / static_cast<double>(out.samples));
+        out.error.push_back(static_cast<float>(tally.standard_error(out.samples)));
+    }
+    out.relative_error = relative_error(tallies, out.samples);
+    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return out;
+}
+
+Irradiance PathTracer::irradiance(const std::vector<Place>& places, const Options& options) const {
+    check(options);
+    const Paths paths(world_->geometry, world_->tracer, world_->lights, options.effects,
+                      options.roulette_depth);
+    std::vector<Tally> tallies(places.size());
+    bool cancelled = false;
+    Irradiance out;
+    out.samples =
+        accumulate(options, tallies, nullptr, cancelled, [&](std::size_t item, Random& random) {
+            // Reflects all, evenly, pi times over: radiance is irradiance.
+            Surface surface{};
+            surface.position = world_->geometry.to_local(places[item].position);
+            surface.geometric = surface.normal = places[item].normal;
+            surface.albedo = glm::vec3(pi);
+            surface.reflects = true;
+            return paths.sample(surface, -surface.normal, random);
+        });
+    for (const Tally& tally : tallies) {
+        out.values.emplace_back(tally.sum / static_cast<double>(out.samples));
+        out.error.push_back(static_cast<float>(tally.standard_error(out.samples)));
+    }
+    return out;
+}
+
+}  // namespace clgi::reference

@@ -1,0 +1,46 @@
+// Rays against triangles, through Embree 3 or 4.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "reference/geometry.hpp"
+
+namespace clgi::reference {
+
+struct Ray {
+    glm::vec3 origin;
+    glm::vec3 direction;  // of any length
+    float nearest = 0.0f;
+    float farthest = std::numeric_limits<float>::infinity();  // in lengths of direction
+};
+
+class Tracer {
+public:
+    explicit Tracer(const Geometry& geometry);
+    ~Tracer();
+
+    // The first surface on the ray. for_camera: one-sided surfaces are not there from behind.
+    std::optional<Hit> first(const Ray& ray, bool for_camera = false) const;
+
+    // Every surface on the ray, in no order.
+    void all(const Ray& ray, std::vector<Hit>& hits) const;
+
+    // Whether anything lies between two points.
+    bool blocked(const glm::vec3& from, const glm::vec3& to) const;
+
+private:
+    struct Scene;
+    std::unique_ptr<Scene> scene_;
+};
+
+// A point moved off its surface, to the side of `normal`, by more than the rounding of positions.
+inline glm::vec3 off_surface(const glm::vec3& position, const glm::vec3& normal) {
+    const glm::vec3 size = glm::abs(position);
+    const float largest = glm::max(glm::max(size.x, size.y), glm::max(size.z, 0x1p-10f));
+    return position + normal * (largest * 16.0f * 0x1p-24f);
+}
+
+}  // namespace clgi::reference

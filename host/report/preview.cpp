@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "report/preview.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clgi::report {
+namespace {
+
+std::uint8_t encoded(float linear) {
+    const float v = std::clamp(linear, 0.0f, 1.0f);
+    const float s = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+    return static_cast<std::uint8_t>(s * 255.0f + 0.5f);
+}
+
+}  // namespace
+
+io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
+    io::Image image;
+    image.width = solver.options().width;
+    image.height = solver.options().height;
+    image.attributes = {{"clgi:quantity", "radiance"}, {"clgi:unit", "cd/m^2"}};
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
+    for (std::size_t c = 0; c < RADIANCE_PLANES; ++c) {
+        std::vector<float> values(pixels);
+        queue.enqueueReadBuffer(solver.radiance(), CL_TRUE, c * solver.stride() * sizeof(float),
+                                pixels * sizeof(float), values.data());
+        image.channels.push_back({std::string(1, "RGB"[c]), std::move(values)});
+    }
+    return image;
+}
+
+float preview_exposure(const io::Image& picture) {
+    const auto &r = picture.find("R")->values, &g = picture.find("G")->values,
+               &b = picture.find("B")->values;
+    std::vector<float> luminance;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+        const float y = 0.2126f * r[i] + 0.7152f * g[i] + 0.0722f * b[i];
+        if (y > 0.0f) luminance.push_back(y);
+    }
+    if (luminance.empty()) return 1.0f;
+    const auto white = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() * 97 / 100);
+    std::nth_element(luminance.begin(), white, luminance.end());
+    return 1.0f / *white;
+}
+
+std::vector<std::uint8_t> preview(const io::Image& picture, float exposure) {
+    std::vector<std::uint8_t> rgba(picture.find("R")->values.size() * 4, 255);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::vector<float>& values = picture.find(std::string(1, "RGB"[c]))->values;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            rgba[4 * i + c] = encoded(values[i] * exposure);
+    }
+    return rgba;
+}
+
+}  // namespace clgi::report

@@ -1,0 +1,93 @@
+// Ground truth: an independent path tracer on the host, through Embree. It shares no transport
+// code with the library; materials follow docs/materials.md, lights KHR_lights_punctual.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/scene.hpp>
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clgi::reference {
+
+// Which light paths count. A path of k bounces leaves its source, is reflected by k surfaces and
+// then by the one that is seen: 0 is direct light.
+struct Effects {
+    static constexpr int unlimited = std::numeric_limits<int>::max();
+    bool emission = true;  // surfaces seen shining
+    bool direct = true;    // k = 0
+    int first_bounce = 1;  // indirect paths: first_bounce <= k <= last_bounce
+    int last_bounce = unlimited;
+    bool shadowed = true;        // false: the segment between the last two surfaces passes through
+                                 // others, as the indirect lights of [Cochran07] do; k = 1 only
+    bool direct_gloss = true;    // the lobe answers to direct light
+    bool indirect_gloss = true;  // and to indirect light, and bounces it
+};
+
+// From a comma-separated list of: emission, direct, indirect, one-bounce, bounces=K,
+// unshadowed-indirect (one bounce, unshadowed), diffuse (no gloss at all), diffuse-indirect.
+// "all" or an empty list: everything. Throws Error naming the word it does not know, or words that
+// exclude each other.
+Effects parse_effects(const std::string& list);
+
+struct Options {
+    int width = 640;  // pixels
+    int height = 480;
+    Effects effects;
+    int samples = 64;         // per pixel, at most; 1 to 2^24
+    double target = 0.0;      // stop when the relative error (below) is this small; 0: never
+    std::uint64_t seed = 1;   // same seed, same picture, whatever the number of threads
+    int roulette_depth = 16;  // surfaces that a path meets before chance may end it
+    int threads = 0;          // 0: all
+};
+
+// A place to be lit, for irradiance(): local light atlases, probes, tests.
+struct Place {
+    glm::dvec3 position;  // metres
+    glm::vec3 normal;     // unit
+};
+
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec3> radiance;  // [height][width] cd/m^2
+    std::vector<float> error;         // [height][width] standard error of luminance
+    int samples = 0;                  // taken of each pixel
+    double relative_error = 0.0;      // root of the mean squared standard error, over the mean
+    double seconds = 0.0;
+    bool cancelled = false;
+};
+
+struct Irradiance {
+    std::vector<glm::vec3> values;  // lux
+    std::vector<float> error;       // standard error of luminance
+    int samples = 0;
+};
+
+// Called between passes over the picture with the share done, [0,1]; false cancels.
+using Progress = std::function<bool(double done)>;
+
+class PathTracer {
+public:
+    // Validates and copies what it needs. Throws InputError for a broken scene.
+    explicit PathTracer(const Scene& scene);
+    ~PathTracer();
+
+    // Rays through the centres of pixels, like the library's own views. Throws Error for options
+    // out of range.
+    Picture render(const Camera& camera, const Options& options,
+                   const Progress& progress = nullptr) const;
+
+    // What arrives at places, cosine included. width and height are not looked at.
+    Irradiance irradiance(const std::vector<Place>& places, const Options& options) const;
+
+private:
+    struct World;
+    std::unique_ptr<World> world_;
+};
+
+}  // namespace clgi::reference
