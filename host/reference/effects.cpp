@@ -35,6 +35,7 @@ Effects parse_effects(const std::string& list) {
         out.first_bounce = first;
         out.last_bounce = last;
     };
+    if (list.back() == ',') refuse(list, "a word is missing at the end");
     std::istringstream words(list);
     for (std::string word; std::getline(words, word, ',');) {
         if (word == "emission") {

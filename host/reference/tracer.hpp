@@ -36,11 +36,12 @@ private:
     std::unique_ptr<Scene> scene_;
 };
 
-// A point moved off its surface, to the side of `normal`, by more than the rounding of positions.
+// A point moved off its surface, to the side of `normal`, by more than the rounding of positions
+// and of the distances that rays across a scene of radius 1 report.
 inline glm::vec3 off_surface(const glm::vec3& position, const glm::vec3& normal) {
     const glm::vec3 size = glm::abs(position);
-    const float largest = glm::max(glm::max(size.x, size.y), glm::max(size.z, 0x1p-10f));
-    return position + normal * (largest * 16.0f * 0x1p-24f);
+    const float largest = glm::max(glm::max(size.x, size.y), glm::max(size.z, 1.0f));
+    return position + normal * (largest * 64.0f * 0x1p-24f);
 }
 
 }  // namespace clgi::reference
