@@ -24,7 +24,8 @@
     MEMBER(DownsampleParams, step) MEMBER(DownsampleParams, pad0_)                              \
     MEMBER(DownsampleParams, pad1_) MEMBER(DownsampleParams, pad2_)                             \
     SIZE(Emitter) MEMBER(Emitter, position) MEMBER(Emitter, axis) MEMBER(Emitter, right)        \
-    MEMBER(Emitter, intensity) MEMBER(Emitter, range) MEMBER(Emitter, measure)                  \
+    MEMBER(Emitter, intensity) MEMBER(Emitter, shift) MEMBER(Emitter, range)                    \
+    MEMBER(Emitter, measure)                                                                    \
     MEMBER(Emitter, area) MEMBER(Emitter, kind) MEMBER(Emitter, first_view)                     \
     MEMBER(Emitter, view_count) MEMBER(Emitter, first_light) MEMBER(Emitter, light_count)       \
     SIZE(IndirectLight) MEMBER(IndirectLight, position) MEMBER(IndirectLight, normal)           \
@@ -36,7 +37,8 @@
     SIZE(NegativeParams) MEMBER(NegativeParams, light_count)                                    \
     MEMBER(NegativeParams, negative_count) MEMBER(NegativeParams, stride)                       \
     MEMBER(NegativeParams, back_facing) MEMBER(NegativeParams, footprint) \
-    MEMBER(NegativeParams, pad0_) MEMBER(NegativeParams, pad1_) MEMBER(NegativeParams, pad2_)                                                         \
+    MEMBER(NegativeParams, shift_x) MEMBER(NegativeParams, shift_y)                             \
+    MEMBER(NegativeParams, pad_)                                                                \
     SIZE(GatherParams) MEMBER(GatherParams, stride) MEMBER(GatherParams, light_count)           \
     MEMBER(GatherParams, negative_count) MEMBER(GatherParams, pad_)                             \
     SIZE(RefineParams) MEMBER(RefineParams, width) MEMBER(RefineParams, height)                 \

@@ -29,6 +29,7 @@ struct RenderFlags {
     std::string low_res;
     std::string stats;
     int frames = 1;
+    int replicates = 0;
     bool orbit = false;
     bool spin_light = false;
     bool no_direct = false;
@@ -129,7 +130,12 @@ void run_render(RenderFlags flags) {
         if (interrupted()) throw Interrupted();
     }
     record.status = solver.status();
-    save_picture(report::radiance_picture(session.queue, solver), flags.picture);
+    if (flags.replicates > 1) {
+        record.replicates = report::replicate(session.queue, solver, camera, flags.replicates);
+        save_picture(record.replicates->mean, flags.picture);
+    } else {
+        save_picture(report::radiance_picture(session.queue, solver), flags.picture);
+    }
 
     if (record.status.non_finite > 0)
         notice(false, fmt::format("warning: {} packets of pixels were not finite and were mended",
@@ -143,6 +149,12 @@ void run_render(RenderFlags flags) {
             flags.picture.exr, both ? ", " : "", flags.picture.png, times.median,
             record.frame_ms.size(), solver.sources().light_count,
             flags.options.indirect ? flags.options.negative_lights : 0, scene.triangles.size());
+        if (record.replicates)
+            fmt::print(
+                "mean of {} replicates: standard error {:.3g} % of the mean, of one alone "
+                "{:.3g} %\n",
+                record.replicates->count, 100.0 * record.replicates->error,
+                100.0 * record.replicates->single_error);
     }
     if (!flags.stats.empty()) {
         record.device = session.device;
@@ -195,6 +207,10 @@ void add_render(CLI::App& app) {
     command->add_flag("--no-direct", flags->no_direct, "Leave direct light out of the picture");
     command->add_option("--frames", flags->frames, "Frames to render and time; the last is kept")
         ->check(CLI::Range(1, 1000000));
+    command
+        ->add_option("--replicates", flags->replicates,
+                     "Randomised shifts to take the mean of, and the standard error from")
+        ->check(CLI::Range(2, 100000));
     command->add_flag("--orbit", flags->orbit, "Move the camera round the scene over the frames");
     command->add_flag("--spin-light", flags->spin_light, "Turn the lights over the frames");
     command->add_option("--stats", flags->stats, "JSON file of times and settings");

@@ -43,7 +43,7 @@ ordered_json passes_json(const std::vector<std::vector<report::PassTime>>& frame
 
 void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
     const report::Spread frame = report::spread(record.frame_ms);
-    const ordered_json out = {
+    ordered_json out = {
         {"clgi", CLGI_VERSION},
         {"device", device_json(record.device)},
         {"method", record.method},
@@ -58,6 +58,10 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         {"non_finite", record.status.non_finite},
         {"converged", true},
         {"warnings", record.warnings}};
+    if (record.replicates)
+        out["replicates"] = {{"count", record.replicates->count},
+                             {"error", record.replicates->error},
+                             {"single_error", record.replicates->single_error}};
     io::AtomicFile file(path);
     const std::string text = out.dump(2) + '\n';
     file.write(text.data(), text.size());

@@ -5,9 +5,11 @@
 #include <clgi/device_scene.hpp>
 #include <clgi/solvers/second_order.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "report/replicates.hpp"
 #include "report/timing.hpp"
 
 namespace clgi::cli {
@@ -23,6 +25,7 @@ struct RenderRecord {
     std::size_t bytes = 0;                              // of scene and solver
     double build_ms = 0.0;                              // kernels and buffers
     FrameStatus status;
+    std::optional<report::Replicates> replicates;
     std::vector<std::string> warnings;
 };
 

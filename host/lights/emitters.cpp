@@ -9,6 +9,8 @@
 #include <numeric>
 #include <string>
 
+#include "lights/replicate.hpp"
+
 namespace clgi {
 namespace {
 
@@ -144,8 +146,11 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
             std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
         const EmissiveTriangle& t = triangles[std::min(pick, triangles.size() - 1)];
         // Uniform on the triangle; the index runs on, so triangles picked often are covered evenly.
-        const float root = std::sqrt(radical_inverse(static_cast<std::uint32_t>(k) + 1, 2));
-        const float v = radical_inverse(static_cast<std::uint32_t>(k) + 1, 3);
+        const auto index = static_cast<std::uint32_t>(k) + 1;
+        const float root = std::sqrt(shifted_radical_inverse(
+            index, 2, replicate_shift(options.replicate, ShiftUse::area, 0)));
+        const float v = shifted_radical_inverse(
+            index, 3, replicate_shift(options.replicate, ShiftUse::area, 1));
         const glm::vec3 on = t.corner[0] * (1.0f - root) + t.corner[1] * (root * (1.0f - v)) +
                              t.corner[2] * (root * v);
         const float lift = 1e-4f * frame.radius;
@@ -229,6 +234,8 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         source.emitter.view_count = static_cast<std::uint32_t>(source.views.size());
         source.emitter.first_light = static_cast<std::uint32_t>(out.light_count);
         source.emitter.light_count = shares[i];
+        for (int d = 0; d < 4; ++d)
+            source.emitter.shift[d] = replicate_shift(options.replicate, ShiftUse::light, d);
         out.light_count += shares[i];
         out.candidates.push_back(candidate_count(source, shares[i]));
         if (source.emitter.kind == EMITTER_SPOT && out.candidates.back() == 0)

@@ -5,6 +5,7 @@
 #include <clgi/error.hpp>
 #include <cmath>
 
+#include "lights/replicate.hpp"
 #include "solvers/recorder.hpp"
 #include "solvers/second_order_sizes.hpp"
 
@@ -48,8 +49,14 @@ SecondOrderSolver::SecondOrderSolver(const cl::CommandQueue& queue, const Device
       gbuffer_(context_of(queue), device_of(queue), options_.build),
       light_passes_(context_of(queue), device_of(queue), options_.build),
       image_(context_of(queue), device_of(queue), options_.build) {
-    stride_ = padded(pixel_count(options_));
-    low_stride_ = padded(low_pixel_count(options_));
+    allocate();
+}
+
+void SecondOrderSolver::reconfigure(const SecondOrderOptions& options) {
+    const SecondOrderOptions next = checked(options, scene_);
+    if (next.build != options_.build)
+        throw Error("second-order: other build options need another solver");
+    options_ = next;
     allocate();
 }
 
@@ -68,6 +75,11 @@ void SecondOrderSolver::lights_changed() {
         queue_.enqueueWriteBuffer(sources_.views, CL_TRUE, 0, set_.views.size() * sizeof(View),
                                   set_.views.data(), &frame_end_);
     });
+}
+
+void SecondOrderSolver::set_replicate(std::uint32_t replicate) {
+    options_.sources.replicate = replicate;
+    lights_changed();
 }
 
 void SecondOrderSolver::draw_view(Recorder& record, const View& view,
@@ -138,14 +150,15 @@ GatherParams SecondOrderSolver::gather_params(std::uint32_t stride) const {
 // I_s and I_n at every pixel. [sections 3.2, 3.3, 3.5]
 void SecondOrderSolver::light_points(Recorder& record, const View& view) {
     if (options_.negative_lights > 0) {
+        const std::uint32_t replicate = options_.sources.replicate;
         // Behind by less than the spacing of floats across the scene is not behind.
         const NegativeParams params{static_cast<std::uint32_t>(set_.light_count),
                                     static_cast<std::uint32_t>(options_.negative_lights),
                                     stride_,
                                     16.0f * 5.96e-8f * (2.0f * scene_.frame().radius),
                                     options_.footprint,
-                                    0,
-                                    0,
+                                    replicate_shift(replicate, ShiftUse::image, 0),
+                                    replicate_shift(replicate, ShiftUse::image, 1),
                                     0};
         record("lights.negative", params.negative_count, [&](const WaitList& wait) {
             return light_passes_.negative(queue_, params, view, planes_, lights_, negative_, wait);

@@ -120,8 +120,9 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     const double hertz = 1e6 * device.getInfo<CL_DEVICE_MAX_CLOCK_FREQUENCY>() *
                          device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     const double pixels = static_cast<double>(pixel_count(options));
-    // A quarter of the points, and one pixel in eight again in full.
-    const double points = pixels * (refines(options) ? 0.25 + 0.125 : 1.0);
+    // The low-resolution points, and one pixel in eight again in full.
+    const double step = options.low_resolution_step;
+    const double points = pixels * (refines(options) ? 1.0 / (step * step) + 0.125 : 1.0);
     const double lights =
         options.indirect ? static_cast<double>(set.light_count) + options.negative_lights : 0.0;
     const double triangles = static_cast<double>(scene.info().triangle_count) *
@@ -133,6 +134,8 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
 }
 
 void SecondOrderSolver::allocate() {
+    stride_ = padded(pixel_count(options_));
+    low_stride_ = padded(low_pixel_count(options_));
     set_ = make_emitters(scene_, options_.sources);
     indirect_ = options_.indirect && set_.light_count > 0;
     refine_ = indirect_ && refines(options_);

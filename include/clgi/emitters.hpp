@@ -14,6 +14,9 @@ struct EmitterOptions {
     int shadow_size = 512;  // pixels, side of a spot's or directional light's image
     int face_size = 256;    // pixels, side of a cube or hemicube face
     int area_samples = 16;  // points that stand for all emissive surfaces together
+    // 0: the Halton points themselves; any other: a randomised shift of them (Cranley and
+    // Patterson), so that several replicates tell how far off one is.
+    std::uint32_t replicate = 0;
 };
 
 struct EmitterSet {

@@ -20,6 +20,12 @@ struct BuildOptions {
                                  // and alpha masks only (DeviceScene::needs_textures)
 };
 
+inline bool operator==(const BuildOptions& a, const BuildOptions& b) {
+    return a.math == b.math && a.packet_width == b.packet_width && a.local_size == b.local_size &&
+           a.atomics64 == b.atomics64 && a.parallel == b.parallel && a.textures == b.textures;
+}
+inline bool operator!=(const BuildOptions& a, const BuildOptions& b) { return !(a == b); }
+
 // One kernel of a room.
 struct PassKernel {
     std::string name;  // "gbuffer.raster"

@@ -18,10 +18,12 @@ kernel void lights_accept_mask(
     uint word = (uint)get_global_id(0);
     if (word >= params.candidate_count / 32) return;
     float4 axis = emitters[params.emitter].axis;
+    float4 shift = emitters[params.emitter].shift;
     uint bits = 0;
     for (uint k = 0; k < 32; ++k) {
         uint index = word * 32 + k + 1;
-        float3 s = sphere_direction(radical_inverse(index, 2), radical_inverse(index, 3));
+        float3 s = sphere_direction(shifted_radical_inverse(index, 2, shift.x),
+                                    shifted_radical_inverse(index, 3, shift.y));
         if (dot(s, axis.xyz) >= axis.w) bits |= 1u << k;
     }
     mask[word] = bits;

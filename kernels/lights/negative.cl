@@ -31,8 +31,10 @@ kernel void lights_negative(
     uint sample = (uint)get_global_id(0);
     if (sample >= params.negative_count) return;
 
-    uint x = min((uint)(radical_inverse(sample + 1, 2) * (float)view.width), view.width - 1);
-    uint y = min((uint)(radical_inverse(sample + 1, 3) * (float)view.height), view.height - 1);
+    float right = shifted_radical_inverse(sample + 1, 2, params.shift_x);
+    float down = shifted_radical_inverse(sample + 1, 3, params.shift_y);
+    uint x = min((uint)(right * (float)view.width), view.width - 1);
+    uint y = min((uint)(down * (float)view.height), view.height - 1);
     global const float* at = planes + y * view.width + x;
     uint stride = params.stride;
     float3 p = (float3)(at[0], at[stride], at[2 * stride]);

@@ -28,6 +28,13 @@ CLGI_INLINE float radical_inverse(uint index, uint base) {
     return value < CLGI_BELOW_ONE ? value : CLGI_BELOW_ONE;
 }
 
+// The same, moved round the circle by a shift in [0,1): a randomised replicate of the sequence.
+// [Cranley and Patterson 1976]
+CLGI_INLINE float shifted_radical_inverse(uint index, uint base, float shift) {
+    float value = radical_inverse(index, base) + shift;
+    return value < 1.0f ? value : value - 1.0f;
+}
+
 CLGI_SHARED_END
 
 #endif

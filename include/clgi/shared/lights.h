@@ -18,6 +18,7 @@ typedef struct {
     float4 axis;       // xyz unit: spot axis, light direction, surface normal; w: cos(outer angle)
     float4 right;      // xyz unit, completes a frame with axis; w: cos(inner angle)
     float4 intensity;  // rgb: candela; directional lux; area: flux, lumen. All exposed
+    float4 shift;      // of the low-discrepancy points: bases 2, 3, 5, 7; each in [0,1)
     float range;       // where the light ends; 0: unlimited
     float measure;     // what the samples share: steradians; directional: area of the disc
     float area;        // of the emitting surface that this sample stands for; area lights
@@ -56,9 +57,9 @@ typedef struct {
     uint stride;          // of the G-buffer planes
     float back_facing;    // least cosine * distance that counts as behind; float spacing
     float footprint;      // multiplies the disc area that bounds each light; 1
-    uint pad0_;
-    uint pad1_;
-    uint pad2_;
+    float shift_x;        // of the low-discrepancy points across the image, [0,1)
+    float shift_y;
+    uint pad_;
 } NegativeParams;
 
 CLGI_SHARED_END

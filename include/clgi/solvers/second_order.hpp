@@ -69,6 +69,13 @@ public:
     // Reads the scene's lights again, after DeviceScene::set_light.
     void lights_changed();
 
+    // Other options with the same kernels. Throws Error for options out of range, and for build
+    // options that are not those of the constructor.
+    void reconfigure(const SecondOrderOptions& options);
+
+    // Another randomised shift of all low-discrepancy points (EmitterOptions::replicate).
+    void set_replicate(std::uint32_t replicate);
+
     // Enqueues a whole frame; the event is its end. Where nothing can be lit no kernel runs.
     cl::Event render(const Camera& camera);
 

@@ -1,0 +1,23 @@
+// How far off a picture is, from itself: several randomised shifts of its low-discrepancy points.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/io/image.hpp>
+#include <clgi/solvers/second_order.hpp>
+
+namespace clgi::report {
+
+struct Replicates {
+    int count = 0;
+    io::Image mean;  // R, G, B; error.Y: standard error of the mean's luminance
+    // Root of the mean squared standard error over the mean luminance: of the mean picture, and of
+    // one replicate alone. What all replicates share, the method's bias, is in neither.
+    double error = 0.0;
+    double single_error = 0.0;
+};
+
+// Renders replicates 1 to count, at least 2, and leaves the solver at the one it had.
+Replicates replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver, const Camera& camera,
+                     int count);
+
+}  // namespace clgi::report
