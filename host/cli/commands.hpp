@@ -11,6 +11,7 @@ void add_scene(CLI::App& app);
 void add_render(CLI::App& app);
 void add_reference(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_sweep(CLI::App& app);
 void add_bench(CLI::App& app);
 
 }  // namespace clgi::cli

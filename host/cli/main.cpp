@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
         clgi::cli::add_render(app);
         clgi::cli::add_reference(app);
         clgi::cli::add_compare(app);
+        clgi::cli::add_sweep(app);
         clgi::cli::add_bench(app);
         return parse_and_run(app, argc, argv);
     } catch (const clgi::cli::Interrupted&) {

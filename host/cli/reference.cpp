@@ -13,6 +13,7 @@
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
 #include "io/atomic_file.hpp"
+#include "report/reference_picture.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -28,24 +29,6 @@ struct ReferenceFlags {
     std::string stats;
     bool quiet = false;
 };
-
-io::Image image_of(const reference::Picture& picture, const ReferenceFlags& flags) {
-    io::Image out;
-    out.width = picture.width;
-    out.height = picture.height;
-    out.attributes = {{"clgi:quantity", "radiance"},
-                      {"clgi:unit", "cd/m^2"},
-                      {"clgi:effects", flags.effects.empty() ? "all" : flags.effects},
-                      {"clgi:samples", std::to_string(picture.samples)},
-                      {"clgi:relative_error", fmt::format("{:.4g}", picture.relative_error)}};
-    for (int c = 0; c < 3; ++c) {
-        io::Image::Channel channel{std::string(1, "RGB"[c]), {}};
-        for (const glm::vec3& radiance : picture.radiance) channel.values.push_back(radiance[c]);
-        out.channels.push_back(std::move(channel));
-    }
-    out.channels.push_back({"error.Y", picture.error});
-    return out;
-}
 
 void save_stats(const reference::Picture& picture, const Scene& scene,
                 const ReferenceFlags& flags) {
@@ -83,7 +66,7 @@ void run_reference(ReferenceFlags flags) {
         tracer.render(scene.cameras[static_cast<std::size_t>(flags.camera)], flags.options, bar);
     if (picture.cancelled) throw Interrupted();
     if (bar) bar(1.0);
-    save_picture(image_of(picture, flags), flags.picture);
+    save_picture(report::reference_image(picture, flags.effects), flags.picture);
     if (!flags.quiet)
         fmt::print("{}: {} samples a pixel, {:.1f} s, standard error {:.3g} % of the mean\n",
                    flags.picture.exr.empty() ? flags.picture.png : flags.picture.exr,

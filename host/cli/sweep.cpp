@@ -1,0 +1,120 @@
+// clgi sweep SCENE -o folder/: what accuracy costs in time.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/error.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/session.hpp"
+#include "report/sweep_files.hpp"
+#include "report/sweep_summary.hpp"
+
+#ifndef CLGI_VERSION
+#define CLGI_VERSION "unversioned"
+#endif
+
+namespace clgi::cli {
+namespace {
+
+struct SweepFlags {
+    DeviceFlags device;
+    std::string scene;
+    std::string output;
+    std::string method = "all";
+    std::string size;
+    int scene_index = -1;
+    int camera = 0;
+    int samples = 0;
+    int rounds = 0;
+    bool quick = false;
+    std::string command;
+};
+
+void size_of(const SweepFlags& flags, report::SweepSetup& setup) {
+    setup.width = flags.quick ? 160 : 320;
+    setup.height = flags.quick ? 120 : 240;
+    if (flags.size.empty()) return;
+    int used = 0;
+    if (std::sscanf(flags.size.c_str(), "%dx%d%n", &setup.width, &setup.height, &used) != 2 ||
+        used != static_cast<int>(flags.size.size()) || setup.width < 1 || setup.height < 1 ||
+        setup.width > 4096 || setup.height > 4096)
+        throw Error(fmt::format("sweep: --size is '{}', WIDTHxHEIGHT from 1x1 to 4096x4096 needed",
+                                flags.size));
+}
+
+void run_sweep(const SweepFlags& flags) {
+    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.device.quiet);
+    if (flags.camera >= static_cast<int>(scene.cameras.size()))
+        throw Error(fmt::format("sweep: --camera is {}, the scene has {}", flags.camera,
+                                scene.cameras.size()));
+    const Session session = open_session(flags.device);
+    report::SweepSetup setup{session.queue, scene};
+    size_of(flags, setup);
+    setup.camera = flags.camera;
+    setup.quick = flags.quick;
+    setup.second_order = flags.method != "reference";
+    setup.path_tracer = flags.method != "second-order";
+    setup.rounds = flags.rounds > 0 ? flags.rounds : flags.quick ? 2 : 3;
+    setup.reference_samples = flags.samples > 0 ? flags.samples : flags.quick ? 128 : 384;
+    setup.math = math_of(flags.device);
+    setup.folder = flags.output;
+    std::error_code failed;
+    std::filesystem::create_directories(setup.folder, failed);
+    if (failed) throw InputError(fmt::format("{}: {}", flags.output, failed.message()));
+    catch_interrupts();
+    setup.progress = progress_bar("sweep", flags.device.quiet);
+    report::Sweep result;
+    try {
+        result = report::sweep(setup);
+    } catch (const Error&) {
+        if (interrupted()) throw Interrupted();
+        throw;
+    }
+    if (setup.progress) setup.progress(1.0);
+    const std::string why = report::save_sweep(result, {flags.command, CLGI_VERSION}, setup.folder);
+    if (!why.empty()) notice(flags.device.quiet, "no plots: " + why);
+    if (flags.device.quiet) return;
+    for (const std::string& line : report::summary(result)) fmt::print("{}\n", line);
+    fmt::print("{}: index.html, sweep.csv, sweep.json{}\n", flags.output,
+               why.empty() ? ", error-*.svg" : "");
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("sweep", "Measure accuracy against time");
+    const auto flags = std::make_shared<SweepFlags>();
+    command->add_option("scene", flags->scene, ".gltf or .glb file")
+        ->required()
+        ->type_name("SCENE");
+    command->add_option("-o,--output", flags->output, "Folder; references in it are used again")
+        ->required()
+        ->type_name("FOLDER");
+    command->add_option("--method", flags->method, "second-order, reference or all")
+        ->check(CLI::IsMember({"second-order", "reference", "all"}));
+    command->add_option("--size", flags->size, "WIDTHxHEIGHT; default 320x240, quick 160x120");
+    command->add_option("--spp", flags->samples, "Samples a pixel of the references")
+        ->check(CLI::Range(2, 1 << 20));
+    command->add_option("--rounds", flags->rounds, "Times through all settings")
+        ->check(CLI::Range(1, 1000));
+    command->add_flag("--quick", flags->quick, "Fewer settings, smaller, in under a minute");
+    command->add_option("--scene", flags->scene_index, "Which scene of the file");
+    command->add_option("--camera", flags->camera, "Which camera of the scene")
+        ->check(CLI::NonNegativeNumber);
+    add_device_flags(*command, flags->device);
+    command->callback([flags, command] {
+        flags->command = fmt::format(
+            "clgi sweep {} -o {}{}{}", std::filesystem::path(flags->scene).filename().string(),
+            std::filesystem::path(flags->output).filename().string(),
+            flags->method == "all" ? "" : " --method " + flags->method,
+            (flags->quick ? " --quick" : "") +
+                (flags->size.empty() ? std::string() : " --size " + flags->size) +
+                (flags->device.math == "strict" ? "" : " --math " + flags->device.math));
+        run_sweep(*flags);
+    });
+}
+
+}  // namespace clgi::cli

@@ -1,0 +1,14 @@
+// One number for how far a picture is from the truth, the truth's own noise taken out.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/io/image.hpp>
+
+namespace clgi::report {
+
+// sqrt(mean (Y_a - Y_b)^2 - mean e_b^2) / mean Y_b, Y the luminance and e_b the standard error
+// that picture B states in its plane error.Y, if it has one. 0 where noise explains all.
+// Throws InputError when the sizes differ or R, G or B is missing.
+double relative_error(const io::Image& a, const io::Image& b);
+
+}  // namespace clgi::report

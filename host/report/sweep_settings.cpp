@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "report/sweep.hpp"
+
+namespace clgi::report {
+namespace {
+
+std::string low_resolution_text(const SecondOrderOptions& options) {
+    if (options.low_resolution_step == 1) return "off";
+    return fmt::format("{}/{:g}", options.low_resolution_step, options.discontinuity_threshold);
+}
+
+Settings settings(const std::string& series, const SecondOrderOptions& options) {
+    return {series,
+            {{"vpls", std::to_string(options.sources.lights)},
+             {"negative-vpls", std::to_string(options.negative_lights)},
+             {"low-res", low_resolution_text(options)},
+             {"shadow-size", std::to_string(options.sources.shadow_size)},
+             {"area-samples", std::to_string(options.sources.area_samples)}},
+            options};
+}
+
+}  // namespace
+
+std::vector<Settings> second_order_settings(int width, int height, bool quick) {
+    SecondOrderOptions base;
+    base.width = width;
+    base.height = height;
+    base.sources.lights = 300;
+    base.negative_lights = 150;
+    std::vector<Settings> out;
+    const auto add = [&](const std::string& series, const SecondOrderOptions& options) {
+        out.push_back(settings(series, options));
+    };
+    const std::vector<int> lights =
+        quick ? std::vector<int>{30, 300, 3000} : std::vector<int>{30, 100, 300, 1000, 3000, 10000};
+    SecondOrderOptions full = base;
+    full.low_resolution_step = 1;
+    for (const int negative : {0, 150})
+        for (const int count : lights) {
+            SecondOrderOptions options = full;
+            options.sources.lights = count;
+            options.negative_lights = negative;
+            add(negative == 0 ? "vpls, unshadowed" : "vpls", options);
+        }
+    for (const int negative :
+         quick ? std::vector<int>{0, 500} : std::vector<int>{0, 30, 150, 500, 1500}) {
+        SecondOrderOptions options = full;
+        options.sources.lights = 1000;
+        options.negative_lights = negative;
+        add("negative-vpls", options);
+    }
+    constexpr float none = std::numeric_limits<float>::infinity();
+    struct LowResolution {
+        int step;
+        float threshold;
+    };
+    const std::vector<LowResolution> low =
+        quick ? std::vector<LowResolution>{{4, none}, {4, 0.02f}}
+              : std::vector<LowResolution>{{4, none},   {4, 0.1f},  {4, 0.02f},
+                                           {4, 0.005f}, {2, 0.02f}, {2, 0.005f}};
+    for (const LowResolution& setting : low) {
+        SecondOrderOptions options = base;
+        options.low_resolution_step = setting.step;
+        options.discontinuity_threshold = setting.threshold;
+        add("low-res", options);
+    }
+    for (const int size :
+         quick ? std::vector<int>{256, 1024} : std::vector<int>{128, 256, 512, 1024, 2048}) {
+        SecondOrderOptions options = full;
+        options.sources.shadow_size = size;
+        options.sources.face_size = size / 2;
+        add("shadow-size", options);
+    }
+    for (const int samples : quick ? std::vector<int>{4} : std::vector<int>{1, 4, 16, 64}) {
+        SecondOrderOptions options = full;
+        options.sources.area_samples = samples;
+        add("area-samples", options);
+    }
+    // Together: only what lies near the front of the knobs alone.
+    if (!quick)
+        for (const int count : lights)
+            for (const double share : {0.15, 0.5})
+                for (const LowResolution& setting : {low[1], low[2], low[3]})
+                    for (const int size : {512, 2048}) {
+                        SecondOrderOptions options = base;
+                        options.sources.lights = count;
+                        options.negative_lights = static_cast<int>(share * count);
+                        options.low_resolution_step = setting.step;
+                        options.discontinuity_threshold = setting.threshold;
+                        options.sources.shadow_size = size;
+                        options.sources.face_size = size / 4;
+                        add("grid", options);
+                    }
+    return out;
+}
+
+}  // namespace clgi::report
