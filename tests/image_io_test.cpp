@@ -17,6 +17,19 @@ TEST_F(Png, BytesBeginWithTheSignature) {
     EXPECT_EQ(file_count(), 1u);
 }
 
+TEST_F(Png, IsReadBackAsItsBytes) {
+    clgi::io::save_png(2, 1, {0, 51, 255, 255, 1, 2, 3, 0}, at("a.png"));
+    const Image image = clgi::io::read_image_or_png(at("a.png"));
+    ASSERT_EQ(image.width, 2);
+    ASSERT_EQ(image.height, 1);
+    const std::vector<float> red = {0.0f, 1.0f / 255.0f}, alpha = {1.0f, 0.0f};
+    EXPECT_EQ(image.find("R")->values, red);
+    EXPECT_EQ(image.find("G")->values[0], 0.2f);
+    EXPECT_EQ(image.find("A")->values, alpha);
+    write("b.png", bytes_of(at("a.png")).substr(0, 50));
+    EXPECT_THROW(clgi::io::read_image_or_png(at("b.png")), clgi::InputError);
+}
+
 TEST_F(Png, WrongSizesAreRefused) {
     EXPECT_THROW(clgi::io::save_png(2, 2, std::vector<std::uint8_t>(15), at("a.png")), clgi::Error);
     EXPECT_THROW(clgi::io::save_png(0, 0, {}, at("a.png")), clgi::Error);

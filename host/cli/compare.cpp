@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "io/image_formats.hpp"
 #include "report/difference.hpp"
+#include "report/hdr_flip.hpp"
+#include "report/mask.hpp"
 #include "report/metrics.hpp"
 
 namespace clgi::cli {
@@ -19,7 +23,11 @@ struct CompareFlags {
     std::string a;
     std::string b;
     bool json = false;
+    bool no_flip = false;
+    std::string mask;
+    std::vector<int> region;  // empty, or x, y, width, height
     std::string difference;
+    std::string shown = "difference";
     double scale = 0.0;
 };
 
@@ -31,6 +39,8 @@ void print_json(const report::Comparison& c) {
         {"rel_mse", c.rel_mse},
         {"psnr", c.psnr},
         {"smape", c.smape},
+        {"flip", c.flip ? nlohmann::ordered_json(*c.flip) : nlohmann::ordered_json()},
+        {"p999_abs", c.p999_abs},
         {"max_abs", c.max_abs},
         {"max_at", {c.max_x, c.max_y}},
         {"mean_a", c.mean_a},
@@ -40,6 +50,7 @@ void print_json(const report::Comparison& c) {
         {"nonfinite_b", c.nonfinite_b},
         {"width", c.width},
         {"height", c.height},
+        {"pixels", c.pixels},
     };
     fmt::print("{}\n", json.dump(2));
 }
@@ -50,21 +61,50 @@ void print_text(const report::Comparison& c) {
     fmt::print("rel_mse       {:.6g}\n", c.rel_mse);
     fmt::print("psnr          {:.4g} dB\n", c.psnr);
     fmt::print("smape         {:.6g}\n", c.smape);
+    if (c.flip) fmt::print("flip          {:.6g}\n", *c.flip);
+    fmt::print("p999_abs      {:.6g}\n", c.p999_abs);
     fmt::print("max_abs       {:.6g} at pixel {},{}\n", c.max_abs, c.max_x, c.max_y);
     fmt::print("mean_a        {:.6g}\n", c.mean_a);
     fmt::print("mean_b        {:.6g}\n", c.mean_b);
     fmt::print("energy_ratio  {:.6g}\n", c.energy_ratio);
     fmt::print("nonfinite     {:.6g} of A, {:.6g} of B\n", c.nonfinite_a, c.nonfinite_b);
+    fmt::print("pixels        {} of {}x{}\n", c.pixels, c.width, c.height);
+}
+
+const std::map<std::string, report::Shown>& shown_by_name() {
+    static const std::map<std::string, report::Shown> names = {
+        {"difference", report::Shown::difference},
+        {"size", report::Shown::size},
+        {"flip", report::Shown::flip}};
+    return names;
+}
+
+report::Mask mask_from(const CompareFlags& flags, const io::Image& picture) {
+    report::Mask mask = flags.mask.empty() ? report::whole_picture(picture.width, picture.height)
+                                           : report::mask_of(io::read_image_or_png(flags.mask));
+    report::check_mask(mask, picture.width, picture.height);
+    if (flags.region.empty()) return mask;
+    const std::vector<int>& r = flags.region;
+    return report::within(mask, {r[0], r[1], r[2], r[3]});
 }
 
 void run_compare(const CompareFlags& flags) {
     const io::Image a = io::read_image(flags.a);
     const io::Image b = io::read_image(flags.b);
-    const report::Comparison comparison = report::compare(a, b);
+    const report::Mask mask = mask_from(flags, b);
+
+    report::Comparison comparison = report::compare(a, b, {&mask, false});
+    std::vector<float> flip;
+    if (!flags.no_flip) {
+        flip = report::hdr_flip(a, b);
+        comparison.flip = report::mean(flip, mask);
+    }
     if (!flags.difference.empty()) {
-        const auto picture = report::difference_picture(a, b, flags.scale);
-        io::save_png(picture.width, picture.height, picture.rgba, flags.difference);
-        if (!flags.json) fmt::print("full colour   {:.6g}\n", picture.scale);
+        const auto picture = report::difference_picture(
+            a, b, {shown_by_name().at(flags.shown), flags.scale, &mask, &flip});
+        const report::Raster drawn = report::with_scale_bar(picture.raster, picture.scale);
+        io::save_png(drawn.width, drawn.height, drawn.rgba, flags.difference);
+        if (!flags.json) fmt::print("full colour   {:.6g}\n", picture.scale.to);
     }
     if (flags.json) {
         print_json(comparison);
@@ -84,14 +124,31 @@ void add_compare(CLI::App& app) {
         ->type_name("A");
     command->add_option("b", flags->b, "The picture that it should be")->required()->type_name("B");
     command->add_flag("--json", flags->json, "Print JSON");
-    CLI::Option* difference =
-        command->add_option("--difference", flags->difference,
-                            "Write the signed difference as PNG: red where A is brighter");
+    command
+        ->add_option("--mask", flags->mask,
+                     "Count only pixels that are not zero in this .exr, .hdr or .png")
+        ->type_name("FILE");
+    command->add_option("--region", flags->region, "Count only pixels in this rectangle")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,W,H");
+    CLI::Option* difference = command->add_option("--difference,--diff", flags->difference,
+                                                  "Write where they differ as PNG, with a scale");
     difference->type_name("FILE");
+    command->add_option("--show", flags->shown, "difference (red where A is brighter), size, flip")
+        ->check(CLI::IsMember(shown_by_name()))
+        ->type_name("WHAT")
+        ->needs(difference);
     command->add_option("--scale", flags->scale, "The difference that has the full colour")
         ->check(CLI::PositiveNumber)
         ->needs(difference);
-    command->callback([flags] { run_compare(*flags); });
+    command->add_flag("--no-flip", flags->no_flip, "Leave out FLIP, which takes longest");
+    command->callback([flags] {
+        if (flags->no_flip && flags->shown == "flip") {
+            throw CLI::ValidationError("--no-flip excludes --show flip");
+        }
+        run_compare(*flags);
+    });
 }
 
 }  // namespace clgi::cli

@@ -89,6 +89,10 @@ Image read_image(const fs::path& path) {
     fail(path, "is neither OpenEXR nor Radiance HDR");
 }
 
+Image read_image_or_png(const fs::path& path) {
+    return starts_with(first_bytes(path), "\x89PNG") ? read_png(path) : read_image(path);
+}
+
 Image load_image(const fs::path& path, LoadReport* report) {
     Image image = read_image(path);
     const std::size_t replaced = make_finite(image);

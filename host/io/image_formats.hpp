@@ -14,6 +14,11 @@ Image read_image(const std::filesystem::path& path);
 Image read_exr(const std::filesystem::path& path);
 Image read_hdr(const std::filesystem::path& path);
 
+// Channels R, G, B, A: bytes / 255, still sRGB-encoded, 16 bits rounded to 8. No radiance, hence
+// not among what read_image takes.
+Image read_png(const std::filesystem::path& path);
+Image read_image_or_png(const std::filesystem::path& path);
+
 // What is put in place of a sample: NaN becomes 0, an infinity the largest float of its sign.
 float finite(float sample);
 std::size_t make_finite(Image& image);  // how many samples were replaced

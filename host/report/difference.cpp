@@ -1,86 +1,104 @@
-// The signed difference of two pictures on a diverging colour map.
-//
-// The map is two straight lines in OKLCh, a space whose distances match what the eye sees: from
-// nearly white down in lightness and up in chroma, alike in both hues.
 // SPDX-License-Identifier: MIT
 #include "report/difference.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "io/image_formats.hpp"
+#include "report/hdr_flip.hpp"
 #include "report/rgb_planes.hpp"
 
 namespace clgi::report {
 namespace {
 
-constexpr double lightness_at_zero = 0.97;
-constexpr double lightness_at_one = 0.45;
-constexpr double chroma_at_one = 0.17;  // as much as sRGB has of both hues at that lightness
-constexpr double red_hue = 0.49;        // radians
-constexpr double blue_hue = 4.60;
+enum class Pixel : std::uint8_t { counts, does_not, nonfinite };
 
-std::uint8_t srgb_byte(double linear) {
-    const double v = std::clamp(linear, 0.0, 1.0);
-    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
-}
-
-// OKLab (Ottosson 2020) to linear sRGB.
-std::array<double, 3> linear_rgb(double lightness, double a, double b) {
-    const auto cube = [](double v) { return v * v * v; };
-    const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);
-    const double m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b);
-    const double s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
-    return {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-            -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-            -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
-}
-
-std::vector<double> signed_differences(const io::Image& a, const io::Image& b) {
-    const auto [planes_a, planes_b] = rgb_planes(a, b);
-    std::vector<double> differences(planes_a[0]->size(), 0.0);
-    for (std::size_t c = 0; c < 3; ++c) {
-        for (std::size_t i = 0; i < differences.size(); ++i) {
-            const double va = io::finite((*planes_a[c])[i]), vb = io::finite((*planes_b[c])[i]);
-            differences[i] += (va - vb) / 3.0;
+std::vector<Pixel> classify(const RgbPlanes& a, const RgbPlanes& b, const Mask& mask) {
+    std::vector<Pixel> pixels(mask.counts.size(), Pixel::counts);
+    for (const RgbPlanes* planes : {&a, &b}) {
+        for (const std::vector<float>* plane : *planes) {
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                if (!std::isfinite((*plane)[i])) pixels[i] = Pixel::nonfinite;
+            }
         }
     }
-    return differences;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (!mask[i]) pixels[i] = Pixel::does_not;
+    }
+    return pixels;
+}
+
+std::vector<double> differences(const RgbPlanes& a, const RgbPlanes& b, Shown shown) {
+    std::vector<double> values(a[0]->size(), 0.0);
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double va = io::finite((*a[c])[i]), vb = io::finite((*b[c])[i]);
+            values[i] += (shown == Shown::size ? std::abs(va - vb) : va - vb) / 3.0;
+        }
+    }
+    return values;
 }
 
 // Neither a few bright pixels nor a mostly black difference may hide the rest.
-double chosen_scale(const std::vector<double>& differences) {
+double chosen_scale(const std::vector<double>& values, const std::vector<Pixel>& pixels) {
     std::vector<double> sizes;
-    sizes.reserve(differences.size());
-    for (const double difference : differences) sizes.push_back(std::abs(difference));
+    sizes.reserve(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (pixels[i] == Pixel::counts) sizes.push_back(std::abs(values[i]));
+    }
+    if (sizes.empty()) return 0.0;
     const auto rank = static_cast<std::ptrdiff_t>((sizes.size() - 1) * 99 / 100);
     std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
     const double scale = sizes[static_cast<std::size_t>(rank)];
-    return scale > 0.0 ? scale : *std::max_element(sizes.begin(), sizes.end());
+    return round_up(scale > 0.0 ? scale : *std::max_element(sizes.begin(), sizes.end()));
+}
+
+const std::map<Shown, const char*> captions = {
+    {Shown::difference, "A-B"}, {Shown::size, "|A-B|"}, {Shown::flip, "FLIP"}};
+
+// Where nothing differs the bar has the one colour of 0.
+Scale scale_of(Shown shown, double size) {
+    const auto signed_color = [](double t) { return diverging_color(2.0 * t - 1.0); };
+    const auto flat = [shown](double) {
+        return shown == Shown::difference ? diverging_color(0.0) : sequential_color(0.0);
+    };
+    if (!(size > 0.0)) return {0.0, 0.0, flat, captions.at(shown)};
+    if (shown == Shown::difference) return {-size, size, signed_color, captions.at(shown)};
+    return {0.0, size, sequential_color, captions.at(shown)};
 }
 
 }  // namespace
 
-std::array<std::uint8_t, 3> diverging_color(double value) {
-    const double size = std::min(std::abs(value), 1.0);
-    const double hue = value < 0.0 ? blue_hue : red_hue;
-    const double chroma = chroma_at_one * size;
-    const auto rgb = linear_rgb(lightness_at_zero + (lightness_at_one - lightness_at_zero) * size,
-                                chroma * std::cos(hue), chroma * std::sin(hue));
-    return {srgb_byte(rgb[0]), srgb_byte(rgb[1]), srgb_byte(rgb[2])};
-}
+DifferencePicture difference_picture(const io::Image& a, const io::Image& b,
+                                     const DifferenceOptions& options) {
+    const auto [planes_a, planes_b] = rgb_planes(a, b);
+    const Mask mask = options.mask ? *options.mask : whole_picture(a.width, a.height);
+    check_mask(mask, a.width, a.height);
 
-DifferencePicture difference_picture(const io::Image& a, const io::Image& b, double scale) {
-    const std::vector<double> differences = signed_differences(a, b);
-    DifferencePicture picture;
-    picture.width = a.width;
-    picture.height = a.height;
-    picture.scale = scale > 0.0 ? scale : chosen_scale(differences);
-    picture.rgba.reserve(4 * differences.size());
-    for (const double difference : differences) {
-        const auto color = diverging_color(picture.scale > 0.0 ? difference / picture.scale : 0.0);
-        picture.rgba.insert(picture.rgba.end(), {color[0], color[1], color[2], 255});
+    const bool is_flip = options.shown == Shown::flip;
+    std::vector<double> values;
+    if (is_flip) {
+        const std::vector<float> map = options.flip ? *options.flip : hdr_flip(a, b);
+        values.assign(map.begin(), map.end());
+    } else {
+        values = differences(planes_a, planes_b, options.shown);
+    }
+    const std::vector<Pixel> pixels = classify(planes_a, planes_b, mask);
+    double size = options.scale;
+    if (!(size > 0.0)) size = is_flip ? 1.0 : chosen_scale(values, pixels);
+
+    DifferencePicture picture{Raster(a.width, a.height, uncounted_color),
+                              scale_of(options.shown, size)};
+    const auto color_of = options.shown == Shown::difference ? diverging_color : sequential_color;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (pixels[i] == Pixel::does_not) continue;
+        // Where nothing differs the scale is 0, and so are all values.
+        const Color color = pixels[i] == Pixel::nonfinite
+                                ? nonfinite_color
+                                : color_of(size > 0.0 ? values[i] / size : 0.0);
+        std::copy(color.begin(), color.end(),
+                  picture.raster.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
     }
     return picture;
 }

@@ -2,26 +2,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <clgi/io/image.hpp>
-#include <cstdint>
 #include <vector>
+
+#include "report/mask.hpp"
+#include "report/raster.hpp"
+#include "report/scale_bar.hpp"
 
 namespace clgi::report {
 
-struct DifferencePicture {
-    int width = 0;
-    int height = 0;
-    std::vector<std::uint8_t> rgba;  // [height][width][4], sRGB, row 0 at the top
-    double scale = 0.0;              // the difference that has the full colour
+enum class Shown {
+    difference,  // the mean of a-b over R, G and B: red where A is brighter, blue where B is
+    size,        // the mean of |a-b|
+    flip,        // HDR-FLIP
 };
 
-// The mean of a-b over R, G and B: red where A is brighter, blue where B is, nearly white where
-// they agree. scale 0: chosen, so that one pixel in a hundred has a larger difference.
-// Throws InputError as compare does.
-DifferencePicture difference_picture(const io::Image& a, const io::Image& b, double scale = 0.0);
+struct DifferenceOptions {
+    Shown shown = Shown::difference;
+    double scale = 0.0;                        // what has the full colour; 0: chosen
+    const Mask* mask = nullptr;                // null: every pixel counts
+    const std::vector<float>* flip = nullptr;  // hdr_flip of the pictures, if it is there already
+};
 
-// -1 blue, 0 nearly white, +1 red; equal steps look equal. Values outside are clamped.
-std::array<std::uint8_t, 3> diverging_color(double value);
+struct DifferencePicture {
+    Raster raster;
+    Scale scale;  // to: what has the full colour
+};
+
+// Pixels that do not count are grey, those that are not finite in A or B magenta. The chosen scale
+// is a round number; at most one pixel in a hundred has a larger difference. That of FLIP is 1.
+// Throws InputError as compare does.
+DifferencePicture difference_picture(const io::Image& a, const io::Image& b,
+                                     const DifferenceOptions& options = {});
 
 }  // namespace clgi::report

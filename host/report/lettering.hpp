@@ -1,0 +1,19 @@
+// The few letters that a scale needs, drawn as strokes: sharp at every size.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "report/raster.hpp"
+
+namespace clgi::report {
+
+// Known are 0 to 9, "+-.e", "A", "B", "F", "L", "I", "P", "|" and the space; others leave a gap.
+// height: of a digit, in pixels.
+double text_width(std::string_view text, double height);
+
+// left, top: of the first digit, in pixels.
+void draw_text(Raster& raster, std::string_view text, double left, double top, double height,
+               const Color& color);
+
+}  // namespace clgi::report
