@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/clgi.hpp>
+#include <map>
 #include <vector>
 
 namespace clgi::test {
@@ -27,6 +28,16 @@ inline const Device& device() {
 
 inline DeviceScene on_device(const Scene& scene) {
     return DeviceScene(device().context, device().device, scene);
+}
+
+// A room's passes as they are built by default, once a process and kind of math.
+template <typename Passes>
+const Passes& shared_passes(Math math) {
+    static std::map<Math, Passes> built;
+    const auto known = built.find(math);
+    if (known != built.end()) return known->second;
+    return built.try_emplace(math, device().context, device().device, BuildOptions{.math = math})
+        .first->second;
 }
 
 template <typename T>

@@ -56,9 +56,8 @@ inline void draw_visibility(const GBufferPasses& passes, const DeviceScene& scen
     passes.raster_large(queue, view, scene, buffers);
 }
 
-inline const GBufferPasses& gbuffer_passes() {
-    static const GBufferPasses passes(device().context, device().device);
-    return passes;
+inline const GBufferPasses& gbuffer_passes(Math math = Math::strict) {
+    return shared_passes<GBufferPasses>(math);
 }
 
 inline Drawing draw(const DeviceScene& scene, const View& view,

@@ -10,14 +10,12 @@
 
 namespace clgi::test {
 
-inline const LightPasses& light_passes() {
-    static const LightPasses passes(device().context, device().device);
-    return passes;
+inline const LightPasses& light_passes(Math math = Math::strict) {
+    return shared_passes<LightPasses>(math);
 }
 
-inline const ImagePasses& image_passes() {
-    static const ImagePasses passes(device().context, device().device);
-    return passes;
+inline const ImagePasses& image_passes(Math math = Math::strict) {
+    return shared_passes<ImagePasses>(math);
 }
 
 struct PlacedLights {
@@ -27,13 +25,14 @@ struct PlacedLights {
 };
 
 inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions& options,
-                                 const LightPasses& passes = light_passes()) {
+                                 const LightPasses& passes = light_passes(),
+                                 const GBufferPasses& drawn_by = gbuffer_passes()) {
     const cl::CommandQueue& queue = device().queue;
     PlacedLights out;
     out.set = make_emitters(scene, options);
     if (out.set.light_count == 0) return out;
     const RasterBuffers buffers = raster_buffers(scene, out.set.pixels);
-    for (const View& view : out.set.views) draw_visibility(gbuffer_passes(), scene, view, buffers);
+    for (const View& view : out.set.views) draw_visibility(drawn_by, scene, view, buffers);
     const SourceBuffers sources{upload(out.set.emitters), upload(out.set.views),
                                 buffers.visibility};
     const cl::Buffer accepted = upload(std::vector<cl_uint>(out.set.light_count));
@@ -52,6 +51,11 @@ inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions&
     out.accepted = download<cl_uint>(accepted, out.set.light_count);
     out.lights = download<IndirectLight>(lights, out.set.light_count);
     return out;
+}
+
+inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions& options,
+                                 Math math) {
+    return place_lights(scene, options, light_passes(math), gbuffer_passes(math));
 }
 
 inline double total_flux(const DeviceScene& scene, const std::vector<IndirectLight>& lights) {
@@ -110,9 +114,10 @@ inline std::vector<IndirectLight> bare(std::vector<IndirectLight> lights) {
 
 // Lux at one place of the world from these lights.
 inline double lux_at(const DeviceScene& scene, const std::vector<IndirectLight>& lights,
-                     const glm::dvec3& position, const glm::vec3& normal) {
-    return gather({{scene.frame().to_local(position), normal}}, lights, {})[0].x *
-           scene.frame().exposure;
+                     const glm::dvec3& position, const glm::vec3& normal,
+                     Math math = Math::strict) {
+    const Receiver receiver{scene.frame().to_local(position), normal};
+    return gather({receiver}, lights, {}, image_passes(math))[0].x * scene.frame().exposure;
 }
 
 }  // namespace clgi::test

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "lighting.hpp"
+#include "math_modes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -32,14 +33,20 @@ std::vector<glm::dvec3> around(int count) {
 
 // rho Phi / (4 pi R^2) at every point of the inside of a sphere.
 void expect_even_in_sphere(const DeviceScene& scene, const std::vector<IndirectLight>& lights,
-                           double flux, double albedo) {
+                           double flux, double albedo, Math math) {
     for (const glm::dvec3& direction : around(40))
-        EXPECT_NEAR(test::lux_at(scene, test::bare(lights), direction, glm::vec3(-direction)),
+        EXPECT_NEAR(test::lux_at(scene, test::bare(lights), direction, glm::vec3(-direction), math),
                     albedo * flux / (4 * pi), facets * albedo * flux / (4 * pi))
             << direction.y;
 }
 
-TEST(SpotInASphere, LightsEveryPointAlike) {
+CLGI_IN_BOTH_MATHS(SpotInASphere);
+CLGI_IN_BOTH_MATHS(PointInASphere);
+CLGI_IN_BOTH_MATHS(AreaLightInASphere);
+CLGI_IN_BOTH_MATHS(SpotOverAFloor);
+CLGI_IN_BOTH_MATHS(IndirectLights);
+
+TEST_P(SpotInASphere, LightsEveryPointAlike) {
     FurnaceOptions options;
     options.subdivisions = fine;
     const Scene world = furnace(options);
@@ -47,20 +54,21 @@ TEST(SpotInASphere, LightsEveryPointAlike) {
     const double flux = 2 * pi * (1 - std::cos(30 * degree));
     EXPECT_NEAR(0.5 * flux / (4 * pi), 0.0334936491, 1e-10);
     for (const int n : {1, 7, 300}) {
-        const PlacedLights placed = test::place_lights(scene, {.lights = n});
-        expect_even_in_sphere(scene, placed.lights, flux, 0.5);
+        const PlacedLights placed = test::place_lights(scene, {.lights = n}, GetParam());
+        expect_even_in_sphere(scene, placed.lights, flux, 0.5, GetParam());
     }
 }
 
-TEST(PointInASphere, LightsEveryPointAlike) {
+TEST_P(PointInASphere, LightsEveryPointAlike) {
     FurnaceOptions options;
     options.subdivisions = fine;
     options.lamp = Lamp::point;
     const DeviceScene scene = test::on_device(furnace(options));
-    expect_even_in_sphere(scene, test::place_lights(scene, {.lights = 500}).lights, 4 * pi, 0.5);
+    expect_even_in_sphere(scene, test::place_lights(scene, {.lights = 500}, GetParam()).lights,
+                          4 * pi, 0.5, GetParam());
 }
 
-TEST(AreaLightInASphere, LightsEveryPointAlike) {
+TEST_P(AreaLightInASphere, LightsEveryPointAlike) {
     FurnaceOptions options;
     options.subdivisions = fine;
     Scene world = furnace(options);
@@ -74,7 +82,8 @@ TEST(AreaLightInASphere, LightsEveryPointAlike) {
         material);  // facing down
     const DeviceScene scene = test::on_device(world);
     const double flux = pi * 3.0 * 4 * half * half;
-    expect_even_in_sphere(scene, test::place_lights(scene, {.lights = 512}).lights, flux, 0.5);
+    expect_even_in_sphere(scene, test::place_lights(scene, {.lights = 512}, GetParam()).lights,
+                          flux, 0.5, GetParam());
 }
 
 Scene spot_over_floor(double angle, double half = 12.0) {
@@ -87,29 +96,29 @@ Scene spot_over_floor(double angle, double half = 12.0) {
 // (2 rho I / 5 h^2)(1 - cos^5 a) at the spot itself, looking down.
 double floor_seen_from_spot(double angle) { return 0.2 * (1 - std::pow(std::cos(angle), 5)); }
 
-TEST(SpotOverAFloor, LightsItsOwnPlaceAsTheIntegralSays) {
+TEST_P(SpotOverAFloor, LightsItsOwnPlaceAsTheIntegralSays) {
     const std::pair<double, double> rows[] = {
         {15, .0318298598}, {30, .1025721421}, {45, .1646446609}, {60, .1937500000}};
     for (const auto& [angle, wanted] : rows) {
         EXPECT_NEAR(floor_seen_from_spot(angle * degree), wanted, 1e-10);
         const DeviceScene scene = test::on_device(spot_over_floor(angle * degree));
         const PlacedLights placed =
-            test::place_lights(scene, {.lights = 10000, .shadow_size = 256});
+            test::place_lights(scene, {.lights = 10000, .shadow_size = 256}, GetParam());
         // Halton sums of 10,000 points are within 0.01 % here; corners at 1/256 pixel add as much.
-        EXPECT_NEAR(test::lux_at(scene, placed.lights, {0, 1, 0}, {0, -1, 0}), wanted,
+        EXPECT_NEAR(test::lux_at(scene, placed.lights, {0, 1, 0}, {0, -1, 0}, GetParam()), wanted,
                     0.005 * wanted)
             << angle;
     }
 }
 
 // Slope of log error over log N, by least squares: -1 where doubling N halves the error.
-double convergence(const std::vector<glm::dvec3>& places) {
+double convergence(const std::vector<glm::dvec3>& places, Math math) {
     const DeviceScene scene = test::on_device(spot_over_floor(45 * degree));
     const auto lit = [&](int n) {
-        const auto lights = test::bare(test::place_lights(scene, {.lights = n}).lights);
+        const auto lights = test::bare(test::place_lights(scene, {.lights = n}, math).lights);
         std::vector<double> out;
         for (const glm::dvec3& place : places)
-            out.push_back(test::lux_at(scene, lights, place, {0, -1, 0}));
+            out.push_back(test::lux_at(scene, lights, place, {0, -1, 0}, math));
         return out;
     };
     const std::vector<double> converged = lit(100000);
@@ -126,38 +135,41 @@ double convergence(const std::vector<glm::dvec3>& places) {
 }
 
 // Over the middle a sum depends on the heights of the points alone.
-TEST(SpotOverAFloor, ConvergesNearlyAsTheNumberOfLightsOverItsMiddle) {
-    EXPECT_LT(convergence({{0, 1, 0}, {0, 2, 0}, {0, 0.7, 0}}), -0.75);
+TEST_P(SpotOverAFloor, ConvergesNearlyAsTheNumberOfLightsOverItsMiddle) {
+    EXPECT_LT(convergence({{0, 1, 0}, {0, 2, 0}, {0, 0.7, 0}}, GetParam()), -0.75);
 }
 
 // Elsewhere the border of the cone tells; random points would converge with -1/2.
-TEST(SpotOverAFloor, ConvergesFasterThanRandomPointsElsewhere) {
-    EXPECT_LT(convergence({{0.4, 1, 0.1}, {-0.3, 2, 0.5}, {1, 1.5, 1}, {0, 0.7, -2}}), -0.6);
+TEST_P(SpotOverAFloor, ConvergesFasterThanRandomPointsElsewhere) {
+    EXPECT_LT(convergence({{0.4, 1, 0.1}, {-0.3, 2, 0.5}, {1, 1.5, 1}, {0, 0.7, -2}}, GetParam()),
+              -0.6);
 }
 
-TEST(IndirectLights, CarryAllThatTheRoomReflects) {
+TEST_P(IndirectLights, CarryAllThatTheRoomReflects) {
     Scene room = test::plain_scene(glm::vec3(0.7f));
     test::add_box(room, glm::dvec3(-1), glm::dvec3(1), -1);
     for (const double angle : {5.0, 35.0, 60.0, 85.0}) {  // the widest through a cube
         room.lights = {test::spot_light({0.3, 0.2, 0.1}, {0.3, -1, 0.2}, angle * degree)};
         const DeviceScene scene = test::on_device(room);
         const double flux = 2 * pi * (1 - std::cos(angle * degree));
-        EXPECT_NEAR(test::total_flux(scene, test::place_lights(scene, {.lights = 300}).lights),
-                    0.7 * flux, 0.7 * flux * 1e-5);  // sums of 300 floats
+        EXPECT_NEAR(
+            test::total_flux(scene, test::place_lights(scene, {.lights = 300}, GetParam()).lights),
+            0.7 * flux, 0.7 * flux * 1e-5);  // sums of 300 floats
     }
 }
 
-TEST(IndirectLights, CarryHalfWhereHalfTheConeLeavesTheScene) {
+TEST_P(IndirectLights, CarryHalfWhereHalfTheConeLeavesTheScene) {
     Scene world = test::plain_scene();
     test::add_quad(world, {glm::dvec3(0, 0, 9), {9, 0, 9}, {9, 0, -9}, {0, 0, -9}});
     world.lights = {test::spot_light({0, 1, 0}, {0, -1, 0}, 40 * degree)};
     const DeviceScene scene = test::on_device(world);
     const double half = 0.5 * pi * (1 - std::cos(40 * degree));  // times albedo 1/2
-    EXPECT_NEAR(test::total_flux(scene, test::place_lights(scene, {.lights = 4000}).lights), half,
-                0.01 * half);
+    EXPECT_NEAR(
+        test::total_flux(scene, test::place_lights(scene, {.lights = 4000}, GetParam()).lights),
+        half, 0.01 * half);
 }
 
-TEST(IndirectLights, CarryASunsLightOnAFloor) {
+TEST_P(IndirectLights, CarryASunsLightOnAFloor) {
     Scene world = test::plain_scene();
     test::add_floor(world, 2.0);
     for (const double slant : {0.0, 45.0, 80.0}) {
@@ -169,25 +181,27 @@ TEST(IndirectLights, CarryASunsLightOnAFloor) {
         // A strip of the disc at 80 degrees: 2500 of 20000 samples, whose border counts 1 %.
         EXPECT_NEAR(
             test::total_flux(
-                scene, test::place_lights(scene, {.lights = 20000, .shadow_size = 1024}).lights),
+                scene, test::place_lights(scene, {.lights = 20000, .shadow_size = 1024}, GetParam())
+                           .lights),
             flux, 0.01 * flux)
             << slant;
     }
 }
 
-TEST(IndirectLights, AreNoneWhereTheSpotFacesAway) {
+TEST_P(IndirectLights, AreNoneWhereTheSpotFacesAway) {
     Scene world = spot_over_floor(30 * degree);
     world.lights[0].direction = {0, 1, 0};
     const DeviceScene scene = test::on_device(world);
-    for (const IndirectLight& light : test::place_lights(scene, {.lights = 50}).lights)
+    for (const IndirectLight& light : test::place_lights(scene, {.lights = 50}, GetParam()).lights)
         EXPECT_EQ(light.flux, glm::vec4(0.0f));
 }
 
-TEST(IndirectLights, AreNoneWhereTheSpotIsBuried) {
+TEST_P(IndirectLights, AreNoneWhereTheSpotIsBuried) {
     Scene world = spot_over_floor(30 * degree);
     test::add_box(world, {-0.1, 0.9, -0.1}, {0.1, 1.1, 0.1}, 1);  // seen from inside: its back
     const DeviceScene scene = test::on_device(world);
-    for (const IndirectLight& light : test::place_lights(scene, {.lights = 50}).lights) {
+    for (const IndirectLight& light :
+         test::place_lights(scene, {.lights = 50}, GetParam()).lights) {
         EXPECT_TRUE(std::isfinite(light.flux.x));
         EXPECT_GE(light.flux.x, 0.0f);
     }

@@ -2,7 +2,10 @@
 // centre lies in, moved right and down by nothing at all where it lies on an edge.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <array>
+#include <clgi/procedural.hpp>
 #include <cstring>
+#include <map>
 #include <numbers>
 
 #include "drawing.hpp"
@@ -138,28 +141,62 @@ TEST(Raster, CoversAFanOnce) {
     expect_each_covered_once(scene, 64, 64);
 }
 
+// A grid over a square image whose inner corners are moved about, by less than the quarter of a
+// cell at which a triangle could turn over.
+Scene random_mesh(int cells, int pixels) {
+    Random random(static_cast<std::uint64_t>(cells));
+    const double cell = static_cast<double>(pixels) / cells;
+    std::vector<glm::dvec3> grid;
+    for (int y = 0; y <= cells; ++y)
+        for (int x = 0; x <= cells; ++x) {
+            const bool inner = x > 0 && y > 0 && x < cells && y < cells;
+            const double most = inner ? 0.24 * cell : 0.0;
+            grid.emplace_back(x * cell + random(-most, most), y * cell + random(-most, most), 0);
+        }
+    Scene scene = test::plain_scene();
+    for (int y = 0; y < cells; ++y)
+        for (int x = 0; x < cells; ++x) {
+            const int a = y * (cells + 1) + x, b = a + cells + 1;
+            test::add_triangle(scene, grid[a], grid[a + 1], grid[b + 1]);
+            test::add_triangle(scene, grid[a], grid[b + 1], grid[b]);
+        }
+    return scene;
+}
+
 TEST(Raster, CoversARandomMeshOnce) {
-    // A grid whose inner corners are moved about; triangles from a fraction of a pixel to many.
-    for (const int cells : {2, 9, 48, 160}) {
-        Random random(static_cast<std::uint64_t>(cells));
-        const double cell = 96.0 / cells;
-        std::vector<glm::dvec3> grid;
-        for (int y = 0; y <= cells; ++y)
-            for (int x = 0; x <= cells; ++x) {
-                const bool inner = x > 0 && y > 0 && x < cells && y < cells;
-                const double most = inner ? 0.3 * cell : 0.0;
-                grid.emplace_back(x * cell + random(-most, most), y * cell + random(-most, most),
-                                  0);
-            }
-        Scene scene = test::plain_scene();
-        for (int y = 0; y < cells; ++y)
-            for (int x = 0; x < cells; ++x) {
-                const int a = y * (cells + 1) + x, b = a + cells + 1;
-                test::add_triangle(scene, grid[a], grid[a + 1], grid[b + 1]);
-                test::add_triangle(scene, grid[a], grid[b + 1], grid[b]);
-            }
-        expect_each_covered_once(scene, 96, 96);
+    for (const int cells : {2, 9, 48, 160})  // from many pixels a triangle to a fraction of one
+        expect_each_covered_once(random_mesh(cells, 96), 96, 96);
+}
+
+TEST(Raster, CoversAMillionPixelsOfARandomMeshOnce) {
+    expect_each_covered_once(random_mesh(160, 1024), 1024, 1024);
+}
+
+// A dented sphere seen from inside, far from the origin: each ray leaves it through a face that
+// looks inward, so each pixel of every view must show one.
+TEST(Raster, LeavesNoHoleInAClosedMesh) {
+    FurnaceOptions options;
+    options.subdivisions = 4;
+    Scene scene = furnace(options);
+    Random random(77);
+    const glm::dvec3 far(148376.1, 1234.7, -223423.3);
+    std::map<std::array<double, 3>, double> dents;  // corners that meet stay together
+    for (glm::dvec3& position : scene.positions) {
+        const auto [at, added] = dents.try_emplace({position.x, position.y, position.z});
+        if (added) at->second = random(0.7, 1.0);
+        position = position * at->second + far;
     }
+    const DeviceScene placed = test::on_device(scene);
+    std::size_t holes = 0;
+    for (int view = 0; view < 16; ++view) {
+        const glm::dvec3 eye =
+            far + glm::dvec3(random(-0.4, 0.4), random(-0.4, 0.4), random(-0.4, 0.4));
+        const glm::dvec3 ahead(random(-1, 1), random(-1, 1), random(-1, 1));
+        const Camera camera = test::camera_at(eye, eye + ahead, 2.0f);
+        const Drawing drawing = test::draw(placed, make_view(camera, placed.frame(), 256, 256));
+        for (std::size_t p = 0; p < drawing.pixels(); ++p) holes += drawing.triangle(p) < 0;
+    }
+    EXPECT_EQ(holes, 0u);
 }
 
 TEST(Raster, GivesEdgesThroughCentresToTheTopLeft) {

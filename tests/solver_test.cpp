@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "frames.hpp"
+#include "math_modes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -16,8 +17,10 @@ using test::Frame;
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180.0;
 
-SecondOrderOptions options_for(int width, int height, int lights, int negative) {
+SecondOrderOptions options_for(int width, int height, int lights, int negative,
+                               Math math = Math::strict) {
     SecondOrderOptions options;
+    options.build.math = math;
     options.width = width;
     options.height = height;
     options.sources.lights = lights;
@@ -25,11 +28,16 @@ SecondOrderOptions options_for(int width, int height, int lights, int negative) 
     return options;
 }
 
-TEST(SecondOrder, LightsASphereEvenly) {
+CLGI_IN_BOTH_MATHS(SecondOrder);
+CLGI_IN_BOTH_MATHS(NegativeLights);
+CLGI_IN_BOTH_MATHS(Shadow);
+CLGI_IN_BOTH_MATHS(DirectLight);
+
+TEST_P(SecondOrder, LightsASphereEvenly) {
     FurnaceOptions furnace_options;
     furnace_options.subdivisions = 5;
     const Scene scene = furnace(furnace_options);
-    SecondOrderOptions options = options_for(48, 40, 300, 0);
+    SecondOrderOptions options = options_for(48, 40, 300, 0, GetParam());
     options.footprint = 0.0f;  // the closed form is that of the pure kernel
     options.direct = false;
     for (const int step : {1, 2, 4}) {
@@ -73,12 +81,12 @@ TEST(NegativeLights, AreNoneInAnEmptyConvexBox) {
 }
 
 // A table in the room: what is taken away is never more than was there, nor less than nothing.
-TEST(NegativeLights, OnlyTakeAwayAndNeverTooMuch) {
+TEST_P(NegativeLights, OnlyTakeAwayAndNeverTooMuch) {
     Scene room = test::plain_scene();
     test::add_box(room, glm::dvec3(-1), glm::dvec3(1), -1);
     test::add_box(room, {-0.5, -0.4, -0.5}, {0.5, -0.3, 0.5}, 1);
     room.lights = {test::spot_light({0.2, 0.9, 0.3}, {-0.3, -1, -0.3}, 30 * degree)};
-    SecondOrderOptions options = options_for(64, 48, 150, 300);
+    SecondOrderOptions options = options_for(64, 48, 150, 300, GetParam());
     options.low_resolution_step = 1;
     options.direct = false;
     const Camera camera = test::camera_at({0, 0.1, 0.95}, {0, -0.5, -1}, 1.2f);
@@ -135,7 +143,7 @@ TEST(Shadow, DoesNotDarkenAPlaneByItself) {
         }
 }
 
-TEST(Shadow, OfAThinWallDoesNotLeak) {
+TEST_P(Shadow, OfAThinWallDoesNotLeak) {
     for (const double thickness : {0.1, 0.01, 0.001}) {
         Scene world = test::plain_scene();
         test::add_floor(world, 1.0);
@@ -144,7 +152,7 @@ TEST(Shadow, OfAThinWallDoesNotLeak) {
         Camera camera = test::camera_at({0.5, 1.5, 0}, {0.5, 0, 0});
         camera.kind = Camera::Kind::orthographic;
         camera.half_height = 0.4f;
-        const Frame frame = test::render(world, camera, options_for(64, 64, 0, 0));
+        const Frame frame = test::render(world, camera, options_for(64, 64, 0, 0, GetParam()));
         std::size_t checked = 0;
         for (std::size_t p = 0; p < frame.pixels; ++p) {
             // Behind the wall, two texels of the cube face and the wall itself away from its foot.
@@ -157,21 +165,21 @@ TEST(Shadow, OfAThinWallDoesNotLeak) {
 }
 
 // Direct light alone, straight down on white paper: E = I / d^2, L = rho E / pi.
-TEST(DirectLight, IsIntensityOverDistanceSquared) {
+TEST_P(DirectLight, IsIntensityOverDistanceSquared) {
     Scene world = test::plain_scene();
     test::add_floor(world, 3.0);
     Camera camera = test::camera_at({0, 1, 0}, {0, 0, 0});
     camera.kind = Camera::Kind::orthographic;
     camera.half_height = 1e-3f;
     world.lights = {test::spot_light({0, 2, 0}, {0, -1, 0}, 0.5, 3.0f)};
-    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 0.75 * 0.5 / pi,
-                1e-6);
+    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0, GetParam())).radiance[0].x,
+                0.75 * 0.5 / pi, 1e-6);
     world.lights = {test::point_light({0, 2, 0}, 3.0f)};
-    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 0.75 * 0.5 / pi,
-                1e-6);
+    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0, GetParam())).radiance[0].x,
+                0.75 * 0.5 / pi, 1e-6);
     world.lights = {test::directional_light({0, -1, 0}, 3.0f)};
-    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0)).radiance[0].x, 3.0 * 0.5 / pi,
-                1e-6);
+    EXPECT_NEAR(test::render(world, camera, options_for(1, 1, 0, 0, GetParam())).radiance[0].x,
+                3.0 * 0.5 / pi, 1e-6);
 }
 
 TEST(SecondOrder, RefusesOptionsOutOfRange) {

@@ -2,8 +2,8 @@
 //
 //   Phi_b(i) = sum_k a_k b^(-k-1),  i = sum_k a_k b^k            [Cochran07, section 3.1]
 //
-// The digits are reversed in integers, exactly, and divided once: at most 1.5 ulp for every
-// 32-bit index, and never 1.
+// The digits are reversed in integers, exactly, and divided once: at most 2.1 ulp for every 32-bit
+// index (2.4 in base 7), and never 1.
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_HALTON_H
 #define CLGI_SHARED_HALTON_H

@@ -1,0 +1,21 @@
+// Tests that hold in strict and in fast math run in both.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+#include <clgi/pass.hpp>
+#include <string>
+
+namespace clgi::test {
+
+inline std::string math_name(const testing::TestParamInfo<Math>& info) {
+    return info.param == Math::strict ? "strict" : "fast";
+}
+
+}  // namespace clgi::test
+
+// Makes `subject` a fixture for TEST_P, whose GetParam() is the kind of math.
+#define CLGI_IN_BOTH_MATHS(subject)                                                                \
+    class subject : public testing::TestWithParam<clgi::Math> {};                                  \
+    INSTANTIATE_TEST_SUITE_P(Math, subject, testing::Values(clgi::Math::strict, clgi::Math::fast), \
+                             clgi::test::math_name)
