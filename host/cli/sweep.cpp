@@ -58,7 +58,7 @@ void run_sweep(const SweepFlags& flags) {
     setup.second_order = flags.method != "reference";
     setup.path_tracer = flags.method != "second-order";
     setup.rounds = flags.rounds > 0 ? flags.rounds : flags.quick ? 2 : 3;
-    setup.reference_samples = flags.samples > 0 ? flags.samples : flags.quick ? 128 : 384;
+    setup.reference_samples = flags.samples > 0 ? flags.samples : flags.quick ? 64 : 192;
     setup.math = math_of(flags.device);
     setup.folder = flags.output;
     std::error_code failed;

@@ -25,7 +25,7 @@ struct SweepSetup {
     bool second_order = true;  // which methods
     bool path_tracer = true;
     int rounds = 3;               // through all settings; each times two frames
-    int reference_samples = 256;  // a pixel
+    int reference_samples = 192;  // a pixel
     Math math = Math::strict;
     std::filesystem::path folder;          // where references are kept between runs; must exist
     std::function<bool(double)> progress;  // share done; false cancels

@@ -103,8 +103,8 @@ std::string gallery(const Sweep& sweep, int truth) {
                                               100.0 * point.error[truth], knobs_text(point));
         out += "<div class=\"pair\">" +
                image_tag(sweep.width, sweep.height, preview(point.picture, exposure), title);
-        const auto difference = difference_picture(point.picture, truth_picture, scale);
-        out += image_tag(difference.width, difference.height, difference.rgba,
+        const auto difference = difference_picture(point.picture, truth_picture, {.scale = scale});
+        out += image_tag(difference.raster.width, difference.raster.height, difference.raster.rgba,
                          fmt::format("difference, full colour at {:.3g} cd/m\u00b2", scale)) +
                "</div>\n";
     }

@@ -39,6 +39,7 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick) {
         quick ? std::vector<int>{30, 300, 3000} : std::vector<int>{30, 100, 300, 1000, 3000, 10000};
     SecondOrderOptions full = base;
     full.low_resolution_step = 1;
+    full.sources.shadow_size = 1024;
     for (const int negative : {0, 150})
         for (const int count : lights) {
             SecondOrderOptions options = full;
@@ -47,9 +48,9 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick) {
             add(negative == 0 ? "vpls, unshadowed" : "vpls", options);
         }
     for (const int negative :
-         quick ? std::vector<int>{0, 500} : std::vector<int>{0, 30, 150, 500, 1500}) {
+         quick ? std::vector<int>{0, 500} : std::vector<int>{0, 50, 150, 500, 1500}) {
         SecondOrderOptions options = full;
-        options.sources.lights = 1000;
+        options.sources.lights = lights.back();
         options.negative_lights = negative;
         add("negative-vpls", options);
     }
@@ -69,13 +70,13 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick) {
         add("low-res", options);
     }
     for (const int size :
-         quick ? std::vector<int>{256, 1024} : std::vector<int>{128, 256, 512, 1024, 2048}) {
+         quick ? std::vector<int>{256, 1024} : std::vector<int>{256, 512, 1024, 2048}) {
         SecondOrderOptions options = full;
         options.sources.shadow_size = size;
-        options.sources.face_size = size / 2;
+        options.sources.face_size = size / 4;
         add("shadow-size", options);
     }
-    for (const int samples : quick ? std::vector<int>{4} : std::vector<int>{1, 4, 16, 64}) {
+    for (const int samples : quick ? std::vector<int>{4} : std::vector<int>{1, 4, 16, 32}) {
         SecondOrderOptions options = full;
         options.sources.area_samples = samples;
         add("area-samples", options);

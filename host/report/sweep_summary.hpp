@@ -20,7 +20,7 @@ Floor floor_of(const Sweep& sweep, const std::string& series, const std::string&
 // has no points.
 struct Speedup {
     std::string method;
-    double at_least_error = 0.0;  // at the least error that it reaches
+    double at_least_error = 0.0;  // at the cheapest error within a tenth of the least it reaches
     double least_error = 0.0;
     double best = 0.0;  // anywhere on its front
     double best_error = 0.0;
