@@ -25,9 +25,11 @@ namespace {
 double mean_luminance(const io::Image& picture) {
     double sum = 0.0;
     constexpr double weights[3] = {0.2126, 0.7152, 0.0722};
+    // By name: files keep their channels in an order of their own.
     for (std::size_t c = 0; c < 3; ++c)
-        for (const float value : picture.channels[c].values) sum += weights[c] * double{value};
-    return sum / static_cast<double>(picture.channels[0].values.size());
+        for (const float value : picture.find(std::string(1, "RGB"[c]))->values)
+            sum += weights[c] * double{value};
+    return sum / (static_cast<double>(picture.width) * picture.height);
 }
 
 class Run {

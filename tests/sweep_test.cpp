@@ -1,0 +1,233 @@
+// Sweeps: fronts, errors with the truth's noise taken out, references kept, files that stand alone.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <clgi/error.hpp>
+#include <clgi/procedural.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "device.hpp"
+#include "gltf_draft.hpp"
+#include "report/pareto.hpp"
+#include "report/reference_picture.hpp"
+#include "report/relative_error.hpp"
+#include "report/sweep_files.hpp"
+#include "report/sweep_summary.hpp"
+#include "scenes.hpp"
+
+namespace clgi::report {
+namespace {
+
+TEST(Pareto, KeepsWhatNothingBeats) {
+    const std::vector<Cost> points = {{3, 5}, {1, 9}, {2, 9}, {4, 5}, {5, 1}, {1, 9}, {6, 2}};
+    EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1, 0, 4}));
+    EXPECT_TRUE(pareto_front({}).empty());
+}
+
+TEST(Pareto, IsAgreedOnByAllPairs) {
+    test::Random random(3);
+    std::vector<Cost> points;
+    for (int i = 0; i < 300; ++i) points.push_back({random(1, 9), random(1, 9)});
+    const auto front = pareto_front(points);
+    const std::set<std::size_t> kept(front.begin(), front.end());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        bool beaten = false;
+        for (const Cost& other : points)
+            beaten |= other.milliseconds < points[i].milliseconds && other.error < points[i].error;
+        EXPECT_EQ(kept.count(i), beaten ? 0u : 1u) << i;
+    }
+}
+
+TEST(Pareto, FindsTheTimeOfAnErrorAlongPowerLaws) {
+    std::vector<Cost> curve;
+    for (double t = 1; t < 2000; t *= 3) curve.push_back({t, 0.8 / std::sqrt(t)});
+    for (const double error : {2.0, 0.8, 0.5, 0.1, 0.03, 0.002})
+        EXPECT_NEAR(*time_to_reach(curve, error), std::pow(0.8 / error, 2),
+                    1e-9 * std::pow(0.8 / error, 2))
+            << error;
+    EXPECT_FALSE(time_to_reach({}, 0.1).has_value());
+}
+
+io::Image grey(int width, int height, float value) {
+    io::Image out;
+    out.width = width;
+    out.height = height;
+    for (const char* name : {"R", "G", "B"})
+        out.channels.push_back(
+            {name, std::vector<float>(static_cast<std::size_t>(width) * height, value)});
+    return out;
+}
+
+TEST(RelativeError, IsThatOfLuminanceOverTheMean) {
+    EXPECT_NEAR(relative_error(grey(5, 3, 1.1f), grey(5, 3, 1.0f)), 0.1, 1e-6);
+    EXPECT_EQ(relative_error(grey(5, 3, 2.0f), grey(5, 3, 2.0f)), 0.0);
+    io::Image green = grey(4, 4, 1.0f);
+    for (float& value : green.channels[1].values) value = 2.0f;
+    EXPECT_NEAR(relative_error(green, grey(4, 4, 1.0f)), 0.7152, 1e-6);
+    EXPECT_THROW(relative_error(grey(4, 4, 1), grey(4, 5, 1)), InputError);
+}
+
+// A truth that is itself noisy and says how noisy: what it says is taken out.
+TEST(RelativeError, TakesTheNoiseOfTheTruthOut) {
+    test::Random random(9);
+    const int side = 400;
+    io::Image truth = grey(side, side, 0.0f), picture = grey(side, side, 1.05f);
+    std::vector<float> stated;
+    for (std::size_t i = 0; i < truth.channels[0].values.size(); ++i) {
+        const double width = random(0.0, 0.6);  // even noise of this width
+        const auto value = static_cast<float>(1.0 + width * (random(0, 1) - 0.5));
+        for (auto& channel : truth.channels) channel.values[i] = value;
+        stated.push_back(static_cast<float>(width / std::sqrt(12.0)));
+    }
+    EXPECT_GT(relative_error(picture, truth), 0.1);
+    truth.channels.push_back({"error.Y", stated});
+    // 160,000 squares of about 0.01 with a spread as large: 0.01 / 400 = 2.5e-5; 5 of those.
+    EXPECT_NEAR(std::pow(relative_error(picture, truth), 2), 0.0025, 1.3e-4);
+}
+
+TEST(SweepSettings, TurnEachKnobAloneAndAreNoTwoAlike) {
+    for (const bool quick : {true, false}) {
+        std::map<std::string, std::set<std::string>> seen;
+        for (const Settings& setting : second_order_settings(64, 48, quick)) {
+            std::string text;
+            for (const auto& [name, value] : setting.knobs) text += name + value + " ";
+            EXPECT_TRUE(seen[setting.series].insert(text).second) << setting.series << text;
+            EXPECT_EQ(setting.options.width, 64);
+        }
+        for (const char* series : {"vpls", "negative-vpls", "low-res", "shadow-size"}) {
+            EXPECT_GE(seen[series].size(), 2u) << series;
+        }
+        for (const char* knob : {"vpls", "negative-vpls", "low-res", "shadow-size"}) {
+            std::map<std::string, std::set<std::string>> values;
+            for (const Settings& setting : second_order_settings(64, 48, quick))
+                if (setting.series == knob)
+                    for (const auto& [name, value] : setting.knobs) values[name].insert(value);
+            for (const auto& [name, different] : values)
+                if (name != knob) {
+                    EXPECT_EQ(different.size(), 1u) << knob << " turns " << name;
+                }
+        }
+    }
+}
+
+class SmallSweep : public testing::Test {
+protected:
+    static const Sweep& made() {
+        static const Sweep sweep = make(scene(), folder().path());
+        return sweep;
+    }
+    static const Scene& scene() {
+        static const Scene scene = cornell({.lamp = Lamp::spot});
+        return scene;
+    }
+    static const test::TempFolder& folder() {
+        static const test::TempFolder folder;
+        return folder;
+    }
+    static Sweep make(const Scene& scene, const std::filesystem::path& folder) {
+        SweepSetup setup{test::device().queue, scene};
+        setup.width = 40;
+        setup.height = 30;
+        setup.quick = true;
+        setup.rounds = 1;
+        setup.reference_samples = 64;
+        setup.folder = folder;
+        return sweep(setup);
+    }
+    static std::string text(const std::filesystem::path& file) {
+        std::ostringstream out;
+        out << std::ifstream(file).rdbuf();
+        return out.str();
+    }
+};
+
+TEST_F(SmallSweep, MarksFrontsThatFallWithTime) {
+    for (int t = 0; t < truths; ++t) {
+        std::map<double, double> front;
+        for (const SweepPoint& point : made().points) {
+            EXPECT_GT(point.milliseconds, 0.0);
+            EXPECT_GE(point.error[t], 0.0);
+            EXPECT_LT(point.error[t], 10.0);
+            if (point.front[t] && point.method == "second-order")
+                front[point.milliseconds] = point.error[t];
+        }
+        EXPECT_FALSE(front.empty());
+        double before = 1e9;
+        for (const auto& [milliseconds, error] : front) {
+            EXPECT_LT(error, before);
+            before = error;
+        }
+    }
+    // More light paths are nearer to the truth that they sample.
+    double few = 0.0, many = 0.0;
+    for (const SweepPoint& point : made().points)
+        if (point.series == "full") (few == 0.0 ? few : many) = point.error[all_light];
+    EXPECT_LT(many, 0.6 * few);
+    EXPECT_LT(floor_of(made(), "vpls, unshadowed", "vpls", unshadowed_bounce).error, 0.2);
+}
+
+TEST_F(SmallSweep, WritesFilesThatStandAlone) {
+    const test::TempFolder out;
+    const std::string why = save_sweep(made(), {"clgi sweep <me>", "1.2.3"}, out.path());
+    const std::string csv = text(out.path() / "sweep.csv");
+    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+              made().points.size() + 1);
+    const auto json = nlohmann::json::parse(text(out.path() / "sweep.json"));
+    EXPECT_EQ(json.at("points").size(), made().points.size());
+    EXPECT_EQ(json.at("speedups").size(), static_cast<std::size_t>(truths));
+    const std::string page = text(out.path() / "index.html");
+    EXPECT_NE(page.find("clgi sweep &lt;me&gt;"), std::string::npos);
+    for (const char* outside : {"src=\"http", "href=\"http", "src=\"/", "<link", "<script"})
+        EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+    if (!why.empty()) GTEST_SKIP() << why;
+    EXPECT_NE(page.find("<svg"), std::string::npos);
+    EXPECT_NE(text(out.path() / "error-full.svg").find("</svg>"), std::string::npos);
+}
+
+TEST_F(SmallSweep, KeepsItsReferences) {
+    made();
+    const auto file = folder().path() / "reference-full.exr";
+    const auto written = std::filesystem::last_write_time(file);
+    const Sweep again = make(scene(), folder().path());
+    EXPECT_EQ(std::filesystem::last_write_time(file), written);
+    EXPECT_EQ(again.truth[all_light].find("R")->values, made().truth[all_light].find("R")->values);
+    for (std::size_t i = 0; i < again.points.size(); ++i)
+        if (again.points[i].method == "second-order") {
+            EXPECT_NEAR(again.points[i].energy, made().points[i].energy, 1e-9) << i;
+        }
+
+    Scene other = scene();
+    other.lights[0].intensity *= 2.0f;
+    EXPECT_NE(scene_key(other), scene_key(scene()));
+    const test::TempFolder copy;
+    std::filesystem::copy(file, copy.path() / "reference-full.exr");
+    const reference::PathTracer tracer(other);
+    reference::Options options;
+    options.width = 40;
+    options.height = 30;
+    options.samples = 64;
+    const io::Image made_anew =
+        cached_reference(tracer, other.cameras[0], options, "all",
+                         copy.path() / "reference-full.exr", scene_key(other), nullptr);
+    EXPECT_NE(made_anew.find("R")->values, made().truth[all_light].find("R")->values);
+}
+
+TEST_F(SmallSweep, CanBeCancelled) {
+    SweepSetup setup{test::device().queue, scene()};
+    setup.width = setup.height = 16;
+    setup.quick = true;
+    const test::TempFolder out;
+    setup.folder = out.path();
+    setup.progress = [](double done) { return done < 0.2; };
+    EXPECT_THROW(sweep(setup), Error);
+    // What was finished is whole; what was not is not there.
+    for (const auto& entry : std::filesystem::directory_iterator(out.path()))
+        EXPECT_NO_THROW(io::load_image(entry.path()));
+}
+
+}  // namespace
+}  // namespace clgi::report
