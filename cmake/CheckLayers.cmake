@@ -53,6 +53,11 @@ forbid("^(clgi/)?(io|cli|report|reference|gl)/" "the library knows no files, pro
 forbid("tiny_gltf|^stb_|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/"
        "the library stands on OpenCL and GLM alone" ${public} ${library})
 
+# Ground truth is no use where it shares a mistake with what it judges.
+forbid("^(clgi/)?(passes|solvers|shared|gbuffer|lights|image|opencl|io|report|cli)/|^clgi/(clgi|device_scene|emitters|device|pass)\\.hpp"
+       "the path tracer shares no transport code with the library"
+       "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/include/clgi/reference.hpp")
+
 # Passes and what they stand on know no solver, by name or through the umbrella header.
 set(below ${core})
 list(FILTER below EXCLUDE REGEX "/solvers/|clgi/clgi\\.hpp$")

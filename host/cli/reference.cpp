@@ -40,6 +40,7 @@ void save_stats(const reference::Picture& picture, const Scene& scene,
         {"samples", picture.samples},
         {"relative_error", picture.relative_error},
         {"seconds", picture.seconds},
+        {"non_finite", picture.non_finite},
         {"seed", flags.options.seed},
         {"converged",
          flags.options.target == 0.0 || picture.relative_error <= flags.options.target},
@@ -67,6 +68,9 @@ void run_reference(ReferenceFlags flags) {
     if (picture.cancelled) throw Interrupted();
     if (bar) bar(1.0);
     save_picture(report::reference_image(picture, flags.effects), flags.picture);
+    if (picture.non_finite > 0)
+        notice(false, fmt::format("warning: {} samples were not finite and were left out",
+                                  picture.non_finite));
     if (!flags.quiet)
         fmt::print("{}: {} samples a pixel, {:.1f} s, standard error {:.3g} % of the mean\n",
                    flags.picture.exr.empty() ? flags.picture.png : flags.picture.exr,

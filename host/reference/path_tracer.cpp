@@ -28,8 +28,13 @@ struct Tally {
     glm::dvec3 sum = glm::dvec3(0.0);
     double luminance = 0.0;
     double square = 0.0;
+    std::uint32_t non_finite = 0;
 
     void add(const glm::vec3& sample) {
+        if (!std::isfinite(sample.x + sample.y + sample.z)) {
+            ++non_finite;
+            return;
+        }
         sum += glm::dvec3(sample);
         const auto light = double{reference::luminance(sample)};
         luminance += light;
@@ -143,6 +148,7 @@ Picture PathTracer::render(const Camera& camera, const Options& options,
     for (const Tally& tally : tallies) {
         out.radiance.emplace_back(tally.sum / static_cast<double>(out.samples));
         out.error.push_back(static_cast<float>(tally.standard_error(out.samples)));
+        out.non_finite += tally.non_finite;
     }
     out.relative_error = relative_error(tallies, out.samples);
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -29,10 +29,18 @@ glm::vec4 fetched(const Texture& texture, long long column, long long row) {
             decoded(bytes[2], texture.srgb), static_cast<float>(bytes[3]) / 255.0f};
 }
 
+// Into two periods, or next to the picture: whatever the coordinate, its texels are integers.
+double folded(float coordinate, Wrap wrap) {
+    if (!std::isfinite(coordinate)) return 0.0;
+    const auto u = double{coordinate};
+    return wrap == Wrap::clamp_to_edge ? std::clamp(u, -1.0, 2.0) : u - 2.0 * std::floor(0.5 * u);
+}
+
 }  // namespace
 
 glm::vec4 texel(const Texture& texture, glm::vec2 uv) {
-    const double x = double{uv.x} * texture.width, y = double{uv.y} * texture.height;
+    const double x = folded(uv.x, texture.wrap_s) * texture.width;
+    const double y = folded(uv.y, texture.wrap_t) * texture.height;
     if (texture.nearest)
         return fetched(texture, static_cast<long long>(std::floor(x)),
                        static_cast<long long>(std::floor(y)));

@@ -57,6 +57,7 @@ struct Picture {
     std::vector<glm::vec3> radiance;  // [height][width] cd/m^2
     std::vector<float> error;         // [height][width] standard error of luminance
     int samples = 0;                  // taken of each pixel
+    std::size_t non_finite = 0;       // samples left out because they were; 0 in a healthy run
     double relative_error = 0.0;      // root of the mean squared standard error, over the mean
     double seconds = 0.0;
     bool cancelled = false;
