@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# What accuracy costs in time, measured again: the figures of docs/accuracy.md.
+#
+#   ./samples/accuracy.sh [mesh.glb]     a mesh for the box; without, a generated one
+#
+# Writes out/accuracy/<scene>/index.html, plots and tables, for strict and for fast math.
+# SPDX-License-Identifier: MIT
+set -euo pipefail
+
+# shellcheck source-path=SCRIPTDIR source=../cmake/setup.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/../cmake/setup.sh"
+mesh=${1:+$(realpath -- "$1")}
+cd "$clgi_root"
+
+clgi_install_packages
+clgi_configure build -DCLGI_TESTS=OFF
+clgi_build build clgi_program
+
+out=out/accuracy
+mkdir -p "$out"
+clgi=build/clgi
+"$clgi" scene box ${mesh:+--mesh "$mesh"} -o "$out/box.glb"
+"$clgi" scene cornell -o "$out/cornell.glb"
+for scene in box cornell; do
+    "$clgi" sweep "$out/$scene.glb" -o "$out/$scene"
+done
+"$clgi" sweep "$out/box.glb" -o "$out/box-fast" --method second-order --math fast
+
+echo
+echo "commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown), $(date +%F)"
+echo "pages: $out/box/index.html $out/cornell/index.html $out/box-fast/index.html"
