@@ -54,7 +54,8 @@ ordered_json ask_json(const AskRecord& record, double delivered_ms) {
     out["settings"]["low_res"] = settings.step == 1 ? ordered_json("off")
                                  : std::isinf(settings.threshold)
                                      ? ordered_json("inf")
-                                     : ordered_json(settings.threshold);
+                                     :  // the shortest decimal, not the float's expansion
+                                     ordered_json(std::stod(fmt::format("{}", settings.threshold)));
     out["probe_ms"] = answer.probe_ms;
     return out;
 }
