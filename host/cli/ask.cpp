@@ -50,12 +50,14 @@ ordered_json ask_json(const AskRecord& record, double delivered_ms) {
     out["settings"] = {{"vpls", settings.lights},
                        {"negative_vpls", settings.negative_lights},
                        {"low_res_step", settings.step}};
-    // As --low-res takes it: JSON has no infinity.
-    out["settings"]["low_res"] = settings.step == 1 ? ordered_json("off")
-                                 : std::isinf(settings.threshold)
-                                     ? ordered_json("inf")
-                                     :  // the shortest decimal, not the float's expansion
-                                     ordered_json(std::stod(fmt::format("{}", settings.threshold)));
+    // As --low-res takes it: JSON has no infinity, and a float's expansion has too many digits.
+    ordered_json& low_res = out["settings"]["low_res"];
+    if (settings.step == 1)
+        low_res = "off";
+    else if (std::isinf(settings.threshold))
+        low_res = "inf";
+    else
+        low_res = std::stod(fmt::format("{}", settings.threshold));
     out["probe_ms"] = answer.probe_ms;
     return out;
 }

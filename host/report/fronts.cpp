@@ -18,9 +18,9 @@ constexpr float none = INFINITY;  // no pixel is lit in full
 // in full is wasted. Half as many points across come to pay before low thresholds at a quarter do.
 // Point lights reach the backs of everything: they need as many negative lights as others.
 const Front fronts[] = {
-    // spot: cornell, box with the bunny
+    // spot: cornell, box with the bunny, corridor
     {0.2, {{4, none, 16}, {4, 0.2f, 700}, {2, 0.05f, 3000}, {2, 0.02f, 10000}, {1, 0.0f, 30000}}},
-    // directional: sponza, gallery
+    // directional: sponza
     {0.2, {{4, none, 16}, {4, 0.2f, 700}, {2, 0.05f, 3000}, {2, 0.02f, 10000}, {1, 0.0f, 30000}}},
     // point: cornell, box with the bunny, house
     {1.0,
@@ -30,7 +30,7 @@ const Front fronts[] = {
       {2, 0.05f, 1000},
       {2, 0.02f, 4000},
       {1, 0.0f, 30000}}},
-    // area: cornell
+    // area: cornell, gallery
     {0.33, {{4, none, 16}, {4, 0.2f, 600}, {2, 0.05f, 8000}, {1, 0.0f, 30000}}},
 };
 
