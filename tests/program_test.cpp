@@ -111,6 +111,55 @@ TEST_F(Program, WrongUseEndsWithOne) {
     }
 }
 
+// Times are the machine's own affair: only that they are told, and that more buys more.
+TEST_F(Program, ATimeBudgetIsAnsweredWithSettings) {
+    const std::string scene = make("cornell --light spot");
+    const auto ask = [&](const std::string& budget) {
+        const Outcome outcome =
+            run("render " + scene + " --png " + file("p.png").string() +
+                " --size 64x48 --time-budget " + budget + " --stats " + file("s.json").string());
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find("promised"), std::string::npos) << outcome.out;
+        return nlohmann::json::parse(read("s.json")).at("ask");
+    };
+    const auto little = ask("15ms"), much = ask("0.12s");
+    EXPECT_EQ(little.at("asked").at("time_budget_ms"), 15.0);
+    EXPECT_EQ(much.at("asked").at("time_budget_ms"), 120.0);
+    for (const auto& answer : {little, much}) {
+        EXPECT_GT(answer.at("promised_ms"), 0.0);
+        EXPECT_GT(answer.at("delivered_ms"), 0.0);
+        EXPECT_GT(answer.at("probe_ms"), 0.0);
+    }
+    EXPECT_LT(little.at("settings").at("vpls"), much.at("settings").at("vpls"));
+}
+
+TEST_F(Program, ATargetOutOfReachIsAWarning) {
+    const std::string scene = make("cornell --light spot");
+    const Outcome outcome =
+        run("render " + scene + " --png " + file("p.png").string() +
+            " --size 32x24 --target-error 1% --time-budget 1ms --stats " + file("s.json").string());
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("not reached within the time budget"), std::string::npos)
+        << outcome.err;
+    const auto ask = nlohmann::json::parse(read("s.json")).at("ask");
+    EXPECT_EQ(ask.at("target_met"), false);
+    EXPECT_TRUE(ask.at("promised_error").is_null());
+    EXPECT_GT(ask.at("estimated_error"), 0.01);
+}
+
+TEST_F(Program, AResultIsAskedForInsteadOfSettings) {
+    const std::string scene = make("box");
+    const std::string render = "render " + scene + " --png " + file("p.png").string() + " ";
+    for (const char* wrong :
+         {"--target-error 0", "--target-error=-2%", "--target-error good", "--time-budget 0ms",
+          "--time-budget=-3ms", "--time-budget soon", "--time-budget 33",
+          "--target-error 2% --vpls 100", "--time-budget 33ms --negative-vpls 10",
+          "--time-budget 33ms --low-res off", "--target-error 2% --low-res-step 2",
+          "--target-error 2% --method direct"})
+        expect_one_error_line(run(render + wrong), 1);
+    EXPECT_FALSE(fs::exists(file("p.png")));
+}
+
 TEST_F(Program, BadInputEndsWithTwoAndLeavesNoFile) {
     std::ofstream(file("broken.gltf")) << "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{}]}";
     const std::string out = " --quiet -o " + file("x.exr").string();

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 
+#include "cli/ask.hpp"
 #include "cli/commands.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
@@ -22,6 +23,7 @@ namespace {
 struct RenderFlags {
     DeviceFlags device;
     PictureFlags picture;
+    AskFlags ask;
     std::string scene;
     int scene_index = -1;
     int camera = 0;
@@ -93,6 +95,12 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderS
 void run_render(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     parse_low_res(flags.low_res, flags.options);
+    const report::Wish wish = wish_of("render", flags.ask);
+    const bool asked = wish.budget_ms || wish.target_error;
+    if (asked && flags.method == "direct")
+        throw Error(
+            "render: --method direct has no settings to find, neither for --target-error "
+            "nor for --time-budget");
     flags.options.direct = !flags.no_direct;
     flags.options.indirect = flags.method != "direct";
     flags.options.build.math = math_of(flags.device);
@@ -116,6 +124,15 @@ void run_render(RenderFlags flags) {
     const auto bar = progress_bar("render", flags.device.quiet);
     // The first frame also compiles what the driver left for later: it warms up and is not timed.
     if (!solver.run(camera, [&](double done) { return bar(done); })) throw Interrupted();
+    if (asked) {
+        try {
+            record.ask = AskRecord{wish, report::ask(session.queue, device_scene, solver, camera,
+                                                     wish, [] { return !interrupted(); })};
+        } catch (const report::Cancelled&) {
+            throw Interrupted();
+        }
+        if (!solver.run(camera, nullptr)) throw Interrupted();
+    }
     const Bounds box = bounds(scene);
     const glm::dvec3 centre = 0.5 * (box.low + box.high);
     for (int frame = 0; frame < flags.frames; ++frame) {
@@ -140,15 +157,20 @@ void run_render(RenderFlags flags) {
     if (record.status.non_finite > 0)
         notice(false, fmt::format("warning: {} packets of pixels were not finite and were mended",
                                   record.status.non_finite));
+    const report::Spread times = report::spread(record.frame_ms);
+    if (record.ask) {
+        const std::string warning = ask_warning(*record.ask);
+        if (!warning.empty()) notice(false, warning);
+    }
     if (!flags.device.quiet) {
-        const report::Spread times = report::spread(record.frame_ms);
         const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
         fmt::print(
             "{}{}{}: {:.1f} ms a frame ({} frames, {} indirect and {} negative lights, {} "
             "triangles)\n",
             flags.picture.exr, both ? ", " : "", flags.picture.png, times.median,
             record.frame_ms.size(), solver.sources().light_count,
-            flags.options.indirect ? flags.options.negative_lights : 0, scene.triangles.size());
+            flags.options.indirect ? solver.options().negative_lights : 0, scene.triangles.size());
+        if (record.ask) fmt::print("{}\n", ask_line(*record.ask, times.median));
         if (record.replicates)
             fmt::print(
                 "mean of {} replicates: standard error {:.3g} % of the mean, of one alone "
@@ -204,6 +226,7 @@ void add_render(CLI::App& app) {
         ->add_option("--area-samples", options.sources.area_samples,
                      "Points that stand for all emissive surfaces")
         ->check(CLI::Range(0, 4096));
+    add_ask_flags(*command, flags->ask);
     command->add_flag("--no-direct", flags->no_direct, "Leave direct light out of the picture");
     command->add_option("--frames", flags->frames, "Frames to render and time; the last is kept")
         ->check(CLI::Range(1, 1000000));

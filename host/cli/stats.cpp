@@ -62,6 +62,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         out["replicates"] = {{"count", record.replicates->count},
                              {"error", record.replicates->error},
                              {"single_error", record.replicates->single_error}};
+    if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
     io::AtomicFile file(path);
     const std::string text = out.dump(2) + '\n';
     file.write(text.data(), text.size());

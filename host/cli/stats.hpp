@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/ask.hpp"
 #include "report/replicates.hpp"
 #include "report/timing.hpp"
 
@@ -26,6 +27,7 @@ struct RenderRecord {
     double build_ms = 0.0;                              // kernels and buffers
     FrameStatus status;
     std::optional<report::Replicates> replicates;
+    std::optional<AskRecord> ask;  // where a result was asked for
     std::vector<std::string> warnings;
 };
 
