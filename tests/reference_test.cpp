@@ -322,6 +322,39 @@ TEST(Reference, SeesWhatACameraSees) {
     EXPECT_EQ(PathTracer(scene).render(above, options).radiance[5].x, 1.0f);
 }
 
+TEST(Reference, ShinesNotOutOfHoles) {
+    Scene scene = test::plain_scene();
+    const std::uint32_t glowing = add_glowing(scene, 1.0f);
+    test::add_quad(scene, {glm::dvec3(0, 0, 1), {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, glowing);
+    scene.materials[glowing].alpha_mode = AlphaMode::mask;
+    scene.materials[glowing].base_color.w = 0.1f;
+    const auto found =
+        PathTracer(scene).irradiance({{{0, 0, 0}, {0, 0, 1}}}, options_for("direct", 64));
+    EXPECT_EQ(found.values[0].x, 0.0f);
+}
+
+// Colours of corners end with the triangle, however far beside it a pixel reaches on its plane.
+TEST(Reference, KeepsVertexColoursBetweenThoseOfTheCorners) {
+    Scene scene = test::plain_scene(glm::vec3(1.0f));
+    test::add_floor(scene, 1e4);
+    scene.colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0.2, 0.3, 1, 1}, {0, 0, 0, 1}};
+    scene.lights = {test::directional_light({0, -1, 0}, static_cast<float>(pi))};
+    reference::Options options = options_for("direct", 8);
+    options.width = 40;
+    options.height = 30;
+    const Picture picture =
+        PathTracer(scene).render(test::camera_at({0, 1, 0}, {0.3, 1, 1}, 0.5f), options);
+    float most = 0.0f;
+    for (const glm::vec3& radiance : picture.radiance)
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GE(radiance[c], 0.0f);
+            EXPECT_LE(radiance[c], 1.0f + 1e-5f);
+            most = std::max(most, radiance[c]);
+        }
+    EXPECT_GT(most, 0.1f);
+    EXPECT_EQ(picture.non_finite, 0u);
+}
+
 TEST(Reference, ShadowsByBacksButNotThroughHoles) {
     for (const bool hole : {false, true}) {
         Scene scene = test::plain_scene();
@@ -339,9 +372,13 @@ TEST(Reference, ShadowsByBacksButNotThroughHoles) {
 }
 
 TEST(Reference, RefusesWhatItDoesNotKnow) {
-    for (const char* list : {"indirekt", "direct,", "bounces=0", "bounces=", "bounces=2x",
-                             "indirect,one-bounce", "one-bounce,unshadowed-indirect", "all,direct"})
+    for (const char* list : {"indirekt", "direct,", "all,direct", "bounces=0", "bounces=",
+                             "bounces=2x", "indirect,one-bounce", "one-bounce,unshadowed-indirect"})
         EXPECT_THROW(parse_effects(list), Error) << list;
+    // What is left out alone leaves the rest in.
+    EXPECT_TRUE(parse_effects("diffuse").direct);
+    EXPECT_FALSE(parse_effects("diffuse").direct_gloss);
+    EXPECT_EQ(parse_effects("diffuse-indirect").last_bounce, reference::Effects::unlimited);
     const PathTracer tracer(cornell());
     for (auto change : std::vector<void (*)(reference::Options&)>{
              [](auto& o) { o.width = 0; }, [](auto& o) { o.samples = 0; },

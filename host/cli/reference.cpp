@@ -43,10 +43,12 @@ void save_stats(const reference::Picture& picture, const Scene& scene,
         {"non_finite", picture.non_finite},
         {"seed", flags.options.seed},
         {"converged",
-         flags.options.target == 0.0 || picture.relative_error <= flags.options.target},
+         flags.options.target == 0.0 || (picture.samples >= reference::Options::least_samples &&
+                                         picture.relative_error <= flags.options.target)},
         {"warnings", scene.warnings}};
     io::AtomicFile file(flags.stats);
-    const std::string text = json.dump(2) + '\n';
+    const std::string text =
+        json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
     file.write(text.data(), text.size());
     file.commit();
 }

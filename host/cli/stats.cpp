@@ -64,7 +64,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                              {"single_error", record.replicates->single_error}};
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
     io::AtomicFile file(path);
-    const std::string text = out.dump(2) + '\n';
+    const std::string text = out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
     file.write(text.data(), text.size());
     file.commit();
 }

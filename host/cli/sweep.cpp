@@ -112,6 +112,11 @@ void add_sweep(CLI::App& app) {
             flags->method == "all" ? "" : " --method " + flags->method,
             (flags->quick ? " --quick" : "") +
                 (flags->size.empty() ? std::string() : " --size " + flags->size) +
+                (flags->samples > 0 ? fmt::format(" --spp {}", flags->samples) : "") +
+                (flags->rounds > 0 ? fmt::format(" --rounds {}", flags->rounds) : "") +
+                (flags->scene_index >= 0 ? fmt::format(" --scene {}", flags->scene_index) : "") +
+                (flags->camera > 0 ? fmt::format(" --camera {}", flags->camera) : "") +
+                (flags->device.device.empty() ? "" : " --device " + flags->device.device) +
                 (flags->device.math == "strict" ? "" : " --math " + flags->device.math));
         run_sweep(*flags);
     });

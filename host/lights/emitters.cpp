@@ -141,7 +141,12 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
     const SceneFrame& frame = scene.frame();
     const double share = total / options.area_samples;
     for (int k = 0; k < options.area_samples; ++k) {
-        const double target = (k + 0.5) * share;
+        // Every replicate moves the points within their strata.
+        const double within =
+            options.replicate == 0
+                ? 0.5
+                : double{replicate_shift(options.replicate, ShiftUse::stratum, 0)};
+        const double target = (k + within) * share;
         const std::size_t pick = static_cast<std::size_t>(
             std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
         const EmissiveTriangle& t = triangles[std::min(pick, triangles.size() - 1)];

@@ -11,6 +11,8 @@ CameraRays::CameraRays(const Camera& camera, const Geometry& geometry, int width
       near_(static_cast<float>(double{camera.near} * geometry.scale)),
       width_(static_cast<float>(width)),
       height_(static_cast<float>(height)) {
+    // Not given: a thousandth of the scene's radius, which is 1 here.
+    if (camera.kind == Camera::Kind::perspective && !(near_ > 0.0f)) near_ = 1e-3f;
     half_height_ = camera.kind == Camera::Kind::perspective
                        ? std::tan(0.5f * camera.vertical_fov)
                        : static_cast<float>(double{camera.half_height} * geometry.scale);

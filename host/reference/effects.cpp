@@ -28,7 +28,7 @@ Effects parse_effects(const std::string& list) {
     Effects out;
     out.emission = out.direct = false;
     out.last_bounce = 0;
-    bool indirect = false;
+    bool indirect = false, any = false;
     const auto bounces = [&](int first, int last) {
         if (indirect) refuse(list, "one kind of indirect light at most");
         indirect = true;
@@ -38,6 +38,7 @@ Effects parse_effects(const std::string& list) {
     if (list.back() == ',') refuse(list, "a word is missing at the end");
     std::istringstream words(list);
     for (std::string word; std::getline(words, word, ',');) {
+        any = any || word.rfind("diffuse", 0) != 0;
         if (word == "emission") {
             out.emission = true;
         } else if (word == "direct") {
@@ -58,9 +59,15 @@ Effects parse_effects(const std::string& list) {
             out.indirect_gloss = false;
         } else {
             refuse(list, "'" + word +
-                             "' is none of all, emission, direct, indirect, one-bounce, bounces=K, "
+                             "' is none of emission, direct, indirect, one-bounce, bounces=K, "
                              "unshadowed-indirect, diffuse, diffuse-indirect");
         }
+    }
+    if (!any) {  // only what is left out was said
+        Effects all;
+        all.direct_gloss = out.direct_gloss;
+        all.indirect_gloss = out.indirect_gloss;
+        return all;
     }
     return out;
 }

@@ -31,6 +31,7 @@ double cone_share(const Light& light, double cosine) {
 
 Lights::Lights(const Scene& scene, const Geometry& geometry)
     : geometry_(geometry), lamps_(scene.lights), share_(geometry.triangles.size(), 0.0f) {
+    for (Light& lamp : lamps_) lamp.direction = glm::normalize(lamp.direction);
     for (const Light& lamp : lamps_) lamp_positions_.push_back(geometry.to_local(lamp.position));
     double total = 0.0;
     for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
@@ -50,7 +51,7 @@ std::optional<Arrival> Lights::from_lamp(std::size_t index, const glm::vec3& poi
     Arrival out;
     if (lamp.kind == Light::Kind::directional) {
         out.direction = -lamp.direction;
-        out.from = point + 4.0f * out.direction;  // beyond the scene, which has radius 1
+        out.from = point + (2.0f + glm::length(point)) * out.direction;  // the scene has radius 1
         out.irradiance = lamp.intensity;
         return out;
     }
@@ -76,6 +77,7 @@ std::optional<Arrival> Lights::from_surface(const glm::vec3& point, Random& rand
     const float root = std::sqrt(random());
     const float along = random();
     const Hit hit{areas_[place], root * (1.0f - along), root * along};
+    if (!opaque(geometry_, hit)) return std::nullopt;
     const SceneTriangle& triangle = geometry_.triangles[hit.triangle];
     Arrival out;
     out.from = geometry_.positions[triangle.vertex[0]] * (1.0f - root) +

@@ -24,9 +24,10 @@ glm::vec4 textured(const Geometry& geometry, const TextureSlot& slot, const Hit&
                  glm::vec2(slot.transform * glm::vec3(uv, 1.0f)));
 }
 
-glm::vec4 base(const Geometry& geometry, const Hit& hit) {
+// Textures go on beside the triangle, vertex colours end with it.
+glm::vec4 base(const Geometry& geometry, const Hit& hit, const Hit& texture_at) {
     const Material& material = geometry.materials[geometry.triangles[hit.triangle].material];
-    glm::vec4 color = material.base_color * textured(geometry, material.base_texture, hit);
+    glm::vec4 color = material.base_color * textured(geometry, material.base_texture, texture_at);
     if (!geometry.colors.empty()) color *= between(geometry.colors, geometry, hit);
     return color;
 }
@@ -45,7 +46,8 @@ Gloss gloss(float metallic, float roughness) {
 
 bool opaque(const Geometry& geometry, const Hit& hit) {
     const Material& material = geometry.materials[geometry.triangles[hit.triangle].material];
-    return material.alpha_mode != AlphaMode::mask || base(geometry, hit).w >= material.alpha_cutoff;
+    return material.alpha_mode != AlphaMode::mask ||
+           base(geometry, hit, hit).w >= material.alpha_cutoff;
 }
 
 glm::vec3 geometric_normal(const Geometry& geometry, std::uint32_t index) {
@@ -59,7 +61,7 @@ glm::vec3 geometric_normal(const Geometry& geometry, std::uint32_t index) {
 }
 
 Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::vec3& direction,
-                   const Hit& color_at) {
+                   const Hit& texture_at) {
     const Material& material = geometry.materials[geometry.triangles[hit.triangle].material];
     Surface out{};
     out.position = between(geometry.positions, geometry, hit);
@@ -75,13 +77,13 @@ Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::vec3& di
     out.reflects = front || material.double_sided;
     if (!out.reflects) return out;
     const Gloss shares = gloss(material.metallic, material.roughness);
-    const glm::vec3 color = glm::vec3(base(geometry, color_at));
+    const glm::vec3 color = glm::vec3(base(geometry, hit, texture_at));
     out.albedo = color * shares.diffuse;
     out.lobe = color * shares.lobe + shares.coat;
     out.exponent = shares.exponent;
     out.emission = material.emission;
     if (luminance(out.emission) > 0.0f)
-        out.emission *= glm::vec3(textured(geometry, material.emission_texture, color_at));
+        out.emission *= glm::vec3(textured(geometry, material.emission_texture, texture_at));
     return out;
 }
 

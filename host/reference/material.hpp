@@ -25,9 +25,10 @@ struct Surface {
     bool reflects;       // the side that is seen is one that sends light
 };
 
-// direction: of the ray that met it, unit. color_at: where textures and vertex colours are read.
+// direction: of the ray that met it, unit. texture_at: where textures are
+// read, a point of the triangle's plane.
 Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::vec3& direction,
-                   const Hit& color_at);
+                   const Hit& texture_at);
 inline Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::vec3& direction) {
     return surface_at(geometry, hit, direction, hit);
 }

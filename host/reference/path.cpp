@@ -13,7 +13,8 @@ float greatest(const glm::vec3& c) { return std::max(c.x, std::max(c.y, c.z)); }
 
 // Share of the first of two ways to draw a direction. [Veach95, the power heuristic]
 float power_heuristic(float density, float other) {
-    return density * density / (density * density + other * other);
+    const float ratio = other / density;  // squares could overflow
+    return 1.0f / (1.0f + ratio * ratio);
 }
 
 bool above(const Surface& surface, const glm::vec3& direction) {

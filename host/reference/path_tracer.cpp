@@ -40,7 +40,12 @@ struct Tally {
         luminance += light;
         square += light * light;
     }
-    double standard_error(int samples) const {
+    glm::dvec3 mean(int taken) const { return sum / std::max(taken - double(non_finite), 1.0); }
+    double mean_luminance(int taken) const {
+        return luminance / std::max(taken - double(non_finite), 1.0);
+    }
+    double standard_error(int taken) const {
+        const double samples = taken - double(non_finite);
         if (samples < 2) return 0.0;
         const double mean = luminance / samples;
         return std::sqrt(std::max(square / samples - mean * mean, 0.0) / (samples - 1));
@@ -53,8 +58,6 @@ void check(const Options& options) {
             throw Error(std::string("reference: ") + name + " is " + std::to_string(value) + ", " +
                         std::to_string(low) + " to " + std::to_string(high) + " needed");
     };
-    in("width", options.width, 1, 16384);
-    in("height", options.height, 1, 16384);
     in("samples", options.samples, 1, 1 << 24);
     in("target", options.target, 0, 1e9);
     in("threads", options.threads, 0, 4096);
@@ -67,7 +70,7 @@ void check(const Options& options) {
 double relative_error(const std::vector<Tally>& tallies, int samples) {
     double mean = 0.0, square = 0.0;
     for (const Tally& tally : tallies) {
-        mean += tally.luminance / samples;
+        mean += tally.mean_luminance(samples);
         const double error = tally.standard_error(samples);
         square += error * error;
     }
@@ -84,7 +87,6 @@ int accumulate(const Options& options, std::vector<Tally>& tallies, const Progre
     if (options.threads > 0)
         limit.emplace(tbb::global_control::max_allowed_parallelism,
                       static_cast<std::size_t>(options.threads));
-    constexpr int least = 16;  // before an estimate of the error is believed
     int taken = 0;
     while (taken < options.samples) {
         const int pass = std::min({std::max(taken, 1), 4, options.samples - taken});
@@ -102,7 +104,7 @@ int accumulate(const Options& options, std::vector<Tally>& tallies, const Progre
             cancelled = true;
             break;
         }
-        if (options.target > 0.0 && taken >= least &&
+        if (options.target > 0.0 && taken >= Options::least_samples &&
             relative_error(tallies, taken) <= options.target)
             break;
     }
@@ -121,6 +123,9 @@ PathTracer::~PathTracer() = default;
 Picture PathTracer::render(const Camera& camera, const Options& options,
                            const Progress& progress) const {
     check(options);
+    if (options.width < 1 || options.width > 16384 || options.height < 1 || options.height > 16384)
+        throw Error("reference: the picture is " + std::to_string(options.width) + "x" +
+                    std::to_string(options.height) + ", 1x1 to 16384x16384 needed");
     const auto start = std::chrono::steady_clock::now();
     const Geometry& geometry = world_->geometry;
     const Paths paths(geometry, world_->tracer, world_->lights, options.effects,
@@ -139,14 +144,15 @@ Picture PathTracer::render(const Camera& camera, const Options& options,
             const Ray ray = rays.through(x + 0.5f, y + 0.5f);
             const std::optional<Hit> hit = world_->tracer.first(ray, true);
             if (!hit) return glm::vec3(0.0f);
-            const Ray beside = rays.through(x + random(), y + random());
+            const float right = random(), down = random();
+            const Ray beside = rays.through(x + right, y + down);
             const glm::vec3 direction = glm::normalize(ray.direction);
             const Surface seen =
                 surface_at(geometry, *hit, direction, on_plane(geometry, hit->triangle, beside));
             return paths.sample(seen, direction, random);
         });
     for (const Tally& tally : tallies) {
-        out.radiance.emplace_back(tally.sum / static_cast<double>(out.samples));
+        out.radiance.emplace_back(tally.mean(out.samples));
         out.error.push_back(static_cast<float>(tally.standard_error(out.samples)));
         out.non_finite += tally.non_finite;
     }
@@ -173,8 +179,9 @@ Irradiance PathTracer::irradiance(const std::vector<Place>& places, const Option
             return paths.sample(surface, -surface.normal, random);
         });
     for (const Tally& tally : tallies) {
-        out.values.emplace_back(tally.sum / static_cast<double>(out.samples));
+        out.values.emplace_back(tally.mean(out.samples));
         out.error.push_back(static_cast<float>(tally.standard_error(out.samples)));
+        out.non_finite += tally.non_finite;
     }
     return out;
 }

@@ -8,7 +8,7 @@ namespace clgi::report {
 namespace {
 
 std::uint8_t encoded(float linear) {
-    const float v = std::clamp(linear, 0.0f, 1.0f);
+    const float v = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // not a number is black
     const float s = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
     return static_cast<std::uint8_t>(s * 255.0f + 0.5f);
 }

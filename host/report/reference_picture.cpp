@@ -41,7 +41,9 @@ void add_slot(Hash& hash, const TextureSlot& slot) {
 
 std::string picture_key(const std::string& scene, const Camera& camera,
                         const reference::Options& options) {
+    constexpr int tracer_version = 2;  // goes up whenever the path tracer's pictures change
     Hash hash;
+    hash.add(tracer_version);
     for (const char c : scene) hash.add(c);
     hash.add(camera.kind);
     hash.add(camera.position);

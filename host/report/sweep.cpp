@@ -102,7 +102,10 @@ private:
             options.seed = 77;  // not the truth's
             for (int samples = 1; samples <= most; samples *= setup_.quick ? 4 : 2) {
                 options.samples = samples;
-                const reference::Picture picture = tracer.render(camera_, options);
+                const reference::Picture picture = tracer.render(camera_, options, [&](double) {
+                    return !setup_.progress || setup_.progress(from_ + span_ * done / 18.0);
+                });
+                if (picture.cancelled) throw Error("sweep: cancelled");
                 SweepPoint point;
                 point.method = "path tracer";
                 point.series = truth_names[t];

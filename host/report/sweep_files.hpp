@@ -19,8 +19,9 @@ std::string sweep_csv(const Sweep& sweep);
 // sweep.json: the same, with device, scene and summary.
 std::string sweep_json(const Sweep& sweep, const SweepNote& note);
 // Error over time in log-log against one truth, a curve a method, the front marked. Empty, with
-// the reason in `why`, when gnuplot is not there.
-std::string error_plot(const Sweep& sweep, int truth, std::string& why);
+// the reason in `why`, when gnuplot is not there. folder: where it may work.
+std::string error_plot(const Sweep& sweep, int truth, const std::filesystem::path& folder,
+                       std::string& why);
 // One self-contained page with plots, fronts, pictures and differences.
 std::string sweep_page(const Sweep& sweep, const SweepNote& note,
                        const std::string (&plots)[truths]);

@@ -153,14 +153,14 @@ std::string save_sweep(const Sweep& sweep, const SweepNote& note,
         file.write(text.data(), text.size());
         file.commit();
     };
+    save("sweep.csv", sweep_csv(sweep));
+    save("sweep.json", sweep_json(sweep, note));
     std::string why;
     std::string plots[truths];
     for (int t = 0; t < truths; ++t) {
-        plots[t] = error_plot(sweep, t, why);
+        plots[t] = error_plot(sweep, t, folder, why);
         if (!plots[t].empty()) save(fmt::format("error-{}.svg", truth_names[t]), plots[t]);
     }
-    save("sweep.csv", sweep_csv(sweep));
-    save("sweep.json", sweep_json(sweep, note));
     save("index.html", sweep_page(sweep, note, plots));
     return why;
 }

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
+#include <filesystem>
 #include <fstream>
-#include <random>
 #include <sstream>
 #include <vector>
 
@@ -26,6 +25,13 @@ std::string block(const std::string& name, std::vector<const SweepPoint*> points
     return out + "EOD\n";
 }
 
+// As gnuplot wants a name: in single quotes, those inside doubled.
+std::string quoted(const std::string& name) {
+    std::string out = "'";
+    for (const char c : name) out += c == '\'' ? "''" : std::string(1, c);
+    return out + "'";
+}
+
 std::string script(const Sweep& sweep, int truth, const std::string& file) {
     std::vector<const SweepPoint*> all, front, traced;
     for (const SweepPoint& point : sweep.points) {
@@ -40,41 +46,52 @@ std::string script(const Sweep& sweep, int truth, const std::string& file) {
         block("all", all, truth) + block("front", front, truth) + block("traced", traced, truth);
     out += fmt::format(
         "set terminal svg size 760,460 font 'sans-serif,13' background '#ffffff'\n"
-        "set output '{}'\n"
+        "set output {}\n"
         "set logscale xy\nset xlabel 'milliseconds a frame'\n"
         "set ylabel 'relative error, %'\nset grid lc rgb '#dddddd'\nset border lc rgb '#666666'\n"
         "set key top right\nset title 'Error against the {} reference' noenhanced\n",
         file, truth_names[truth]);
+    const auto shown = [&](const std::vector<const SweepPoint*>& points) {
+        return std::any_of(points.begin(), points.end(),
+                           [&](const SweepPoint* point) { return point->error[truth] > 0.0; });
+    };
     std::string plots;
     const auto plot = [&](bool there, const std::string& what) {
         if (there) plots += (plots.empty() ? "plot " : ", ") + what;
     };
-    plot(!all.empty(),
+    plot(shown(all),
          "$all with points pt 7 ps 0.45 lc rgb '#9ecae1' title 'second-order, all settings'");
-    plot(!front.empty(),
+    plot(shown(front),
          "$front with linespoints pt 7 ps 0.7 lw 2 lc rgb '#08519c' title 'second-order, front'");
-    plot(!traced.empty(),
+    plot(shown(traced),
          "$traced with linespoints pt 5 ps 0.6 lw 2 lc rgb '#d95f02' title 'path tracer'");
     return out + plots + "\n";
 }
 
 }  // namespace
 
-std::string error_plot(const Sweep& sweep, int truth, std::string& why) {
-    namespace fs = std::filesystem;
-    std::random_device random;
-    const fs::path base =
-        fs::temp_directory_path() / fmt::format("clgi-plot-{:08x}{:08x}", random(), random());
-    const fs::path commands = base.string() + ".gp", picture = base.string() + ".svg";
-    std::ofstream(commands) << script(sweep, truth, picture.string());
-    const int status = std::system(("gnuplot '" + commands.string() + "' 2>/dev/null").c_str());
-    std::ostringstream text;
-    if (status == 0) text << std::ifstream(picture).rdbuf();
+// gnuplot reads its script from a pipe: no name of a user's ever reaches a shell.
+std::string error_plot(const Sweep& sweep, int truth, const std::filesystem::path& folder,
+                       std::string& why) {
+    const std::filesystem::path picture = std::filesystem::absolute(folder / "error-plot.tmp.svg");
+    std::string out;
+    std::FILE* gnuplot = ::popen("gnuplot >/dev/null 2>&1", "w");
+    bool done = gnuplot != nullptr;
+    if (gnuplot) {
+        const std::string text = script(sweep, truth, quoted(picture.string()));
+        done = std::fwrite(text.data(), 1, text.size(), gnuplot) == text.size();
+        const int status = ::pclose(gnuplot);
+        if (status != 0) why = status >> 8 == 127 ? "gnuplot is not there" : "gnuplot failed";
+        done = done && status == 0;
+    }
+    if (done) {
+        std::ostringstream text;
+        text << std::ifstream(picture).rdbuf();
+        out = text.str();
+    }
     std::error_code ignored;
-    fs::remove(commands, ignored);
-    fs::remove(picture, ignored);
-    if (status != 0) why = "gnuplot is needed for plots";
-    return status == 0 ? text.str() : "";
+    std::filesystem::remove(picture, ignored);
+    return out;
 }
 
 }  // namespace clgi::report

@@ -21,7 +21,8 @@ std::vector<const SweepPoint*> points_of(const Sweep& sweep, const std::string& 
 std::vector<Cost> front_of(const Sweep& sweep, const std::string& method, int truth) {
     std::vector<Cost> out;
     for (const SweepPoint& point : sweep.points)
-        if (point.method == method && point.front[truth])
+        // What noise explains alone has no time to compare.
+        if (point.method == method && point.front[truth] && point.error[truth] > 0.0)
             out.push_back({point.milliseconds, point.error[truth]});
     std::sort(out.begin(), out.end(),
               [](const Cost& a, const Cost& b) { return a.milliseconds < b.milliseconds; });

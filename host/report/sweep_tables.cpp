@@ -70,7 +70,7 @@ std::string sweep_json(const Sweep& sweep, const SweepNote& note) {
         }
         out["points"].push_back(row);
     }
-    return out.dump(2) + '\n';
+    return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace clgi::report

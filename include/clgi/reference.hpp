@@ -38,6 +38,8 @@ struct Options {
     int width = 640;  // pixels
     int height = 480;
     Effects effects;
+    // Before this many an estimate of the error is not believed.
+    static constexpr int least_samples = 16;
     int samples = 64;         // per pixel, at most; 1 to 2^24
     double target = 0.0;      // stop when the relative error (below) is this small; 0: never
     std::uint64_t seed = 1;   // same seed, same picture, whatever the number of threads
@@ -67,6 +69,7 @@ struct Irradiance {
     std::vector<glm::vec3> values;  // lux
     std::vector<float> error;       // standard error of luminance
     int samples = 0;
+    std::size_t non_finite = 0;  // samples left out because they were
 };
 
 // Called between passes over the picture with the share done, [0,1]; false cancels.
