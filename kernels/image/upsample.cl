@@ -74,33 +74,37 @@ static void put_flags(const Cell* cell, uint width, intp marked, global uchar* r
     for (uint k = 0; k < count; ++k) row[cell->x + k] = values[k] != 0;
 }
 
-// Inlined with a constant step, so that lanes are spread by fixed shuffles.
-CLGI_INLINE void upsample(const RefineParams* params, uint item, uint step,
-                          global const float* restrict planes, global const float* restrict points,
-                          global const float* restrict low, global float* restrict irradiance,
-                          global uchar* restrict flags) {
-    Cell cell = cell_of_item(params, item, step);
+kernel void image_upsample(
+    const RefineParams   params,
+    global const float*  restrict planes,      // [>= POINT_PLANES][stride]
+    global const float*  restrict points,      // [POINT_PLANES][low_stride]
+    global const float*  restrict low,         // [IRRADIANCE_PLANES][low_stride] irradiance
+    global float*        restrict irradiance,  // [IRRADIANCE_PLANES][stride]
+    global uchar*        restrict flags)       // [width * height] 1: light in full
+{
+    uint step = params.step;
+    Cell cell = cell_of_item(&params, (uint)get_global_id(0), step);
     if (cell.row >= cell.low_height) return;
 
     CellPoint point[4];
-    cell_low_points(&cell, params, step, points, 0, point, point + 1);
-    cell_low_points(&cell, params, step, points, 1, point + 2, point + 3);
+    cell_low_points(&cell, &params, step, points, 0, point, point + 1);
+    cell_low_points(&cell, &params, step, points, 1, point + 2, point + 3);
     CellPair value[IRRADIANCE_PLANES][2];
     #pragma unroll
     for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane)
         for (uint down = 0; down < 2; ++down)
-            value[plane][down] = cell_low(&cell, step, low + plane * params->low_stride, down);
+            value[plane][down] = cell_low(&cell, step, low + plane * params.low_stride, down);
 
     intp phase = ((int)cell.x + packet_lanes) & (int)(step - 1);
     floatp right = packet_float(phase) * (1.0f / (float)step);
-    uint last = min((cell.row + 1) * step, params->height);
+    uint last = min((cell.row + 1) * step, params.height);
     for (uint y = cell.row * step; y < last; ++y) {
-        CellPoint pixel = cell_full_point(&cell, params, planes, y);
+        CellPoint pixel = cell_full_point(&cell, &params, planes, y);
         int first = y == cell.row * step;
-        Blend between = blend(&pixel, point, params->position_scale, right,
+        Blend between = blend(&pixel, point, params.position_scale, right,
                               (float)(y - cell.row * step) * (1.0f / (float)step));
-        put_flags(&cell, params->width, between.difference >= params->threshold,
-                  flags + y * params->width);
+        put_flags(&cell, params.width, between.difference >= params.threshold,
+                  flags + y * params.width);
         #pragma unroll
         for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane) {
             const CellPair* v = value[plane];
@@ -110,23 +114,8 @@ CLGI_INLINE void upsample(const RefineParams* params, uint item, uint step,
                                        between.weight[3] * v[1].right)));
             // A low-resolution point has its own value, to the bit.
             if (first) mixed = packet_select(mixed, v[0].left, phase == 0);
-            put_row(&cell, params->width, mixed,
-                    irradiance + plane * params->stride + y * params->width);
+            put_row(&cell, params.width, mixed,
+                    irradiance + plane * params.stride + y * params.width);
         }
     }
-}
-
-kernel void image_upsample(
-    const RefineParams   params,
-    global const float*  restrict planes,      // [>= POINT_PLANES][stride]
-    global const float*  restrict points,      // [POINT_PLANES][low_stride]
-    global const float*  restrict low,         // [IRRADIANCE_PLANES][low_stride] irradiance
-    global float*        restrict irradiance,  // [IRRADIANCE_PLANES][stride]
-    global uchar*        restrict flags)       // [width * height] 1: light in full
-{
-    uint item = (uint)get_global_id(0);
-    if (params.step == 4)
-        upsample(&params, item, 4, planes, points, low, irradiance, flags);
-    else
-        upsample(&params, item, 2, planes, points, low, irradiance, flags);
 }
