@@ -12,6 +12,7 @@ clgi_packages=(
     libembree-dev libtbb-dev                                                     # clgi::reference
     libcli11-dev libfmt-dev                                                      # the program
     pocl-opencl-icd                                                              # OpenCL on CPUs
+    gnuplot-nox                                                                  # plots of sweeps
     libgtest-dev oclgrind                                                        # tests
 )
 
