@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "frames.hpp"
+#include "math_modes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -23,8 +24,10 @@ Scene lit_floor() {
 
 const Camera above = test::camera_at({0, 2, 0.1}, {0, 0, 0});
 
-Frame render(const Scene& scene, const Camera& camera = above, int lights = 20, int negative = 10) {
+Frame render(const Scene& scene, Math math, const Camera& camera = above, int lights = 20,
+             int negative = 10) {
     SecondOrderOptions options;
+    options.build.math = math;
     options.width = 19;
     options.height = 13;
     options.sources.lights = lights;
@@ -37,8 +40,8 @@ void expect_black(const Frame& frame) {
     EXPECT_EQ(frame.status.non_finite, 0u);
 }
 
-void expect_black_without_work(const Scene& scene) {
-    const Frame frame = render(scene);
+void expect_black_without_work(const Scene& scene, Math math) {
+    const Frame frame = render(scene, math);
     expect_black(frame);
     EXPECT_EQ(frame.launches, 0u);
 }
@@ -49,93 +52,98 @@ void expect_finite(const Frame& frame) {
     EXPECT_EQ(frame.status.non_finite, 0u);
 }
 
-TEST(Nothing, OfAScene) { expect_black_without_work(Scene()); }
+CLGI_IN_BOTH_MATHS(Nothing);
+CLGI_IN_BOTH_MATHS(Hardly);
 
-TEST(Nothing, OfTriangles) {
+TEST_P(Nothing, OfAScene) { expect_black_without_work(Scene(), GetParam()); }
+
+TEST_P(Nothing, OfTriangles) {
     Scene scene = lit_floor();
     scene.triangles.clear();
-    expect_black_without_work(scene);
+    expect_black_without_work(scene, GetParam());
 }
 
-TEST(Nothing, OfLights) {
+TEST_P(Nothing, OfLights) {
     Scene scene = lit_floor();
     scene.lights.clear();
-    expect_black_without_work(scene);
+    expect_black_without_work(scene, GetParam());
 }
 
-TEST(Nothing, OfPower) {
+TEST_P(Nothing, OfPower) {
     Scene scene = lit_floor();
     scene.lights[0].intensity = glm::vec3(0.0f);
-    expect_black_without_work(scene);
+    expect_black_without_work(scene, GetParam());
 }
 
-TEST(Nothing, OfReflectance) {
+TEST_P(Nothing, OfReflectance) {
     Scene scene = lit_floor();
     scene.materials[0].base_color = glm::vec4(0, 0, 0, 1);
-    expect_black(render(scene));
+    expect_black(render(scene, GetParam()));
 }
 
-TEST(Nothing, OfIndirectLights) {
-    const Frame frame = render(lit_floor(), above, 0);
+TEST_P(Nothing, OfIndirectLights) {
+    const Frame frame = render(lit_floor(), GetParam(), above, 0);
     expect_finite(frame);
     EXPECT_TRUE(frame.lights.empty());
     EXPECT_GT(frame.radiance[frame.pixels / 2].x, 0.0f);  // direct light is still there
 }
 
-TEST(Nothing, ThatTheSpotHits) {
+TEST_P(Nothing, ThatTheSpotHits) {
     Scene scene = lit_floor();
     scene.lights[0].direction = {0, 1, 0};
-    expect_black(render(scene));
+    expect_black(render(scene, GetParam()));
 }
 
-TEST(Nothing, ThatTheCameraSees) {
-    expect_black(render(lit_floor(), test::camera_at({0, 2, 0.1}, {0, 4, 0})));
+TEST_P(Nothing, ThatTheCameraSees) {
+    expect_black(render(lit_floor(), GetParam(), test::camera_at({0, 2, 0.1}, {0, 4, 0})));
 }
 
-TEST(Nothing, BetweenCameraAndWall) {
+TEST_P(Nothing, BetweenCameraAndWall) {
     Scene scene = lit_floor();
     test::add_box(scene, {-0.2, 1.8, -0.2}, {0.2, 2.2, 0.2}, 1);  // the camera is inside of it
-    expect_finite(render(scene));
-    expect_finite(render(scene, test::camera_at({0.2, 2, 0}, {0, 0, 0})));  // and in its face
+    expect_finite(render(scene, GetParam()));
+    expect_finite(
+        render(scene, GetParam(), test::camera_at({0.2, 2, 0}, {0, 0, 0})));  // and in its face
 }
 
-TEST(Nothing, BetweenLampAndWall) {
+TEST_P(Nothing, BetweenLampAndWall) {
     Scene scene = lit_floor();
     scene.lights[0].position = {0, 0, 0};  // in the floor
-    expect_finite(render(scene));
+    expect_finite(render(scene, GetParam()));
 }
 
-TEST(Nothing, OfArea) {
+TEST_P(Nothing, OfArea) {
     Scene scene = lit_floor();
     for (glm::dvec3& position : scene.positions) position.x = 0.0;
-    expect_black(render(scene));
+    expect_black(render(scene, GetParam()));
     for (glm::dvec3& position : scene.positions) position = glm::dvec3(1, 2, 3);
-    expect_black(render(scene));
+    expect_black(render(scene, GetParam()));
 }
 
-TEST(Nothing, OfNegativeLightsAndFootprint) {
+TEST_P(Nothing, OfNegativeLightsAndFootprint) {
     SecondOrderOptions options;
     options.width = options.height = 1;
     options.sources.lights = 1;
     options.negative_lights = 0;
     options.footprint = 0.0f;
+    options.build.math = GetParam();
     expect_finite(test::render(lit_floor(), above, options));
 }
 
 // One part in a million of the scene's size between a corner and the next.
-TEST(Hardly, AnyAreaInASliver) {
+TEST_P(Hardly, AnyAreaInASliver) {
     Scene scene = lit_floor();
     for (int i = 0; i < 50; ++i)
         test::add_triangle(scene, {-1, 0.1 + 0.01 * i, 0}, {1, 0.1 + 0.01 * i, 0},
                            {1, 0.1 + 0.01 * i, -1e-6});
-    expect_finite(render(scene));
+    expect_finite(render(scene, GetParam()));
 }
 
-TEST(Hardly, AnyLightAndALot) {
+TEST_P(Hardly, AnyLightAndALot) {
     for (const float power : {1e-38f, 1e-20f, 1e20f, 1e38f}) {
         Scene scene = lit_floor();
         scene.lights[0].intensity = glm::vec3(power);
-        const Frame frame = render(scene);
+        const Frame frame = render(scene, GetParam());
         expect_finite(frame);
     }
 }

@@ -63,13 +63,13 @@ TEST(SecondOrder, KeepsItsIndirectLightsWhenTheCameraMoves) {
     }
 }
 
-TEST(NegativeLights, AreNoneInAnEmptyConvexBox) {
+TEST_P(NegativeLights, AreNoneInAnEmptyConvexBox) {
     Scene room = test::plain_scene();
     test::add_box(room, {-1, -1, -1.5}, {1, 1, 1.5}, -1);
     room.lights = {test::spot_light({0.2, 0.9, 0.3}, {0.1, -1, 0.2}, 40 * degree)};
     const Camera camera = test::camera_at({0, 0, 1.3}, {0.1, -0.1, -1}, 1.2f);
     for (const int step : {1, 2, 4}) {
-        SecondOrderOptions options = options_for(61, 43, 150, 100);
+        SecondOrderOptions options = options_for(61, 43, 150, 100, GetParam());
         options.low_resolution_step = step;
         const Frame with = test::render(room, camera, options);
         options.negative_lights = 0;
@@ -108,7 +108,7 @@ TEST_P(NegativeLights, OnlyTakeAwayAndNeverTooMuch) {
 }
 
 // The angle that the light comes in at, the plane's size: everything in the cone is lit in full.
-TEST(Shadow, DoesNotDarkenAPlaneByItself) {
+TEST_P(Shadow, DoesNotDarkenAPlaneByItself) {
     for (const double metres : {1e-3, 1.0, 1e3})
         for (const double slant : {0.0, 30.0, 60.0, 75.0, 85.0, 88.0, 89.0}) {
             if (metres != 1.0 && slant != 60.0 && slant != 89.0) continue;  // size changes little
@@ -122,7 +122,7 @@ TEST(Shadow, DoesNotDarkenAPlaneByItself) {
             Camera camera = test::camera_at({0, metres, 0}, {0, 0, 0});
             camera.kind = Camera::Kind::orthographic;
             camera.half_height = static_cast<float>(0.3 * metres);
-            SecondOrderOptions options = options_for(48, 48, 0, 0);
+            SecondOrderOptions options = options_for(48, 48, 0, 0, GetParam());
             const Frame frame = test::render(world, camera, options);
             std::size_t dark = 0, lit = 0;
             for (std::size_t p = 0; p < frame.pixels; ++p) {
