@@ -12,10 +12,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/session.hpp"
-
-#ifndef CLGI_VERSION
-#define CLGI_VERSION "unversioned"
-#endif
+#include "cli/version.hpp"
 
 namespace {
 

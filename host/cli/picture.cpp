@@ -20,16 +20,21 @@ void add_picture_flags(CLI::App& command, PictureFlags& flags) {
     command.add_option("--size", flags.size, "WIDTHxHEIGHT");
 }
 
+void parse_size(const std::string& command, const std::string& text, int most, int& width,
+                int& height) {
+    if (text.empty()) return;
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
+        used != static_cast<int>(text.size()) || width < 1 || height < 1 || width > most ||
+        height > most)
+        throw Error(fmt::format("{}: --size is '{}', WIDTHxHEIGHT from 1x1 to {}x{} needed",
+                                command, text, most, most));
+}
+
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height) {
     if (flags.exr.empty() && flags.png.empty())
         throw Error(command + ": nothing to write, -o FILE.exr or --png FILE.png needed");
-    if (flags.size.empty()) return;
-    int used = 0;
-    if (std::sscanf(flags.size.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
-        used != static_cast<int>(flags.size.size()) || width < 1 || height < 1 || width > 16384 ||
-        height > 16384)
-        throw Error(fmt::format("{}: --size is '{}', WIDTHxHEIGHT from 1x1 to 16384x16384 needed",
-                                command, flags.size));
+    parse_size(command, flags.size, 16384, width, height);
 }
 
 void save_picture(const io::Image& picture, const PictureFlags& flags) {

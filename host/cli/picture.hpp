@@ -18,6 +18,11 @@ struct PictureFlags {
 };
 void add_picture_flags(CLI::App& command, PictureFlags& flags);
 
+// "640x480", each side from 1 to `most`; empty: both stay as they are. Throws Error, begun with the
+// command's name.
+void parse_size(const std::string& command, const std::string& text, int most, int& width,
+                int& height);
+
 // Throws Error, begun with the command's name, when nothing is to be written or the size is wrong.
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height);
 

@@ -12,6 +12,7 @@
 #include "cli/percent.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
+#include "cli/version.hpp"
 #include "io/atomic_file.hpp"
 #include "report/reference_picture.hpp"
 

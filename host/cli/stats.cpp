@@ -5,11 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/version.hpp"
 #include "io/atomic_file.hpp"
-
-#ifndef CLGI_VERSION
-#define CLGI_VERSION "unversioned"
-#endif
 
 namespace clgi::cli {
 namespace {

@@ -8,13 +8,11 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/picture.hpp"
 #include "cli/session.hpp"
+#include "cli/version.hpp"
 #include "report/sweep_files.hpp"
 #include "report/sweep_summary.hpp"
-
-#ifndef CLGI_VERSION
-#define CLGI_VERSION "unversioned"
-#endif
 
 namespace clgi::cli {
 namespace {
@@ -36,13 +34,7 @@ struct SweepFlags {
 void size_of(const SweepFlags& flags, report::SweepSetup& setup) {
     setup.width = flags.quick ? 160 : 320;
     setup.height = flags.quick ? 120 : 240;
-    if (flags.size.empty()) return;
-    int used = 0;
-    if (std::sscanf(flags.size.c_str(), "%dx%d%n", &setup.width, &setup.height, &used) != 2 ||
-        used != static_cast<int>(flags.size.size()) || setup.width < 1 || setup.height < 1 ||
-        setup.width > 4096 || setup.height > 4096)
-        throw Error(fmt::format("sweep: --size is '{}', WIDTHxHEIGHT from 1x1 to 4096x4096 needed",
-                                flags.size));
+    parse_size("sweep", flags.size, 4096, setup.width, setup.height);
 }
 
 void run_sweep(const SweepFlags& flags) {

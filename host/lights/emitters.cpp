@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lights/replicate.hpp"
+#include "scene/luminance.hpp"
 
 namespace clgi {
 namespace {
@@ -18,10 +19,6 @@ constexpr float widest_single_view = 1.0472f;              // 60 degrees
 constexpr double most_candidates = 4194304.0;              // 2^22: a millisecond or two
 constexpr std::size_t most_pixels = std::size_t{1} << 30;  // kernels count view pixels in ints
 constexpr double pi = glm::pi<double>();
-
-float luminance(const glm::vec3& rgb) {
-    return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 // Any unit vector across n.
 glm::vec3 across(const glm::vec3& n) {

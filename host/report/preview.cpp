@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/luminance.hpp"
+
 namespace clgi::report {
 namespace {
 
@@ -31,17 +33,12 @@ io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolve
 }
 
 float preview_exposure(const io::Image& picture) {
-    const auto &r = picture.find("R")->values, &g = picture.find("G")->values,
-               &b = picture.find("B")->values;
-    std::vector<float> luminance;
-    for (std::size_t i = 0; i < r.size(); ++i) {
-        const float y = 0.2126f * r[i] + 0.7152f * g[i] + 0.0722f * b[i];
-        if (y > 0.0f) luminance.push_back(y);
-    }
+    std::vector<double> luminance = luminance_of(picture);
+    std::erase_if(luminance, [](double y) { return !(y > 0.0); });
     if (luminance.empty()) return 1.0f;
     const auto white = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() * 97 / 100);
     std::nth_element(luminance.begin(), white, luminance.end());
-    return 1.0f / *white;
+    return static_cast<float>(1.0 / *white);
 }
 
 std::vector<std::uint8_t> preview(const io::Image& picture, float exposure) {

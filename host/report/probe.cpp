@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report/probe.hpp"
+#include "report/luminance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +21,6 @@ constexpr int converged_area_samples = 64;
 constexpr int nearly_converged_lights = 32768;
 // Between one number of lights and the next that is tried.
 constexpr double lights_step = 1.41421356;
-
-std::vector<double> luminance_of(const io::Image& picture) {
-    constexpr double weights[3] = {0.2126, 0.7152, 0.0722};
-    std::vector<double> out(picture.channels[0].values.size());
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] += weights[c] * double{picture.channels[c].values[i]};
-    return out;
-}
 
 double mean(const std::vector<double>& values) {
     double sum = 0.0;

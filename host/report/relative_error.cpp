@@ -5,20 +5,20 @@
 #include <cmath>
 
 #include "report/rgb_planes.hpp"
+#include "scene/luminance.hpp"
 
 namespace clgi::report {
 
 double relative_error(const io::Image& a, const io::Image& b) {
     const auto [planes, truth] = rgb_planes(a, b);
     const io::Image::Channel* noise = b.find("error.Y");
-    constexpr double weights[3] = {0.2126, 0.7152, 0.0722};
     const std::size_t pixels = truth[0]->size();
     double square = 0.0, mean = 0.0;
     for (std::size_t i = 0; i < pixels; ++i) {
         double difference = 0.0;
         for (std::size_t c = 0; c < 3; ++c) {
-            difference += weights[c] * (double{(*planes[c])[i]} - double{(*truth[c])[i]});
-            mean += weights[c] * double{(*truth[c])[i]};
+            difference += luminance_weights[c] * (double{(*planes[c])[i]} - double{(*truth[c])[i]});
+            mean += luminance_weights[c] * double{(*truth[c])[i]};
         }
         square += difference * difference;
         if (noise) square -= double{noise->values[i]} * double{noise->values[i]};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/preview.hpp"
+#include "scene/luminance.hpp"
 
 namespace clgi::report {
 
@@ -25,11 +26,10 @@ Replicates replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver, c
             plane->resize(pixels);
         for (std::size_t i = 0; i < pixels; ++i) {
             double y = 0.0;
-            constexpr double weights[3] = {0.2126, 0.7152, 0.0722};
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto value = double{out.mean.channels[c].values[i]};
                 sums[c][i] += value;
-                y += weights[c] * value;
+                y += luminance_weights[c] * value;
             }
             luminance[i] += y;
             square[i] += y * y;

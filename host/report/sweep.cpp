@@ -5,7 +5,9 @@
 
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
+#include <numeric>
 
+#include "report/luminance.hpp"
 #include "report/pareto.hpp"
 #include "report/preview.hpp"
 #include "report/reference_picture.hpp"
@@ -23,13 +25,8 @@ const char* const truth_effects[truths] = {"all", "emission,direct,one-bounce,di
 namespace {
 
 double mean_luminance(const io::Image& picture) {
-    double sum = 0.0;
-    constexpr double weights[3] = {0.2126, 0.7152, 0.0722};
-    // By name: files keep their channels in an order of their own.
-    for (std::size_t c = 0; c < 3; ++c)
-        for (const float value : picture.find(std::string(1, "RGB"[c]))->values)
-            sum += weights[c] * double{value};
-    return sum / (static_cast<double>(picture.width) * picture.height);
+    const std::vector<double> values = luminance_of(picture);
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 class Run {

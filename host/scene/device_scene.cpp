@@ -8,13 +8,10 @@
 
 #include "scene/locality.hpp"
 #include "scene/texture_pool.hpp"
+#include "scene/luminance.hpp"
 
 namespace clgi {
 namespace {
-
-float luminance(const glm::vec3& rgb) {
-    return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 SceneFrame local_frame(const Scene& scene) {
     SceneFrame frame;
