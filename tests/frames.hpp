@@ -4,6 +4,7 @@
 
 #include <clgi/solvers/second_order.hpp>
 #include <cstring>
+#include <glm/gtc/packing.hpp>
 
 #include "device.hpp"
 
@@ -40,6 +41,23 @@ inline std::vector<glm::vec3> vectors(const cl::CommandQueue& queue, const cl::B
     return out;
 }
 
+// Three planes of irradiance as they are stored.
+inline std::vector<glm::vec3> irradiance_vectors(const cl::CommandQueue& queue,
+                                                 const SecondOrderSolver& solver,
+                                                 std::size_t count) {
+    const std::size_t stride = solver.stride();
+    if (solver.options().build.storage == Storage::full)
+        return vectors(queue, solver.irradiance(), stride, count);
+    std::vector<std::uint16_t> values(3 * stride);
+    queue.enqueueReadBuffer(solver.irradiance(), CL_TRUE, 0, values.size() * sizeof values[0],
+                            values.data());
+    std::vector<glm::vec3> out;
+    for (std::size_t i = 0; i < count; ++i)
+        out.emplace_back(glm::unpackHalf1x16(values[i]), glm::unpackHalf1x16(values[stride + i]),
+                         glm::unpackHalf1x16(values[2 * stride + i]));
+    return out;
+}
+
 inline Frame read_frame(const cl::CommandQueue& queue, const DeviceScene& scene,
                         const SecondOrderSolver& solver) {
     const SecondOrderOptions& options = solver.options();
@@ -52,7 +70,7 @@ inline Frame read_frame(const cl::CommandQueue& queue, const DeviceScene& scene,
     if (out.launches == 0) return out;
     out.position = vectors(queue, solver.planes(), solver.stride(), out.pixels);
     if (!options.indirect || solver.sources().light_count == 0) return out;
-    out.irradiance = vectors(queue, solver.irradiance(), solver.stride(), out.pixels);
+    out.irradiance = irradiance_vectors(queue, solver, out.pixels);
     const auto read = [&](const cl::Buffer& buffer, std::size_t count) {
         std::vector<IndirectLight> lights(count);
         if (count > 0)

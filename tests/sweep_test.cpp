@@ -188,6 +188,22 @@ TEST_F(SmallSweep, WritesFilesThatStandAlone) {
     EXPECT_NE(text(out.path() / "error-full.svg").find("</svg>"), std::string::npos);
 }
 
+TEST_F(SmallSweep, ComparesMathAndStorage) {
+    const std::vector<MathMode> modes = math_modes(made());
+    ASSERT_EQ(modes.size(), 4u);
+    EXPECT_EQ(modes[0].math + modes[0].storage, "strictfull");
+    EXPECT_EQ(modes[3].math + modes[3].storage, "fasthalf");
+    EXPECT_EQ(modes[0].difference, 0.0);
+    for (const MathMode& mode : modes) {
+        EXPECT_GT(mode.speed, 0.0);
+        if (mode.storage == "half") {
+            EXPECT_GT(mode.difference, 0.0);
+        }
+        EXPECT_LT(mode.difference, 0.005);
+        EXPECT_NEAR(mode.error, modes[0].error, 0.005);
+    }
+}
+
 TEST_F(SmallSweep, KeepsItsReferences) {
     made();
     const auto file = folder().path() / "reference-full.exr";

@@ -63,7 +63,7 @@ void run_bench(const BenchFlags& flags) {
     setup.queue = session.queue;
     setup.scene = flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh));
     setup.repeats = flags.repeats;
-    setup.math = math_of(flags.device);
+    setup.build = build_of(flags.device);
     catch_interrupts();
     const auto bar = progress_bar(flags.table, flags.device.quiet);
     setup.progress = [&](double done) {

@@ -103,7 +103,7 @@ void run_render(RenderFlags flags) {
             "nor for --time-budget");
     flags.options.direct = !flags.no_direct;
     flags.options.indirect = flags.method != "direct";
-    flags.options.build.math = math_of(flags.device);
+    flags.options.build = build_of(flags.device);
 
     const Scene scene = open_scene(flags.scene, flags.scene_index, flags.device.quiet);
     if (flags.camera >= static_cast<int>(scene.cameras.size()))
@@ -180,6 +180,7 @@ void run_render(RenderFlags flags) {
     }
     if (!flags.stats.empty()) {
         record.device = session.device;
+        record.build = flags.options.build;
         record.method = flags.method == "auto" ? "second-order" : flags.method;
         record.triangles = scene.triangles.size();
         record.lights = solver.sources().emitters.size();

@@ -22,6 +22,8 @@ void add_device_flags(CLI::App& command, DeviceFlags& flags) {
     command.add_option("--device", flags.device, "platform:CPU|GPU:name-or-index");
     command.add_option("--math", flags.math, "strict or fast")
         ->check(CLI::IsMember({"strict", "fast"}));
+    command.add_option("--storage", flags.storage, "Planes between passes: full (float) or half")
+        ->check(CLI::IsMember({"full", "half"}));
     command.add_flag("--quiet", flags.quiet, "Print nothing but errors");
 }
 
@@ -39,7 +41,17 @@ Session open_session(const DeviceFlags& flags) {
     return out;
 }
 
-Math math_of(const DeviceFlags& flags) { return flags.math == "fast" ? Math::fast : Math::strict; }
+BuildOptions build_of(const DeviceFlags& flags) {
+    BuildOptions out;
+    out.math = flags.math == "fast" ? Math::fast : Math::strict;
+    out.storage = flags.storage == "half" ? Storage::half : Storage::full;
+    return out;
+}
+
+std::string build_flags(const DeviceFlags& flags) {
+    return (flags.math == "strict" ? "" : " --math " + flags.math) +
+           (flags.storage == "full" ? "" : " --storage " + flags.storage);
+}
 
 Scene open_scene(const std::string& path, int scene_index, bool quiet) {
     io::GltfOptions options;

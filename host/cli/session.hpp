@@ -15,6 +15,7 @@ namespace clgi::cli {
 struct DeviceFlags {
     std::string device;
     std::string math = "strict";
+    std::string storage = "full";
     bool quiet = false;
 };
 void add_device_flags(CLI::App& command, DeviceFlags& flags);
@@ -28,7 +29,11 @@ struct Session {
 // Opens the device and names it in one line, unless quiet.
 Session open_session(const DeviceFlags& flags);
 
-Math math_of(const DeviceFlags& flags);
+// How the flags ask for kernels to be built.
+BuildOptions build_of(const DeviceFlags& flags);
+
+// "" where they ask for nothing special, else the flags again, with a space before each.
+std::string build_flags(const DeviceFlags& flags);
 
 // Loads a glTF file, prints its warnings, and gives it a camera and a light where it has none,
 // saying so.

@@ -43,6 +43,8 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
     ordered_json out = {
         {"clgi", CLGI_VERSION},
         {"device", device_json(record.device)},
+        {"math", record.build.math == Math::fast ? "fast" : "strict"},
+        {"storage", record.build.storage == Storage::half ? "half" : "full"},
         {"method", record.method},
         {"scene", {{"triangles", record.triangles}, {"lights", record.lights}}},
         {"effects", record.effects},

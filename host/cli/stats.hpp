@@ -17,6 +17,7 @@ namespace clgi::cli {
 
 struct RenderRecord {
     cl::Device device;
+    BuildOptions build;
     std::string method;
     std::size_t triangles = 0;
     std::size_t lights = 0;

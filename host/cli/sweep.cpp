@@ -51,7 +51,7 @@ void run_sweep(const SweepFlags& flags) {
     setup.path_tracer = flags.method != "second-order";
     setup.rounds = flags.rounds > 0 ? flags.rounds : flags.quick ? 2 : 3;
     setup.reference_samples = flags.samples > 0 ? flags.samples : flags.quick ? 64 : 192;
-    setup.math = math_of(flags.device);
+    setup.build = build_of(flags.device);
     setup.folder = flags.output;
     std::error_code failed;
     std::filesystem::create_directories(setup.folder, failed);
@@ -109,7 +109,7 @@ void add_sweep(CLI::App& app) {
                 (flags->scene_index >= 0 ? fmt::format(" --scene {}", flags->scene_index) : "") +
                 (flags->camera > 0 ? fmt::format(" --camera {}", flags->camera) : "") +
                 (flags->device.device.empty() ? "" : " --device " + flags->device.device) +
-                (flags->device.math == "strict" ? "" : " --math " + flags->device.math));
+                build_flags(flags->device));
         run_sweep(*flags);
     });
 }

@@ -103,7 +103,7 @@ cl::Event GBufferPasses::resolve(const cl::CommandQueue& queue, const View& view
     need_textures(resolve_, scene, textures_);
     need_stride(resolve_, "stride", params.stride, pixels);
     need_visibility(resolve_, view, visibility);
-    need(resolve_, "planes", planes, sizeof(float) * GBUFFER_PLANES * params.stride);
+    need(resolve_, "planes", planes, gbuffer_bytes(resolve_.storage, params.stride));
     need(resolve_, "ids", ids, sizeof(std::int32_t) * GBUFFER_ID_PLANES * params.stride);
     return launch(resolve_, queue, packets(resolve_, pixels), wait, view, params, scene.info(),
                   scene, visibility, planes, ids);
@@ -118,8 +118,8 @@ cl::Event GBufferPasses::downsample(const cl::CommandQueue& queue, const Downsam
     need_stride(downsample_, "stride", params.stride,
                 static_cast<std::size_t>(params.width) * params.height);
     need_stride(downsample_, "low_stride", params.low_stride, low_width * low_height);
-    need(downsample_, "planes", planes, sizeof(float) * POINT_PLANES * params.stride);
-    need(downsample_, "points", points, sizeof(float) * POINT_PLANES * params.low_stride);
+    need(downsample_, "planes", planes, point_bytes(downsample_.storage, params.stride));
+    need(downsample_, "points", points, point_bytes(downsample_.storage, params.low_stride));
     return launch(downsample_, queue, packets(downsample_, low_width) * low_height, wait, params,
                   planes, points);
 }

@@ -52,10 +52,10 @@ cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams&
                               const WaitList& wait) const {
     need_stride(gather_, "stride", params.stride, most);
     need(gather_, "point_count", point_count, sizeof(std::uint32_t));
-    need(gather_, "points", points, plane_bytes(POINT_PLANES, params.stride));
+    need(gather_, "points", points, point_bytes(gather_.storage, params.stride));
     need(gather_, "lights", lights, params.light_count * sizeof(IndirectLight));
     need(gather_, "negative", negative, params.negative_count * sizeof(IndirectLight));
-    need(gather_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
+    need(gather_, "irradiance", irradiance, irradiance_bytes(gather_.storage, params.stride));
     return launch(gather_, queue, packets(gather_, most), wait, params, point_count, points, lights,
                   negative, irradiance);
 }
@@ -77,9 +77,9 @@ cl::Event ImagePasses::compact(const cl::CommandQueue& queue, const RefineParams
     need_stride(compact_, "stride", params.stride, pixels);
     need(compact_, "flags", flags, pixels);
     need(compact_, "counts", counts, blocks(pixels) * sizeof(std::uint32_t));
-    need(compact_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
+    need(compact_, "planes", planes, point_bytes(compact_.storage, params.stride));
     need(compact_, "listed", listed, plane_bytes(1, params.stride));
-    need(compact_, "points", points, plane_bytes(POINT_PLANES, params.stride));
+    need(compact_, "points", points, point_bytes(compact_.storage, params.stride));
     need(compact_, "point_count", point_count, sizeof(std::uint32_t));
     return launch(compact_, queue, blocks(pixels), wait, params, flags, counts, planes, listed,
                   points, point_count);
@@ -90,10 +90,10 @@ cl::Event ImagePasses::upsample(const cl::CommandQueue& queue, const RefineParam
                                 const cl::Buffer& low, const cl::Buffer& irradiance,
                                 const cl::Buffer& flags, const WaitList& wait) const {
     need_strides(upsample_, params);
-    need(upsample_, "planes", planes, plane_bytes(POINT_PLANES, params.stride));
-    need(upsample_, "points", points, plane_bytes(POINT_PLANES, params.low_stride));
-    need(upsample_, "low", low, plane_bytes(IRRADIANCE_PLANES, params.low_stride));
-    need(upsample_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
+    need(upsample_, "planes", planes, point_bytes(upsample_.storage, params.stride));
+    need(upsample_, "points", points, point_bytes(upsample_.storage, params.low_stride));
+    need(upsample_, "low", low, irradiance_bytes(upsample_.storage, params.low_stride));
+    need(upsample_, "irradiance", irradiance, irradiance_bytes(upsample_.storage, params.stride));
     need(upsample_, "flags", flags, pixels_of(params));
     return launch(upsample_, queue,
                   packets(upsample_, params.width) * low_size(params.height, params.step), wait,
@@ -107,8 +107,8 @@ cl::Event ImagePasses::place(const cl::CommandQueue& queue, const RefineParams& 
     need_stride(place_, "stride", params.stride, pixels_of(params));
     need(place_, "point_count", point_count, sizeof(std::uint32_t));
     need(place_, "listed", listed, plane_bytes(1, params.stride));
-    need(place_, "refined", refined, plane_bytes(IRRADIANCE_PLANES, params.stride));
-    need(place_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
+    need(place_, "refined", refined, irradiance_bytes(place_.storage, params.stride));
+    need(place_, "irradiance", irradiance, irradiance_bytes(place_.storage, params.stride));
     return launch(place_, queue, packets(place_, pixels_of(params)), wait, params, point_count,
                   listed, refined, irradiance);
 }
@@ -128,10 +128,10 @@ cl::Event ImagePasses::combine(const cl::CommandQueue& queue, const CombineParam
     need(combine_, "views", sources.views, sources.view_count * sizeof(View));
     need(combine_, "visibility", sources.visibility, sources.pixels * sizeof(std::uint64_t));
     need(combine_, "emitters", sources.emitters, params.emitter_count * sizeof(Emitter));
-    need(combine_, "planes", planes, plane_bytes(GBUFFER_PLANES, params.stride));
+    need(combine_, "planes", planes, gbuffer_bytes(combine_.storage, params.stride));
     need(combine_, "ids", ids, plane_bytes(GBUFFER_ID_PLANES, params.stride));
     if (params.effects & COMBINE_INDIRECT)
-        need(combine_, "irradiance", irradiance, plane_bytes(IRRADIANCE_PLANES, params.stride));
+        need(combine_, "irradiance", irradiance, irradiance_bytes(combine_.storage, params.stride));
     need(combine_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
     need(combine_, "non_finite", non_finite, sizeof(std::uint32_t));
     return launch(combine_, queue, packets(combine_, pixels), wait, params, view, sources.emitters,

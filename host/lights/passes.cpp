@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/passes/lights.hpp>
+#include <clgi/planes.hpp>
 
 #include "opencl/launch.hpp"
 #include "opencl/program.hpp"
@@ -69,7 +70,7 @@ cl::Event LightPasses::negative(const cl::CommandQueue& queue, const NegativePar
     if (params.stride < static_cast<std::size_t>(view.width) * view.height)
         throw Error("lights.negative: stride is " + std::to_string(params.stride) + ", at least " +
                     std::to_string(view.width * view.height) + " needed");
-    need(negative_, "planes", planes, sizeof(float) * (GBUFFER_GEOMETRIC + 3) * params.stride);
+    need(negative_, "planes", planes, gbuffer_bytes(negative_.storage, params.stride));
     need(negative_, "lights", lights, params.light_count * sizeof(IndirectLight));
     need(negative_, "negative", negative, params.negative_count * sizeof(IndirectLight));
     return launch(negative_, queue, params.negative_count, wait, params, view, planes, lights,

@@ -22,6 +22,7 @@ std::string compiler_options(const cl::Device& device, const BuildOptions& optio
     std::string text = "-cl-std=CL1.2 -DCLGI_WIDTH=" + std::to_string(width);
     if (uses_atomics64(device, options)) text += " -DCLGI_ATOMIC64";
     if (!options.textures) text += " -DCLGI_NO_TEXTURES";
+    if (options.storage == Storage::half) text += " -DCLGI_HALF";
     if (options.math == Math::fast) {
         text += " -cl-fast-relaxed-math";
     } else if (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) {
@@ -49,6 +50,7 @@ PassKernel build_pass(const cl::Context& context, const cl::Device& device, cons
     const std::size_t most = out.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device);
     out.local_size = std::min(options.local_size > 0 ? options.local_size : 64, most);
     out.packet_width = width;
+    out.storage = options.storage;
     return out;
 }
 

@@ -40,7 +40,7 @@ struct BenchSetup {
     int width = 640;
     int height = 480;
     int repeats = 30;
-    Math math = Math::strict;
+    BuildOptions build;
     std::function<bool(double)> progress;  // share done; false stops
 };
 

@@ -35,7 +35,7 @@ SecondOrderOptions options_of(const BenchSetup& setup, int positive, int negativ
     options.sources.lights = positive;
     options.negative_lights = negative;
     options.discontinuity_threshold = threshold;
-    options.build.math = setup.math;
+    options.build = setup.build;
     return options;
 }
 

@@ -5,6 +5,7 @@
 
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
+#include <memory>
 #include <numeric>
 
 #include "report/luminance.hpp"
@@ -116,13 +117,23 @@ private:
         }
     }
 
+    struct Lit {
+        BuildOptions build;
+        std::unique_ptr<SecondOrderSolver> solver;
+    };
+
     void light() {
         const cl::Context context = setup_.queue.getInfo<CL_QUEUE_CONTEXT>();
         const DeviceScene scene(context, setup_.queue.getInfo<CL_QUEUE_DEVICE>(), setup_.scene);
-        std::vector<Settings> settings =
-            second_order_settings(setup_.width, setup_.height, setup_.quick);
-        for (Settings& setting : settings) setting.options.build.math = setup_.math;
-        SecondOrderSolver solver(setup_.queue, scene, settings.front().options);
+        const std::vector<Settings> settings =
+            second_order_settings(setup_.width, setup_.height, setup_.quick, setup_.build);
+        std::vector<Lit> solvers;  // one for every way to build the kernels
+        const auto solver_of = [&](const SecondOrderOptions& options) -> SecondOrderSolver& {
+            for (Lit& lit : solvers)
+                if (lit.build == options.build) return *lit.solver;
+            auto made = std::make_unique<SecondOrderSolver>(setup_.queue, scene, options);
+            return *solvers.emplace_back(Lit{options.build, std::move(made)}).solver;
+        };
         std::vector<std::vector<double>> times(settings.size());
         const std::size_t before = out_.points.size();
         constexpr double slow = 150.0;  // milliseconds
@@ -132,6 +143,7 @@ private:
                        static_cast<double>(setup_.rounds * settings.size()));
                 // Noise is small beside a slow frame: it is timed in the first round alone.
                 if (round > 0 && spread(times[i]).median > slow) continue;
+                SecondOrderSolver& solver = solver_of(settings[i].options);
                 solver.reconfigure(settings[i].options);
                 const double first = time_frame(solver, setup_.queue, camera_);  // into the caches
                 for (int k = 0; k < (first > slow ? 1 : 2); ++k)

@@ -26,7 +26,7 @@ struct SweepSetup {
     bool path_tracer = true;
     int rounds = 3;               // through all settings; each times two frames
     int reference_samples = 192;  // a pixel
-    Math math = Math::strict;
+    BuildOptions build;           // of all series but "math"
     std::filesystem::path folder;          // where references are kept between runs; must exist
     std::function<bool(double)> progress;  // share done; false cancels
 };
@@ -62,12 +62,13 @@ struct Sweep {
 Sweep sweep(const SweepSetup& setup);
 
 // The knob settings that a sweep tries for a method, by series. The first of each series that
-// turns one knob is that knob's least accurate setting.
+// turns one knob is that knob's least accurate setting; that of "math" is strict math on floats.
 struct Settings {
     std::string series;
     std::map<std::string, std::string> knobs;
     SecondOrderOptions options;
 };
-std::vector<Settings> second_order_settings(int width, int height, bool quick);
+std::vector<Settings> second_order_settings(int width, int height, bool quick,
+                                            const BuildOptions& build = {});
 
 }  // namespace clgi::report

@@ -111,6 +111,23 @@ std::string gallery(const Sweep& sweep, int truth) {
     return out;
 }
 
+std::string math_table(const Sweep& sweep) {
+    const std::vector<MathMode> modes = math_modes(sweep);
+    if (modes.empty()) return "";
+    std::string out =
+        "<h2>Math and storage</h2>\n<p>300 indirect and 150 negative lights; the error is against "
+        "one bounce, the difference against strict math on floats.</p>\n"
+        "<table><tr><th>math</th><th>storage</th><th>ms</th><th>times as fast</th>"
+        "<th>error %</th><th>difference %</th></tr>\n";
+    for (const MathMode& mode : modes)
+        out += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.3f}</td>"
+            "<td>{:.3f}</td></tr>\n",
+            mode.math, mode.storage, mode.milliseconds, mode.speed, 100.0 * mode.error,
+            100.0 * mode.difference);
+    return out + "</table>\n";
+}
+
 constexpr const char* head = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>clgi sweep</title><style>
 body{font:15px/1.5 sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;color:#222}
@@ -143,7 +160,7 @@ std::string sweep_page(const Sweep& sweep, const SweepNote& note,
         out += front_table(sweep, t);
         if (t != unshadowed_bounce) out += gallery(sweep, t);
     }
-    return out + "</body></html>\n";
+    return out + math_table(sweep) + "</body></html>\n";
 }
 
 std::string save_sweep(const Sweep& sweep, const SweepNote& note,

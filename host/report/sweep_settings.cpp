@@ -19,14 +19,18 @@ Settings settings(const std::string& series, const SecondOrderOptions& options) 
              {"negative-vpls", std::to_string(options.negative_lights)},
              {"low-res", low_resolution_text(options)},
              {"shadow-size", std::to_string(options.sources.shadow_size)},
-             {"area-samples", std::to_string(options.sources.area_samples)}},
+             {"area-samples", std::to_string(options.sources.area_samples)},
+             {"math", options.build.math == Math::fast ? "fast" : "strict"},
+             {"storage", options.build.storage == Storage::half ? "half" : "full"}},
             options};
 }
 
 }  // namespace
 
-std::vector<Settings> second_order_settings(int width, int height, bool quick) {
+std::vector<Settings> second_order_settings(int width, int height, bool quick,
+                                            const BuildOptions& build) {
     SecondOrderOptions base;
+    base.build = build;
     base.width = width;
     base.height = height;
     base.sources.lights = 300;
@@ -81,6 +85,13 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick) {
         options.sources.area_samples = samples;
         add("area-samples", options);
     }
+    for (const Storage storage : {Storage::full, Storage::half})
+        for (const Math math : {Math::strict, Math::fast}) {
+            SecondOrderOptions options = base;
+            options.build.math = math;
+            options.build.storage = storage;
+            add("math", options);
+        }
     // Together: only what lies near the front of the knobs alone.
     if (!quick)
         for (const int count : lights)

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/pareto.hpp"
+#include "report/relative_error.hpp"
 
 namespace clgi::report {
 namespace {
@@ -68,6 +69,17 @@ Speedup speedup(const Sweep& sweep, const std::string& method, int truth) {
     return out;
 }
 
+std::vector<MathMode> math_modes(const Sweep& sweep) {
+    std::vector<MathMode> out;
+    const std::vector<const SweepPoint*> points = points_of(sweep, "math");
+    for (const SweepPoint* point : points)
+        out.push_back({point->knobs.at("math"), point->knobs.at("storage"), point->milliseconds,
+                       points.front()->milliseconds / point->milliseconds,
+                       point->error[one_bounce],
+                       relative_error(point->picture, points.front()->picture)});
+    return out;
+}
+
 std::vector<std::string> summary(const Sweep& sweep) {
     std::vector<std::string> out;
     const auto floor_line = [&](const char* series, const char* what, int truth) {
@@ -107,6 +119,14 @@ std::vector<std::string> summary(const Sweep& sweep) {
                 truth_names[t], factor.at_least_error, 100.0 * factor.least_error, factor.best,
                 100.0 * factor.best_error));
     }
+    for (const MathMode& mode : math_modes(sweep))
+        if (mode.difference > 0.0)
+            out.push_back(fmt::format(
+                "{} math, {} storage: {:.2f} times as fast as strict math on floats, pictures "
+                "differ by {:.4f} %.",
+                mode.math == "fast" ? "Fast" : "Strict", mode.storage, mode.speed,
+                100.0 * mode.difference));
+
     for (int t = 0; t < truths; ++t)
         out.push_back(
             fmt::format("Standard error of the {} reference: {:.2f} %, taken out of all "

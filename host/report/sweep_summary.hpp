@@ -27,6 +27,17 @@ struct Speedup {
 };
 Speedup speedup(const Sweep& sweep, const std::string& method, int truth);
 
+// What a way of building the kernels gains and costs: the points of the series "math".
+struct MathMode {
+    std::string math;  // "strict", "fast"
+    std::string storage;  // "full", "half"
+    double milliseconds = 0.0;
+    double speed = 0.0;       // times as fast as strict math on floats
+    double error = 0.0;       // against one bounce
+    double difference = 0.0;  // relative_error() against the picture of strict math on floats
+};
+std::vector<MathMode> math_modes(const Sweep& sweep);
+
 std::vector<std::string> summary(const Sweep& sweep);
 
 }  // namespace clgi::report

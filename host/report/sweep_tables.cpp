@@ -15,7 +15,7 @@ std::string knob(const SweepPoint& point, const char* name) {
 }
 
 constexpr const char* knobs[] = {"vpls",        "negative-vpls", "low-res",
-                                 "shadow-size", "area-samples",  "spp"};
+                                 "shadow-size", "area-samples",  "math", "storage", "spp"};
 
 }  // namespace
 
@@ -57,6 +57,13 @@ std::string sweep_json(const Sweep& sweep, const SweepNote& note) {
                                    {"best", factor.best},
                                    {"best_error", factor.best_error}});
     }
+    for (const MathMode& mode : math_modes(sweep))
+        out["math_modes"].push_back({{"math", mode.math},
+                                     {"storage", mode.storage},
+                                     {"ms", mode.milliseconds},
+                                     {"speed", mode.speed},
+                                     {"error", mode.error},
+                                     {"difference", mode.difference}});
     out["points"] = nlohmann::ordered_json::array();
     for (const SweepPoint& point : sweep.points) {
         nlohmann::ordered_json row = {{"method", point.method},

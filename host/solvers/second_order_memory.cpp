@@ -77,6 +77,7 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
     const std::size_t low_stride = padded(low_pixel_count(options));
     const bool lit = options.indirect && set.light_count > 0;
     const bool refine = lit && refines(options);
+    const Storage storage = options.build.storage;
     const std::size_t negative = lit ? options.negative_lights : 0;
     std::uint32_t candidates = 0;
     for (const std::uint32_t count : set.candidates) candidates = std::max(candidates, count);
@@ -85,7 +86,7 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
     out.polygons = scene.info().triangle_count * sizeof(RasterPolygon);
     out.source_visibility = set.pixels * sizeof(std::uint64_t);
     out.camera_visibility = pixel_count(options) * sizeof(std::uint64_t);
-    out.planes = GBUFFER_PLANES * stride * sizeof(float);
+    out.planes = gbuffer_bytes(storage, stride);
     out.ids = GBUFFER_ID_PLANES * stride * sizeof(std::int32_t);
     out.radiance = RADIANCE_PLANES * stride * sizeof(float);
     if (!lit) return out;
@@ -93,15 +94,15 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
     out.accepted = set.light_count * sizeof(std::uint32_t);
     out.lights = set.light_count * sizeof(IndirectLight);
     out.negative = negative * sizeof(IndirectLight);
-    out.irradiance = IRRADIANCE_PLANES * stride * sizeof(float);
+    out.irradiance = irradiance_bytes(storage, stride);
     if (!refine) return out;
-    out.low_points = POINT_PLANES * low_stride * sizeof(float);
-    out.low_irradiance = IRRADIANCE_PLANES * low_stride * sizeof(float);
+    out.low_points = point_bytes(storage, low_stride);
+    out.low_irradiance = irradiance_bytes(storage, low_stride);
     out.flags = pixel_count(options);
     out.counts = (pixel_count(options) / COMPACT_BLOCK + 1) * sizeof(std::uint32_t);
     out.listed = stride * sizeof(std::uint32_t);
-    out.listed_points = POINT_PLANES * stride * sizeof(float);
-    out.listed_irradiance = IRRADIANCE_PLANES * stride * sizeof(float);
+    out.listed_points = point_bytes(storage, stride);
+    out.listed_irradiance = irradiance_bytes(storage, stride);
     return out;
 }
 

@@ -9,9 +9,16 @@ namespace clgi {
 
 enum class Math { strict, fast };
 
-// How a room's kernels are built. Results do not depend on packet_width or local_size.
+// How planes of directions, colours and irradiance are kept between passes: as float, or as half,
+// which moves half the bytes and rounds to 11 bits. Positions, depth and the finished radiance are
+// float in both. Layout: clgi/shared/planes.h.
+enum class Storage { full, half };
+
+// How a room's kernels are built. Results do not depend on packet_width or local_size. Passes that
+// hand each other planes must agree on storage.
 struct BuildOptions {
     Math math = Math::strict;
+    Storage storage = Storage::full;
     int packet_width = 0;        // lanes of a packet: 1, 4, 8 or 16; 0: what suits the device
     std::size_t local_size = 0;  // work-items of a group; 0: 64, or what the device allows
     bool atomics64 = true;       // use 64-bit atomics where the device has them
@@ -21,7 +28,7 @@ struct BuildOptions {
 };
 
 inline bool operator==(const BuildOptions& a, const BuildOptions& b) {
-    return a.math == b.math && a.packet_width == b.packet_width && a.local_size == b.local_size &&
+    return a.math == b.math && a.storage == b.storage && a.packet_width == b.packet_width && a.local_size == b.local_size &&
            a.atomics64 == b.atomics64 && a.parallel == b.parallel && a.textures == b.textures;
 }
 inline bool operator!=(const BuildOptions& a, const BuildOptions& b) { return !(a == b); }
@@ -32,6 +39,7 @@ struct PassKernel {
     cl::Kernel kernel;
     std::size_t local_size = 64;
     int packet_width = 1;
+    Storage storage = Storage::full;
 };
 
 }  // namespace clgi

@@ -7,8 +7,7 @@
 //              to whole packets; any local size
 // Writes       its own points; the last one zeros up to a whole packet
 // SPDX-License-Identifier: MIT
-#include "packet.clh"
-#include "clgi/shared/gbuffer.h"
+#include "planes.clh"
 
 kernel void gbuffer_downsample(
     const DownsampleParams  params,
@@ -27,12 +26,12 @@ kernel void gbuffer_downsample(
     uint to = row * low_width + column;
     uint count = min((uint)CLGI_WIDTH, low_width - column);
     for (int plane = 0; plane < POINT_PLANES; ++plane) {
-        global const float* source = planes + plane * params.stride + from;
-        global float* target = points + plane * params.low_stride + to;
+        Row source = gbuffer_row(planes, plane, params.stride);
+        Row target = gbuffer_row(points, plane, params.low_stride);
         uint k = 0;
-        for (; k < count; ++k) target[k] = source[step * k];
+        for (; k < count; ++k) row_copy_one(source, from + step * k, target, to + k);
         // Behind the last point, zeros up to a whole packet: gather reads it.
         if (row + 1 == low_height && column + CLGI_WIDTH >= low_width)
-            for (; (to + k) % CLGI_WIDTH != 0; ++k) target[k] = 0.0f;
+            for (; (to + k) % CLGI_WIDTH != 0; ++k) row_clear_one(target, to + k);
     }
 }

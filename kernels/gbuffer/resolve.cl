@@ -9,12 +9,13 @@
 // SPDX-License-Identifier: MIT
 #include "gbuffer/surface.clh"
 #include "gbuffer/visibility.clh"
+#include "planes.clh"
 
 static void store3(floatp x, floatp y, floatp z, global float* planes, int plane, uint stride,
                    uint pixel) {
-    packet_store(x, planes + plane * stride + pixel);
-    packet_store(y, planes + (plane + 1) * stride + pixel);
-    packet_store(z, planes + (plane + 2) * stride + pixel);
+    row_store(x, gbuffer_row(planes, plane, stride), pixel);
+    row_store(y, gbuffer_row(planes, plane + 1, stride), pixel);
+    row_store(z, gbuffer_row(planes, plane + 2, stride), pixel);
 }
 
 // Triangles of a packet of pixels; -1 past the last. The lower half of a word is the triangle, and
@@ -89,7 +90,7 @@ kernel void gbuffer_resolve(
         store3(surface.emission_r, surface.emission_g, surface.emission_b, planes,
                GBUFFER_EMISSION, stride, pixel);
     if (params.write & RESOLVE_DEPTH)
-        packet_store(surface.depth, planes + GBUFFER_DEPTH * stride + pixel);
+        row_store(surface.depth, gbuffer_row(planes, GBUFFER_DEPTH, stride), pixel);
     packet_store(material, ids + GBUFFER_MATERIAL * stride + pixel);
     if (params.write & RESOLVE_TRIANGLE)
         packet_store(triangle, ids + GBUFFER_TRIANGLE * stride + pixel);

@@ -12,6 +12,7 @@
 #include "lights/disc.clh"
 #include "lights/sample.clh"
 #include "lights/shadow.clh"
+#include "planes.clh"
 #include "scene/buffers.clh"
 #include "clgi/shared/image.h"
 
@@ -47,25 +48,26 @@ kernel void image_combine(
     uint stride = params.stride;
     floatp zero = packet_zero;
     floatp one = packet_splat(1.0f);
-    global const float* at = planes + pixel;
 
-    floatp nx = packet_load(at + 3 * stride);
-    floatp ny = packet_load(at + 4 * stride);
-    floatp nz = packet_load(at + 5 * stride);
+    floatp nx = row_load(gbuffer_row(planes, GBUFFER_NORMAL, stride), pixel);
+    floatp ny = row_load(gbuffer_row(planes, GBUFFER_NORMAL + 1, stride), pixel);
+    floatp nz = row_load(gbuffer_row(planes, GBUFFER_NORMAL + 2, stride), pixel);
     intp surface = packet_dot(nx, ny, nz, nx, ny, nz) > 0.0f;
     floatp direct[3] = {zero, zero, zero};
     floatp glossy[3] = {zero, zero, zero};
     floatp albedo[3];
-    for (int c = 0; c < 3; ++c) albedo[c] = packet_load(at + (GBUFFER_ALBEDO + c) * stride);
+    #pragma unroll
+    for (int c = 0; c < 3; ++c)
+        albedo[c] = row_load(gbuffer_row(planes, GBUFFER_ALBEDO + c, stride), pixel);
 
     if ((params.effects & COMBINE_DIRECT) && packet_any(surface)) {
         ShadowPoint point;
-        point.x = packet_load(at);
-        point.y = packet_load(at + stride);
-        point.z = packet_load(at + 2 * stride);
-        point.gx = packet_load(at + GBUFFER_GEOMETRIC * stride);
-        point.gy = packet_load(at + (GBUFFER_GEOMETRIC + 1) * stride);
-        point.gz = packet_load(at + (GBUFFER_GEOMETRIC + 2) * stride);
+        point.x = row_load(gbuffer_row(planes, GBUFFER_POSITION, stride), pixel);
+        point.y = row_load(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), pixel);
+        point.z = row_load(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), pixel);
+        point.gx = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC, stride), pixel);
+        point.gy = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC + 1, stride), pixel);
+        point.gz = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC + 2, stride), pixel);
 
         // The lobe's mirror direction and its parameters, where any material has a lobe.
         floatp mx = zero, my = zero, mz = zero;
@@ -168,10 +170,10 @@ kernel void image_combine(
     for (int c = 0; c < 3; ++c) {
         floatp light = direct[c];
         if (params.effects & COMBINE_INDIRECT)
-            light += packet_max(packet_load(irradiance + c * stride + pixel), zero);
+            light += packet_max(row_load(irradiance_row(irradiance, c, stride), pixel), zero);
         out[c] = fma(albedo[c] * (1.0f / CLGI_PI), light, glossy[c]);
         if (params.effects & COMBINE_EMISSION)
-            out[c] += packet_load(at + (GBUFFER_EMISSION + c) * stride);
+            out[c] += row_load(gbuffer_row(planes, GBUFFER_EMISSION + c, stride), pixel);
         out[c] = packet_select(zero, out[c] * params.exposure, surface);
         bad |= (packet_bits(out[c]) & 0x7fffffffu) >= 0x7f800000u;
     }

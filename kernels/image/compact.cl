@@ -6,8 +6,7 @@
 // Work size    1D, one work-item a block of COMPACT_BLOCK pixels; any local size; tail guarded
 // Writes       its own part of the list; the last block the count and zeros up to a whole packet
 // SPDX-License-Identifier: MIT
-#include "packet.clh"
-#include "clgi/shared/gbuffer.h"
+#include "planes.clh"
 #include "clgi/shared/image.h"
 
 kernel void image_compact(
@@ -31,13 +30,14 @@ kernel void image_compact(
         if (!flags[pixel]) continue;
         pixels[place] = pixel;
         for (uint plane = 0; plane < POINT_PLANES; ++plane)
-            points[plane * params.stride + place] = planes[plane * params.stride + pixel];
+            row_copy_one(gbuffer_row(planes, plane, params.stride), pixel,
+                         gbuffer_row(points, plane, params.stride), place);
         ++place;
     }
     if (last == total) {
         point_count[0] = place;
         for (; place % CLGI_WIDTH != 0; ++place)
             for (uint plane = 0; plane < POINT_PLANES; ++plane)
-                points[plane * params.stride + place] = 0.0f;
+                row_clear_one(gbuffer_row(points, plane, params.stride), place);
     }
 }

@@ -12,8 +12,7 @@
 //              are read and 12 written once
 // SPDX-License-Identifier: MIT
 #include "lights/disc.clh"
-#include "packet.clh"
-#include "clgi/shared/gbuffer.h"
+#include "planes.clh"
 #include "clgi/shared/image.h"
 #include "clgi/shared/lights.h"
 
@@ -29,13 +28,13 @@ kernel void image_gather(
     if (point >= point_count[0]) return;
 
     uint stride = params.stride;
-    floatp px = packet_load(points + point);
-    floatp py = packet_load(points + stride + point);
-    floatp pz = packet_load(points + 2 * stride + point);
+    floatp px = row_load(gbuffer_row(points, 0, stride), point);
+    floatp py = row_load(gbuffer_row(points, 1, stride), point);
+    floatp pz = row_load(gbuffer_row(points, 2, stride), point);
     // Away from the surface, since t below runs from light to point.
-    floatp nx = -packet_load(points + 3 * stride + point);
-    floatp ny = -packet_load(points + 4 * stride + point);
-    floatp nz = -packet_load(points + 5 * stride + point);
+    floatp nx = -row_load(gbuffer_row(points, 3, stride), point);
+    floatp ny = -row_load(gbuffer_row(points, 4, stride), point);
+    floatp nz = -row_load(gbuffer_row(points, 5, stride), point);
     floatp zero = packet_zero;
 
     floatp red = zero, green = zero, blue = zero;
@@ -65,8 +64,7 @@ kernel void image_gather(
         green = sum_green - green;
         blue = sum_blue - blue;
     }
-    global float* target = irradiance + point;
-    packet_store(red * (1.0f / CLGI_PI), target);
-    packet_store(green * (1.0f / CLGI_PI), target + stride);
-    packet_store(blue * (1.0f / CLGI_PI), target + 2 * stride);
+    row_store(red * (1.0f / CLGI_PI), irradiance_row(irradiance, 0, stride), point);
+    row_store(green * (1.0f / CLGI_PI), irradiance_row(irradiance, 1, stride), point);
+    row_store(blue * (1.0f / CLGI_PI), irradiance_row(irradiance, 2, stride), point);
 }

@@ -5,7 +5,7 @@
 //              every CLGI_WIDTH pixels; any local size
 // Writes       irradiance of its own pixels; every pixel is listed once at most
 // SPDX-License-Identifier: MIT
-#include "packet.clh"
+#include "planes.clh"
 #include "clgi/shared/image.h"
 
 kernel void image_place(
@@ -19,6 +19,6 @@ kernel void image_place(
     uint last = min(first + CLGI_WIDTH, point_count[0]);
     for (uint place = first; place < last; ++place)
         for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane)
-            irradiance[plane * params.stride + pixels[place]] =
-                refined[plane * params.stride + place];
+            row_copy_one(irradiance_row(refined, plane, params.stride), place,
+                         irradiance_row(irradiance, plane, params.stride), pixels[place]);
 }

@@ -53,14 +53,14 @@ static Blend blend(const CellPoint* pixel, const CellPoint* points, float positi
     return out;
 }
 
-static void put_row(const Cell* cell, uint width, floatp lanes, global float* row) {
+static void put_row(const Cell* cell, uint width, floatp lanes, Row row, uint begin) {
     if (cell->whole) {
-        packet_store(lanes, row + cell->x);
+        row_store(lanes, row, begin + cell->x);
         return;
     }
     float values[CLGI_WIDTH];
     packet_store(lanes, values);
-    for (uint k = 0; cell->x + k < width; ++k) row[cell->x + k] = values[k];
+    for (uint k = 0; cell->x + k < width; ++k) row_store_one(values[k], row, begin + cell->x + k);
 }
 
 static void put_flags(const Cell* cell, uint width, intp marked, global uchar* row) {
@@ -93,7 +93,8 @@ kernel void image_upsample(
     #pragma unroll
     for (uint plane = 0; plane < IRRADIANCE_PLANES; ++plane)
         for (uint down = 0; down < 2; ++down)
-            value[plane][down] = cell_low(&cell, step, low + plane * params.low_stride, down);
+            value[plane][down] =
+                cell_low(&cell, step, irradiance_row(low, plane, params.low_stride), down);
 
     intp phase = ((int)cell.x + packet_lanes) & (int)(step - 1);
     floatp right = packet_float(phase) * (1.0f / (float)step);
@@ -115,7 +116,7 @@ kernel void image_upsample(
             // A low-resolution point has its own value, to the bit.
             if (first) mixed = packet_select(mixed, v[0].left, phase == 0);
             put_row(&cell, params.width, mixed,
-                    irradiance + plane * params.stride + y * params.width);
+                    irradiance_row(irradiance, plane, params.stride), y * params.width);
         }
     }
 }

@@ -16,10 +16,16 @@
 // Work size     1D, one work-item a sample; any local size; tail guarded
 // Writes        its own negative light; flux 0 where nothing is stopped
 // SPDX-License-Identifier: MIT
-#include "clgi/shared/gbuffer.h"
 #include "clgi/shared/halton.h"
 #include "clgi/shared/lights.h"
 #include "lights/disc.clh"
+#include "planes.clh"
+
+static float3 point_vector(global const float* planes, uint plane, uint stride, uint pixel) {
+    return (float3)(row_load_one(gbuffer_row(planes, plane, stride), pixel),
+                    row_load_one(gbuffer_row(planes, plane + 1, stride), pixel),
+                    row_load_one(gbuffer_row(planes, plane + 2, stride), pixel));
+}
 
 kernel void lights_negative(
     const NegativeParams         params,
@@ -35,11 +41,9 @@ kernel void lights_negative(
     float down = shifted_radical_inverse(sample + 1, 3, params.shift_y);
     uint x = min((uint)(right * (float)view.width), view.width - 1);
     uint y = min((uint)(down * (float)view.height), view.height - 1);
-    global const float* at = planes + y * view.width + x;
-    uint stride = params.stride;
-    float3 p = (float3)(at[0], at[stride], at[2 * stride]);
-    global const float* facing = at + GBUFFER_GEOMETRIC * stride;
-    float3 n = (float3)(facing[0], facing[stride], facing[2 * stride]);
+    uint pixel = y * view.width + x;
+    float3 p = point_vector(planes, GBUFFER_POSITION, params.stride, pixel);
+    float3 n = point_vector(planes, GBUFFER_GEOMETRIC, params.stride, pixel);
 
     float3 stopped = (float3)(0.0f);
     float3 toward = (float3)(0.0f);

@@ -9,6 +9,7 @@
 #include <clgi/shared/gbuffer.h>
 #include <clgi/device_scene.hpp>
 #include <clgi/pass.hpp>
+#include <clgi/planes.hpp>
 
 namespace clgi {
 

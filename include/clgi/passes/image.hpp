@@ -6,6 +6,7 @@
 #include <clgi/shared/image.h>
 #include <clgi/device_scene.hpp>
 #include <clgi/pass.hpp>
+#include <clgi/planes.hpp>
 #include <clgi/passes/lights.hpp>
 
 namespace clgi {
