@@ -38,7 +38,9 @@ inline std::uint32_t padded(std::size_t count) {
 inline RasterBuffers raster_buffers(const DeviceScene& scene, std::size_t pixels) {
     return {empty<std::uint64_t>(pixels),
             empty<ScreenVertex>(std::max(scene.info().vertex_count, 1u)),
-            empty<RasterPolygon>(std::max(scene.info().triangle_count, 1u)), empty<cl_uint>(1)};
+            empty<RasterPolygon>(std::max(scene.info().triangle_count, 1u)),
+            empty<RasterRun>(std::max<std::size_t>(raster_runs(scene.info().triangle_count), 1)),
+            empty<cl_uint>(1)};
 }
 
 // Fills the view's part of buffers.visibility.

@@ -15,6 +15,9 @@
     MEMBER(RasterPolygon, top) MEMBER(RasterPolygon, right) MEMBER(RasterPolygon, bottom)       \
     MEMBER(RasterPolygon, count) MEMBER(RasterPolygon, material) MEMBER(RasterPolygon, pad0_)   \
     MEMBER(RasterPolygon, pad1_)                                                                \
+    SIZE(RasterRun) MEMBER(RasterRun, left) MEMBER(RasterRun, top) MEMBER(RasterRun, right)     \
+    MEMBER(RasterRun, bottom) MEMBER(RasterRun, first) MEMBER(RasterRun, count)                 \
+    MEMBER(RasterRun, pad0_) MEMBER(RasterRun, pad1_)                                           \
     SIZE(RasterParams) MEMBER(RasterParams, triangle_count) MEMBER(RasterParams, stage)         \
     MEMBER(RasterParams, small_size) MEMBER(RasterParams, pad_)                                 \
     SIZE(ResolveParams) MEMBER(ResolveParams, stride) MEMBER(ResolveParams, write)              \

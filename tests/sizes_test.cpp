@@ -79,7 +79,7 @@ TEST(Sizes, OfGBufferPasses) {
         passes.raster(queue, p.view, p.scene, stage, b);
     };
     const auto large = [&](const R& b) {
-        queue.enqueueFillBuffer(b.polygon_count, cl_uint{0}, 0, sizeof(cl_uint));
+        queue.enqueueFillBuffer(b.run_count, cl_uint{0}, 0, sizeof(cl_uint));
         passes.raster_large(queue, p.view, p.scene, b);
     };
     const auto resolve = [&](const cl::Buffer& visibility, const cl::Buffer& planes,
@@ -95,14 +95,16 @@ TEST(Sizes, OfGBufferPasses) {
     expect_refusals({
         {"gbuffer.clear", "visibility", pixels * 8,
          [&](const cl::Buffer& b) { clear(with(p.raster, &R::visibility, b)); }},
-        {"gbuffer.clear", "polygon_count", 4,
-         [&](const cl::Buffer& b) { clear(with(p.raster, &R::polygon_count, b)); }},
+        {"gbuffer.clear", "run_count", 4,
+         [&](const cl::Buffer& b) { clear(with(p.raster, &R::run_count, b)); }},
         {"gbuffer.transform", "vertices", vertices * sizeof(ScreenVertex),
          [&](const cl::Buffer& b) { transform(with(p.raster, &R::vertices, b)); }},
         {"gbuffer.raster", "visibility", pixels * 8,
          [&](const cl::Buffer& b) { raster(with(p.raster, &R::visibility, b)); }},
         {"gbuffer.raster", "polygons", triangles * sizeof(RasterPolygon),
          [&](const cl::Buffer& b) { raster(with(p.raster, &R::polygons, b)); }},
+        {"gbuffer.raster", "runs", raster_runs(triangles) * sizeof(RasterRun),
+         [&](const cl::Buffer& b) { raster(with(p.raster, &R::runs, b)); }},
         {"gbuffer.raster_large", "visibility", pixels * 8,
          [&](const cl::Buffer& b) { large(with(p.raster, &R::visibility, b)); }},
         {"gbuffer.resolve", "planes", GBUFFER_PLANES * stride * 4,

@@ -68,10 +68,10 @@ TEST(HalfStorage, TakesFewerBytesAndGivesNearlyTheSamePicture) {
         SecondOrderSolver solver(test::device().queue, placed, small_frame(build));
         bytes = solver.bytes();
         // Besides what is estimated, a few words.
-        EXPECT_NEAR(static_cast<double>(bytes),
-                    static_cast<double>(
-                        estimate(test::device().device, placed, small_frame(build)).bytes),
-                    0.01 * static_cast<double>(bytes));
+        EXPECT_NEAR(
+            static_cast<double>(bytes),
+            static_cast<double>(estimate(test::device().device, placed, small_frame(build)).bytes),
+            0.01 * static_cast<double>(bytes));
         solver.render(scene.cameras[0]).wait();
         return test::read_frame(test::device().queue, placed, solver);
     };
@@ -110,14 +110,12 @@ TEST(HalfStorage, IsTheSameForEveryWorkGroupAndPacket) {
 // One light of the given flux right in front of a wall.
 glm::vec3 lit_by(float flux, const ImagePasses& passes, Storage storage) {
     const std::uint32_t stride = 16;
-    const std::vector<IndirectLight> lights{
-        {{0, 0, 0.1f, 0}, {0, 0, -1, 0}, {flux, 1, -flux, 1}}};
+    const std::vector<IndirectLight> lights{{{0, 0, 0.1f, 0}, {0, 0, -1, 0}, {flux, 1, -flux, 1}}};
     std::vector<std::uint16_t> rows(POINT_HALF_ROWS * stride);
     const float position = 0.0f;
     std::memcpy(rows.data(), &position, sizeof position);
     rows[HALF_ROW(GBUFFER_NORMAL + 2) * stride] = glm::packHalf1x16(1.0f);
-    const cl::Buffer irradiance =
-        test::empty<std::uint16_t>(irradiance_bytes(storage, stride) / 2);
+    const cl::Buffer irradiance = test::empty<std::uint16_t>(irradiance_bytes(storage, stride) / 2);
     const cl::Buffer points = test::upload(rows), held = test::upload(lights);
     const cl::Buffer count = test::upload(std::vector<cl_uint>{1});
     passes.gather(test::device().queue, {stride, 1, 0, 0}, 1, count, points, held, held,
@@ -140,7 +138,8 @@ TEST(HalfStorage, KeepsLargeNumbersFiniteAndShowsWhatIsNot) {
         EXPECT_EQ(much.x, 65504.0f);
         EXPECT_EQ(much.z, -65504.0f);
         EXPECT_EQ(much.y, some.y);
-        const glm::vec3 none = lit_by(std::numeric_limits<float>::infinity(), passes, Storage::half);
+        const glm::vec3 none =
+            lit_by(std::numeric_limits<float>::infinity(), passes, Storage::half);
         EXPECT_FALSE(std::isfinite(none.x));
         EXPECT_FALSE(std::isfinite(none.z));
     }

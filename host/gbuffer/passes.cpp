@@ -48,10 +48,10 @@ GBufferPasses::GBufferPasses(const cl::Context& context, const cl::Device& devic
 cl::Event GBufferPasses::clear(const cl::CommandQueue& queue, const View& view,
                                const RasterBuffers& buffers, const WaitList& wait) const {
     need_visibility(clear_, view, buffers.visibility);
-    need(clear_, "polygon_count", buffers.polygon_count, sizeof(std::uint32_t));
+    need(clear_, "run_count", buffers.run_count, sizeof(std::uint32_t));
     const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
     return launch(clear_, queue, (pixels + 7) / 8, wait, view, buffers.visibility,
-                  buffers.polygon_count);
+                  buffers.run_count);
 }
 
 cl::Event GBufferPasses::transform(const cl::CommandQueue& queue, const View& view,
@@ -73,12 +73,14 @@ cl::Event GBufferPasses::raster(const cl::CommandQueue& queue, const View& view,
     need_visibility(raster_, view, buffers.visibility);
     need(raster_, "vertices", buffers.vertices, info.vertex_count * sizeof(ScreenVertex));
     need(raster_, "polygons", buffers.polygons, info.triangle_count * sizeof(RasterPolygon));
-    need(raster_, "polygon_count", buffers.polygon_count, sizeof(std::uint32_t));
+    need(raster_, "runs", buffers.runs, raster_runs(info.triangle_count) * sizeof(RasterRun));
+    need(raster_, "run_count", buffers.run_count, sizeof(std::uint32_t));
     const RasterParams params{info.triangle_count, stage, small_triangle, 0};
     const std::size_t batches =
         (packets(raster_, info.triangle_count) + RASTER_BATCH - 1) / RASTER_BATCH;
     return launch(raster_, queue, batches, wait, view, params, scene.triangles(), buffers.vertices,
-                  scene.positions(), buffers.visibility, buffers.polygons, buffers.polygon_count);
+                  scene.positions(), buffers.visibility, buffers.polygons, buffers.runs,
+                  buffers.run_count);
 }
 
 cl::Event GBufferPasses::raster_large(const cl::CommandQueue& queue, const View& view,
@@ -88,11 +90,13 @@ cl::Event GBufferPasses::raster_large(const cl::CommandQueue& queue, const View&
     need_visibility(raster_large_, view, buffers.visibility);
     need(raster_large_, "polygons", buffers.polygons,
          scene.info().triangle_count * sizeof(RasterPolygon));
-    need(raster_large_, "polygon_count", buffers.polygon_count, sizeof(std::uint32_t));
+    need(raster_large_, "runs", buffers.runs,
+         raster_runs(scene.info().triangle_count) * sizeof(RasterRun));
+    need(raster_large_, "run_count", buffers.run_count, sizeof(std::uint32_t));
     const std::size_t across = (view.width + RASTER_TILE - 1) / RASTER_TILE;
     const std::size_t down = (view.height + RASTER_TILE - 1) / RASTER_TILE;
     return launch(raster_large_, queue, across * down, wait, view, scene.info().flags,
-                  buffers.polygons, buffers.polygon_count, scene, buffers.visibility);
+                  buffers.polygons, buffers.runs, buffers.run_count, scene, buffers.visibility);
 }
 
 cl::Event GBufferPasses::resolve(const cl::CommandQueue& queue, const View& view,

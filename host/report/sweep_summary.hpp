@@ -29,7 +29,7 @@ Speedup speedup(const Sweep& sweep, const std::string& method, int truth);
 
 // What a way of building the kernels gains and costs: the points of the series "math".
 struct MathMode {
-    std::string math;  // "strict", "fast"
+    std::string math;     // "strict", "fast"
     std::string storage;  // "full", "half"
     double milliseconds = 0.0;
     double speed = 0.0;       // times as fast as strict math on floats

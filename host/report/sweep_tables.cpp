@@ -14,8 +14,8 @@ std::string knob(const SweepPoint& point, const char* name) {
     return found == point.knobs.end() ? "" : found->second;
 }
 
-constexpr const char* knobs[] = {"vpls",        "negative-vpls", "low-res",
-                                 "shadow-size", "area-samples",  "math", "storage", "spp"};
+constexpr const char* knobs[] = {"vpls",         "negative-vpls", "low-res", "shadow-size",
+                                 "area-samples", "math",          "storage", "spp"};
 
 }  // namespace
 

@@ -61,12 +61,12 @@ namespace {
 
 // Sizes in bytes of every buffer that a frame works with; 0: not needed.
 struct Sizes {
-    std::size_t vertices, polygons, source_visibility, camera_visibility, planes, ids, mask,
+    std::size_t vertices, polygons, runs, source_visibility, camera_visibility, planes, ids, mask,
         accepted, lights, negative, low_points, low_irradiance, flags, counts, listed,
         listed_points, listed_irradiance, irradiance, radiance;
 
     std::size_t sum() const {
-        return vertices + polygons + source_visibility + camera_visibility + planes + ids + mask +
+        return vertices + polygons + runs + source_visibility + camera_visibility + planes + ids + mask +
                accepted + lights + negative + low_points + low_irradiance + flags + counts +
                listed + listed_points + listed_irradiance + irradiance + radiance;
     }
@@ -84,6 +84,7 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
     Sizes out{};
     out.vertices = scene.info().vertex_count * sizeof(ScreenVertex);
     out.polygons = scene.info().triangle_count * sizeof(RasterPolygon);
+    out.runs = raster_runs(scene.info().triangle_count) * sizeof(RasterRun);
     out.source_visibility = set.pixels * sizeof(std::uint64_t);
     out.camera_visibility = pixel_count(options) * sizeof(std::uint64_t);
     out.planes = gbuffer_bytes(storage, stride);
@@ -174,7 +175,8 @@ void SecondOrderSolver::allocate() {
     };
     raster_.vertices = buffer(size.vertices);
     raster_.polygons = buffer(size.polygons);
-    raster_.polygon_count = word(0);
+    raster_.runs = buffer(size.runs);
+    raster_.run_count = word(0);
     camera_visibility_ = buffer(size.camera_visibility);
     sources_.visibility = buffer(size.source_visibility);
     sources_.view_count = set_.views.size();

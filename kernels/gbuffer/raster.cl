@@ -10,7 +10,7 @@
 //
 // Work size    1D, one work-item for every RASTER_BATCH * CLGI_WIDTH triangles (rounded up); any
 //              local size
-// Writes       visibility by integer minimum (no order), polygons (any order; all are drawn)
+// Writes       visibility by integer minimum (no order), runs of polygons (any order; all are drawn)
 // SPDX-License-Identifier: MIT
 #include "gbuffer/polygon.clh"
 #include "gbuffer/visibility.clh"
@@ -131,8 +131,9 @@ kernel void gbuffer_raster(
     global const ScreenVertex*   restrict vertices,       // [vertex_count] from gbuffer_transform
     global const float4*         restrict positions,      // [vertex_count] local frame
     volatile global ulong*       restrict visibility,     // [pixels of all views]
-    global RasterPolygon*        restrict polygons,       // [triangle_count]
-    volatile global uint*        restrict polygon_count)  // [1]
+    global RasterPolygon*        restrict polygons,    // [triangle_count]
+    global RasterRun*            restrict runs,        // [triangle_count / RASTER_BATCH]
+    volatile global uint*        restrict run_count)   // [1]
 {
     uint first = (uint)get_global_id(0) * (RASTER_BATCH * CLGI_WIDTH);
     if (first >= params.triangle_count) return;
@@ -183,6 +184,8 @@ kernel void gbuffer_raster(
         draw_small(&view, params.stage, small + n, min(small_count - n, CLGI_WIDTH), triangles,
                   vertices, visibility);
 
+    // Work-item i has the polygons from its first triangle's place on to itself.
+    RasterRun run = {INT_MAX, INT_MAX, -1, -1, first, 0, 0, 0};
     for (int n = 0; n < rest_count; ++n) {
         uint triangle = rest[n];
         uint4 corners = triangles[triangle];
@@ -213,7 +216,8 @@ kernel void gbuffer_raster(
             closeness[1] = v1.closeness;
             closeness[2] = v2.closeness;
         }
-        polygon_set_up(&view, pixels, closeness, corner_count, triangle, corners.w, polygons,
-                       polygon_count);
+        run.count += polygon_set_up(&view, pixels, closeness, corner_count, triangle, corners.w,
+                                    polygons + first + run.count, &run);
     }
+    if (run.count > 0) runs[atomic_inc(run_count)] = run;
 }

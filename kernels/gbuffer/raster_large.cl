@@ -18,9 +18,13 @@ typedef struct {
     int count;  // edges that cut the tile
 } TileEdges;
 
+// Pixels of a tile, inclusive.
+typedef struct {
+    int left, top, right, bottom;
+} Tile;
+
 // The edges of a polygon seen from one tile. Returns 0 when the polygon misses the tile.
-static int tile_edges(global const RasterPolygon* polygon, int tile_x, int tile_y,
-                      TileEdges* edges) {
+static int tile_edges(global const RasterPolygon* polygon, const Tile* tile, TileEdges* edges) {
     edges->count = 0;
     int corners = (int)polygon->count;
     for (int i = 0; i < corners; ++i) {
@@ -28,8 +32,8 @@ static int tile_edges(global const RasterPolygon* polygon, int tile_x, int tile_
         int px = polygon->x[i], py = polygon->y[i];
         int dx = polygon->x[next] - px, dy = polygon->y[next] - py;
         if (dx == 0 && dy == 0) continue;
-        long x = (long)tile_x * SUBPIXELS + SUBPIXELS / 2 - px;
-        long y = (long)tile_y * SUBPIXELS + SUBPIXELS / 2 - py;
+        long x = (long)tile->left * SUBPIXELS + SUBPIXELS / 2 - px;
+        long y = (long)tile->top * SUBPIXELS + SUBPIXELS / 2 - py;
         long owned = dy < 0 || (dy == 0 && dx > 0) ? 0 : -1;
         long first = ((long)dx * y - (long)dy * x + owned) >> 8;
         long across = -(long)dy * (RASTER_TILE - 1);
@@ -85,75 +89,88 @@ static void put_packet(uintp key, uint triangle, intp covered, global ulong* pix
 #endif
 }
 
+// Draws a polygon's pixels of one tile.
+static void draw_polygon(const View* view, uint scene_flags, const Tile* tile,
+                         global const RasterPolygon* polygon, const SceneBuffers* scene,
+                         global ulong* visibility) {
+    TileEdges edges;
+    if (!tile_edges(polygon, tile, &edges)) return;
+    int first_x = max(polygon->left, tile->left);
+    first_x = tile->left + (first_x - tile->left) / CLGI_WIDTH * CLGI_WIDTH;
+    int last_x = min(polygon->right, tile->right);
+    int last_y = min(polygon->bottom, tile->bottom);
+    for (int y = max(polygon->top, tile->top); y <= last_y; ++y) {
+        float row_closeness =
+            polygon->closeness + ((float)y + 0.5f - polygon->origin_y) * polygon->slope_y;
+        for (int x = first_x; x <= last_x; x += CLGI_WIDTH) {
+            intp column = x + packet_lanes;
+            intp covered = (column >= polygon->left) & (column <= last_x);
+            for (int e = 0; e < edges.count; ++e)
+                covered &= (edges.base[e] + edges.step_y[e] * (y - tile->top) +
+                            edges.step_x[e] * (column - tile->left)) >= 0;
+            if (!packet_any(covered)) continue;
+#ifndef CLGI_NO_TEXTURES
+            if (polygon->material & TRIANGLE_MASKED) {
+                covered = opaque(view, x, y, covered, polygon->triangle, scene, scene_flags);
+                if (!packet_any(covered)) continue;
+            }
+#endif
+            floatp closeness = row_closeness + (packet_float(column) + 0.5f - polygon->origin_x) *
+                                                   polygon->slope_x;
+            closeness = packet_min(packet_max(closeness, packet_splat(polygon->farthest)),
+                                   packet_splat(polygon->closest));
+            uintp key = ~packet_bits(closeness);
+
+            global ulong* pixels = visibility + view->first_pixel + (uint)y * view->width + (uint)x;
+            if (x + CLGI_WIDTH - 1 <= tile->right) {
+                put_packet(key, polygon->triangle, covered, pixels);
+            } else {  // the last packet of a row that is no multiple of the width
+                int lane_covered[CLGI_WIDTH];
+                uint lane_key[CLGI_WIDTH];
+                packet_store(covered, lane_covered);
+                packet_store(key, lane_key);
+                for (int k = 0; x + k <= tile->right; ++k)
+                    if (lane_covered[k])
+                        pixels[k] =
+                            min(pixels[k], ((ulong)lane_key[k] << 32) | polygon->triangle);
+            }
+        }
+    }
+}
+
 kernel void gbuffer_raster_large(
     const View                    view,
     const uint                    scene_flags,
-    global const RasterPolygon*   restrict polygons,       // [triangle_count]
-    global const uint*            restrict polygon_count,  // [1]
+    global const RasterPolygon*   restrict polygons,   // [triangle_count]
+    global const RasterRun*       restrict runs,       // [*run_count]
+    global const uint*            restrict run_count,  // [1]
     SCENE_ARGUMENTS,
-    global ulong*                 restrict visibility)     // [pixels of all views]
+    global ulong*                 restrict visibility)  // [pixels of all views]
 {
     int tiles_across = ((int)view.width + RASTER_TILE - 1) / RASTER_TILE;
     int tiles_down = ((int)view.height + RASTER_TILE - 1) / RASTER_TILE;
-    int tile = (int)get_global_id(0);
-    if (tile >= tiles_across * tiles_down) return;
-    int tile_x = tile % tiles_across * RASTER_TILE;
-    int tile_y = tile / tiles_across * RASTER_TILE;
-    int tile_right = min(tile_x + RASTER_TILE, (int)view.width) - 1;
-    int tile_bottom = min(tile_y + RASTER_TILE, (int)view.height) - 1;
+    int item = (int)get_global_id(0);
+    if (item >= tiles_across * tiles_down) return;
+    Tile tile;
+    tile.left = item % tiles_across * RASTER_TILE;
+    tile.top = item / tiles_across * RASTER_TILE;
+    tile.right = min(tile.left + RASTER_TILE, (int)view.width) - 1;
+    tile.bottom = min(tile.top + RASTER_TILE, (int)view.height) - 1;
     SceneBuffers scene = SCENE_BUFFERS;
 
-    uint count = polygon_count[0];
-    for (uint p = 0; p < count; ++p) {
-        global const RasterPolygon* polygon = polygons + p;
-        if (polygon->left > tile_right || polygon->right < tile_x || polygon->top > tile_bottom ||
-            polygon->bottom < tile_y)
+    uint count = run_count[0];
+    for (uint r = 0; r < count; ++r) {
+        global const RasterRun* run = runs + r;
+        if (run->left > tile.right || run->right < tile.left || run->top > tile.bottom ||
+            run->bottom < tile.top)
             continue;
-        TileEdges edges;
-        if (!tile_edges(polygon, tile_x, tile_y, &edges)) continue;
-
-        int first_x = max(polygon->left, tile_x);
-        first_x = tile_x + (first_x - tile_x) / CLGI_WIDTH * CLGI_WIDTH;
-        int last_x = min(polygon->right, tile_right);
-        int last_y = min(polygon->bottom, tile_bottom);
-        for (int y = max(polygon->top, tile_y); y <= last_y; ++y) {
-            float row_closeness = polygon->closeness +
-                                  ((float)y + 0.5f - polygon->origin_y) * polygon->slope_y;
-            for (int x = first_x; x <= last_x; x += CLGI_WIDTH) {
-                intp column = x + packet_lanes;
-                intp covered = (column >= polygon->left) & (column <= last_x);
-                for (int e = 0; e < edges.count; ++e)
-                    covered &= (edges.base[e] + edges.step_y[e] * (y - tile_y) +
-                                edges.step_x[e] * (column - tile_x)) >= 0;
-                if (!packet_any(covered)) continue;
-#ifndef CLGI_NO_TEXTURES
-                if (polygon->material & TRIANGLE_MASKED) {
-                    covered = opaque(&view, x, y, covered, polygon->triangle, &scene, scene_flags);
-                    if (!packet_any(covered)) continue;
-                }
-#endif
-                floatp closeness = row_closeness +
-                                   (packet_float(column) + 0.5f - polygon->origin_x) *
-                                       polygon->slope_x;
-                closeness = packet_min(packet_max(closeness, packet_splat(polygon->farthest)),
-                                       packet_splat(polygon->closest));
-                uintp key = ~packet_bits(closeness);
-
-                uint pixel = view.first_pixel + (uint)y * view.width + (uint)x;
-                if (x + CLGI_WIDTH - 1 <= tile_right) {
-                    put_packet(key, polygon->triangle, covered, visibility + pixel);
-                } else {  // the last packet of a row that is no multiple of the width
-                    int lane_covered[CLGI_WIDTH];
-                    uint lane_key[CLGI_WIDTH];
-                    packet_store(covered, lane_covered);
-                    packet_store(key, lane_key);
-                    for (int k = 0; x + k <= tile_right; ++k)
-                        if (lane_covered[k])
-                            visibility[pixel + k] =
-                                min(visibility[pixel + k],
-                                    ((ulong)lane_key[k] << 32) | polygon->triangle);
-                }
-            }
+        uint end = run->first + run->count;
+        for (uint p = run->first; p < end; ++p) {
+            global const RasterPolygon* polygon = polygons + p;
+            if (polygon->left > tile.right || polygon->right < tile.left ||
+                polygon->top > tile.bottom || polygon->bottom < tile.top)
+                continue;
+            draw_polygon(&view, scene_flags, &tile, polygon, &scene, visibility);
         }
     }
 }

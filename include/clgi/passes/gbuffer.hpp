@@ -15,11 +15,17 @@ namespace clgi {
 
 // What drawing a view works with besides the scene. visibility may hold several views.
 struct RasterBuffers {
-    cl::Buffer visibility;     // [pixels of all views] ulong
-    cl::Buffer vertices;       // [vertex_count] ScreenVertex
-    cl::Buffer polygons;       // [triangle_count] RasterPolygon
-    cl::Buffer polygon_count;  // [1] uint
+    cl::Buffer visibility;  // [pixels of all views] ulong
+    cl::Buffer vertices;    // [vertex_count] ScreenVertex
+    cl::Buffer polygons;    // [triangle_count] RasterPolygon
+    cl::Buffer runs;        // [raster_runs(triangle_count)] RasterRun
+    cl::Buffer run_count;   // [1] uint
 };
+
+// Runs of polygons that drawing may list, at most.
+inline std::size_t raster_runs(std::size_t triangles) {
+    return (triangles + RASTER_BATCH - 1) / RASTER_BATCH;
+}
 
 // Low-resolution points along a side of `size` pixels, one for every `step`.
 inline std::size_t low_size(std::uint32_t size, std::uint32_t step) {
@@ -31,7 +37,7 @@ public:
     GBufferPasses(const cl::Context& context, const cl::Device& device,
                   const BuildOptions& options = {});
 
-    // Empties the view's part of visibility, and the polygon list.
+    // Empties the view's part of visibility, and the list of runs.
     cl::Event clear(const cl::CommandQueue& queue, const View& view, const RasterBuffers& buffers,
                     const WaitList& wait = {}) const;
 
@@ -39,13 +45,13 @@ public:
     cl::Event transform(const cl::CommandQueue& queue, const View& view, const DeviceScene& scene,
                         const RasterBuffers& buffers, const WaitList& wait = {}) const;
 
-    // Draws small triangles and lists the others. stage: RASTER_FUSED where fused() says so, else
-    // once with RASTER_DEPTH and once with RASTER_IDENTITY.
+    // Draws small triangles and lists the others in runs. stage: RASTER_FUSED where fused() says
+    // so, else once with RASTER_DEPTH and once with RASTER_IDENTITY.
     cl::Event raster(const cl::CommandQueue& queue, const View& view, const DeviceScene& scene,
                      std::uint32_t stage, const RasterBuffers& buffers,
                      const WaitList& wait = {}) const;
 
-    // Draws the listed polygons.
+    // Draws the listed runs of polygons.
     cl::Event raster_large(const cl::CommandQueue& queue, const View& view,
                            const DeviceScene& scene, const RasterBuffers& buffers,
                            const WaitList& wait = {}) const;

@@ -62,6 +62,19 @@ typedef struct {
     uint pad1_;
 } RasterPolygon;
 
+// Polygons that one work-item of raster listed, side by side: neighbours on the mesh, so what lies
+// outside their common box is passed over at once.
+typedef struct {
+    int left;  // pixels, inclusive
+    int top;
+    int right;
+    int bottom;
+    uint first;  // polygon
+    uint count;
+    uint pad0_;
+    uint pad1_;
+} RasterRun;
+
 typedef struct {
     uint triangle_count;
     uint stage;       // RASTER_...
