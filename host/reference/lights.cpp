@@ -51,7 +51,7 @@ std::optional<Arrival> Lights::from_lamp(std::size_t index, const glm::vec3& poi
     Arrival out;
     if (lamp.kind == Light::Kind::directional) {
         out.direction = -lamp.direction;
-        out.from = point + (2.0f + glm::length(point)) * out.direction;  // the scene has radius 1
+        out.from = beyond(point, out.direction);
         out.irradiance = lamp.intensity;
         return out;
     }

@@ -15,9 +15,14 @@ namespace clgi::reference {
 struct Arrival {
     glm::vec3 from;        // where it starts
     glm::vec3 direction;   // unit, towards the light
-    glm::vec3 irradiance;  // lux at normal incidence; emissive triangles: radiance / density
+    glm::vec3 irradiance;  // lux at normal incidence; what has extent: radiance / density
     float density = 0.0f;  // of having drawn this direction, per steradian; 0: a lamp
 };
+
+// A point in a direction from another, beyond the scene, whose radius is 1.
+inline glm::vec3 beyond(const glm::vec3& point, const glm::vec3& direction) {
+    return point + (2.0f + glm::length(point)) * direction;
+}
 
 class Lights {
 public:

@@ -17,6 +17,12 @@ float power_heuristic(float density, float other) {
     return 1.0f / (1.0f + ratio * ratio);
 }
 
+// Share of a direction that was drawn in `way`, where the other way could have given it too.
+float share_of(Sampling way, Sampling ways, float density, float other) {
+    if (ways == Sampling::both) return power_heuristic(density, other);
+    return way == ways ? 1.0f : 0.0f;
+}
+
 bool above(const Surface& surface, const glm::vec3& direction) {
     return glm::dot(surface.normal, direction) > 0.0f &&
            glm::dot(surface.geometric, direction) > 0.0f;
@@ -37,39 +43,54 @@ bool Paths::glossy(int bounces) const {
     return bounces == 0 ? effects_.direct_gloss : effects_.indirect_gloss;
 }
 
-glm::vec3 Paths::by_lamp(std::size_t lamp, const Surface& surface, const Bsdf& bsdf,
-                         bool glossy) const {
-    const std::optional<Arrival> light = lights_.from_lamp(lamp, surface.position);
+// What a surface reflects of light that nothing may stand in the way of.
+glm::vec3 Paths::sent_on(const std::optional<Arrival>& light, float share, const Surface& surface,
+                         const Bsdf& bsdf, bool glossy) const {
     if (!light || !above(surface, light->direction)) return glm::vec3(0.0f);
     if (tracer_.blocked(off_surface(surface.position, surface.geometric), light->from))
         return glm::vec3(0.0f);
-    return reflected(bsdf, glossy, light->direction) * light->irradiance *
+    return share * reflected(bsdf, glossy, light->direction) * light->irradiance *
            glm::dot(surface.normal, light->direction);
 }
 
-// Direct light. also_met: emissive surfaces are met by sampled directions as well.
+std::optional<Arrival> Paths::from_sky(const glm::vec3& point, Random& random) const {
+    Arrival out;
+    out.direction = sky_.sample(random);
+    out.from = beyond(point, out.direction);
+    out.density = sky_.density(out.direction);
+    if (!(out.density > 0.0f)) return std::nullopt;
+    out.irradiance = sky_.radiance(out.direction) / out.density;
+    return out;
+}
+
+// Direct light. also_met: emissive surfaces and sky are met by sampled directions as well.
 glm::vec3 Paths::lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool also_met,
                      Random& random) const {
     glm::vec3 sum(0.0f);
     const std::size_t lamps = lights_.lamp_count();
     if (lamps <= few_lamps) {
         for (std::size_t lamp = 0; lamp < lamps; ++lamp)
-            sum += by_lamp(lamp, surface, bsdf, glossy);
+            sum += sent_on(lights_.from_lamp(lamp, surface.position), 1.0f, surface, bsdf, glossy);
     } else {
-        const auto lamp = static_cast<std::size_t>(random() * static_cast<float>(lamps));
-        sum +=
-            by_lamp(std::min(lamp, lamps - 1), surface, bsdf, glossy) * static_cast<float>(lamps);
+        const auto lamp =
+            std::min(static_cast<std::size_t>(random() * static_cast<float>(lamps)), lamps - 1);
+        sum += sent_on(lights_.from_lamp(lamp, surface.position), static_cast<float>(lamps),
+                       surface, bsdf, glossy);
     }
-    if (!lights_.has_surfaces()) return sum;
-    const std::optional<Arrival> light = lights_.from_surface(surface.position, random);
-    if (!light || !above(surface, light->direction)) return sum;
-    if (tracer_.blocked(off_surface(surface.position, surface.geometric), light->from)) return sum;
     const bool lobe_drawn = effects_.direct_gloss || effects_.indirect_gloss;
-    const float share =
-        also_met ? power_heuristic(light->density, bsdf.density(light->direction, lobe_drawn))
-                 : 1.0f;
-    return sum + share * reflected(bsdf, glossy, light->direction) * light->irradiance *
-                     glm::dot(surface.normal, light->direction);
+    const auto add = [&](Sampling ways, const std::optional<Arrival>& light) {
+        if (!light) return;
+        const float share = also_met ? share_of(Sampling::lights, ways, light->density,
+                                                bsdf.density(light->direction, lobe_drawn))
+                                     : 1.0f;
+        sum += sent_on(light, share, surface, bsdf, glossy);
+    };
+    const auto drawn = [&](Sampling ways) { return !also_met || ways != Sampling::lobes; };
+    if (lights_.has_surfaces() && drawn(sampling_))
+        add(sampling_, lights_.from_surface(surface.position, random));
+    if (sky_.shines() && drawn(sky_sampling_))
+        add(sky_sampling_, from_sky(surface.position, random));
+    return sum;
 }
 
 // Reflections 0 to last, shadowed.
@@ -81,7 +102,7 @@ glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& ra
         const Bsdf bsdf(surface, -direction);
         const bool counted = counts(k);
         if (counted) sum += weight * lit(surface, bsdf, glossy(k), true, random);
-        if (k == last && !(counted && lights_.has_surfaces())) break;
+        if (k == last && !(counted && (lights_.has_surfaces() || sky_.shines()))) break;
 
         const glm::vec3 onward = bsdf.sample(random, lobe_drawn);
         const float density = bsdf.density(onward, lobe_drawn);
@@ -89,12 +110,18 @@ glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& ra
         const float cosine = glm::dot(surface.normal, onward);
         const std::optional<Hit> hit =
             tracer_.first({off_surface(surface.position, surface.geometric), onward});
-        if (!hit) break;
+        if (!hit) {
+            if (counted && sky_.shines())
+                sum += weight * reflected(bsdf, glossy(k), onward) * sky_.radiance(onward) *
+                       (cosine / density *
+                        share_of(Sampling::lobes, sky_sampling_, density, sky_.density(onward)));
+            break;
+        }
         Surface next = surface_at(geometry_, *hit, onward);
         if (counted && greatest(next.emission) > 0.0f) {
             const float other = lights_.density(*hit, surface.position);
             sum += weight * reflected(bsdf, glossy(k), onward) * next.emission *
-                   (cosine / density * power_heuristic(density, other));
+                   (cosine / density * share_of(Sampling::lobes, sampling_, density, other));
         }
         weight *= reflected(bsdf, effects_.indirect_gloss, onward) * (cosine / density);
         if (k >= roulette_depth_) {

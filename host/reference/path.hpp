@@ -6,22 +6,32 @@
 
 #include "reference/bsdf.hpp"
 #include "reference/lights.hpp"
+#include "reference/sky.hpp"
 #include "reference/tracer.hpp"
 
 namespace clgi::reference {
 
 class Paths {
 public:
-    Paths(const Geometry& geometry, const Tracer& tracer, const Lights& lights,
-          const Effects& effects, int roulette_depth)
+    Paths(const Geometry& geometry, const Tracer& tracer, const Lights& lights, const Sky& sky,
+          const Options& options)
         : geometry_(geometry),
           tracer_(tracer),
           lights_(lights),
-          effects_(effects),
-          roulette_depth_(roulette_depth) {}
+          sky_(sky),
+          effects_(options.effects),
+          sampling_(options.sampling),
+          // Lobes alone find an even sky without noise of its own.
+          sky_sampling_(sky.even() && sampling_ == Sampling::both ? Sampling::lobes : sampling_),
+          roulette_depth_(options.roulette_depth) {}
 
     // direction: in which `seen` was looked at, unit. An unbiased sample of radiance, cd/m^2.
     glm::vec3 sample(const Surface& seen, const glm::vec3& direction, Random& random) const;
+
+    // The same of a direction in which nothing is.
+    glm::vec3 background(const glm::vec3& direction) const {
+        return effects_.emission ? sky_.radiance(direction) : glm::vec3(0.0f);
+    }
 
 private:
     bool counts(int bounces) const;
@@ -30,13 +40,17 @@ private:
     glm::vec3 unshadowed(const Surface& surface, const glm::vec3& direction, Random& random) const;
     glm::vec3 lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool also_met,
                   Random& random) const;
-    glm::vec3 by_lamp(std::size_t lamp, const Surface& surface, const Bsdf& bsdf,
-                      bool glossy) const;
+    glm::vec3 sent_on(const std::optional<Arrival>& light, float share, const Surface& surface,
+                      const Bsdf& bsdf, bool glossy) const;
+    std::optional<Arrival> from_sky(const glm::vec3& point, Random& random) const;
 
     const Geometry& geometry_;
     const Tracer& tracer_;
     const Lights& lights_;
+    const Sky& sky_;
     Effects effects_;
+    Sampling sampling_;
+    Sampling sky_sampling_;
     int roulette_depth_;
 };
 

@@ -15,10 +15,13 @@ namespace clgi::reference {
 
 struct PathTracer::World {
     explicit World(const Scene& scene)
-        : geometry(scene), tracer(geometry), lights(scene, geometry) {}
+        : geometry(scene), tracer(geometry), lights(scene, geometry), sky(scene.environment) {}
+    Paths paths(const Options& options) const { return {geometry, tracer, lights, sky, options}; }
+
     Geometry geometry;
     Tracer tracer;
     Lights lights;
+    Sky sky;
 };
 
 namespace {
@@ -128,8 +131,7 @@ Picture PathTracer::render(const Camera& camera, const Options& options,
                     std::to_string(options.height) + ", 1x1 to 16384x16384 needed");
     const auto start = std::chrono::steady_clock::now();
     const Geometry& geometry = world_->geometry;
-    const Paths paths(geometry, world_->tracer, world_->lights, options.effects,
-                      options.roulette_depth);
+    const Paths paths = world_->paths(options);
     const CameraRays rays(camera, geometry, options.width, options.height);
     const auto width = static_cast<std::size_t>(options.width);
     std::vector<Tally> tallies(width * static_cast<std::size_t>(options.height));
@@ -143,10 +145,10 @@ Picture PathTracer::render(const Camera& camera, const Options& options,
             const auto y = static_cast<float>(pixel / width);
             const Ray ray = rays.through(x + 0.5f, y + 0.5f);
             const std::optional<Hit> hit = world_->tracer.first(ray, true);
-            if (!hit) return glm::vec3(0.0f);
+            const glm::vec3 direction = glm::normalize(ray.direction);
+            if (!hit) return paths.background(direction);
             const float right = random(), down = random();
             const Ray beside = rays.through(x + right, y + down);
-            const glm::vec3 direction = glm::normalize(ray.direction);
             const Surface seen =
                 surface_at(geometry, *hit, direction, on_plane(geometry, hit->triangle, beside));
             return paths.sample(seen, direction, random);
@@ -161,19 +163,21 @@ Picture PathTracer::render(const Camera& camera, const Options& options,
     return out;
 }
 
-Irradiance PathTracer::irradiance(const std::vector<Place>& places, const Options& options) const {
+Irradiance PathTracer::irradiance(const std::vector<Place>& places, const Options& options,
+                                  const Progress& progress) const {
     check(options);
-    const Paths paths(world_->geometry, world_->tracer, world_->lights, options.effects,
-                      options.roulette_depth);
+    const auto start = std::chrono::steady_clock::now();
+    const Paths paths = world_->paths(options);
     std::vector<Tally> tallies(places.size());
-    bool cancelled = false;
     Irradiance out;
-    out.samples =
-        accumulate(options, tallies, nullptr, cancelled, [&](std::size_t item, Random& random) {
+    out.samples = accumulate(
+        options, tallies, progress, out.cancelled, [&](std::size_t item, Random& random) {
+            const Place& place = places[item];
             // Reflects all, evenly, pi times over: radiance is irradiance.
             Surface surface{};
-            surface.position = world_->geometry.to_local(places[item].position);
-            surface.geometric = surface.normal = places[item].normal;
+            surface.position = world_->geometry.to_local(place.position);
+            surface.normal = place.normal;
+            surface.geometric = place.geometric == glm::vec3(0.0f) ? place.normal : place.geometric;
             surface.albedo = glm::vec3(pi);
             surface.reflects = true;
             return paths.sample(surface, -surface.normal, random);
@@ -183,6 +187,8 @@ Irradiance PathTracer::irradiance(const std::vector<Place>& places, const Option
         out.error.push_back(static_cast<float>(tally.standard_error(out.samples)));
         out.non_finite += tally.non_finite;
     }
+    out.relative_error = relative_error(tallies, out.samples);
+    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;
 }
 

@@ -204,6 +204,37 @@ void check_cameras(const Scene& scene) {
     }
 }
 
+void check_environment(const Environment& environment) {
+    const std::string size =
+        std::to_string(environment.width) + "x" + std::to_string(environment.height);
+    const bool none = environment.width == 0 && environment.height == 0;
+    if (!none && !(environment.width >= 1 && environment.width <= 65536 &&
+                   environment.height >= 1 && environment.height <= 65536)) {
+        fail("the environment is of " + size + " texels, 0x0 or 1x1 to 65536x65536 needed");
+    }
+    const std::size_t texels =
+        static_cast<std::size_t>(environment.width) * static_cast<std::size_t>(environment.height);
+    if (environment.texels.size() != texels) {
+        fail("the environment of " + size + " texels has " +
+             std::to_string(environment.texels.size()));
+    }
+    if (!std::isfinite(environment.rotation)) fail("the environment's rotation is not finite");
+    for (int c = 0; c < 3; ++c) {
+        const float factor = environment.factor[c];
+        if (!(factor >= 0.0f) || !std::isfinite(factor)) {
+            fail("the environment has a factor that is negative or not finite");
+        }
+    }
+    for (std::size_t i = 0; i < texels; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const float value = environment.texels[i][c];
+            if (!(value >= 0.0f) || !std::isfinite(value * environment.factor[c])) {
+                fail(entry("environment texel", i) + " is negative or not finite");
+            }
+        }
+    }
+}
+
 }  // namespace
 
 void validate(const Scene& scene) {
@@ -213,6 +244,7 @@ void validate(const Scene& scene) {
     check_materials(scene);
     check_lights(scene);
     check_cameras(scene);
+    if (scene.environment) check_environment(*scene.environment);
 }
 
 Bounds bounds(const Scene& scene) {

@@ -18,7 +18,7 @@ namespace clgi::reference {
 // then by the one that is seen: 0 is direct light.
 struct Effects {
     static constexpr int unlimited = std::numeric_limits<int>::max();
-    bool emission = true;  // surfaces seen shining
+    bool emission = true;  // surfaces and environment seen shining
     bool direct = true;    // k = 0
     int first_bounce = 1;  // indirect paths: first_bounce <= k <= last_bounce
     int last_bounce = unlimited;
@@ -34,6 +34,11 @@ struct Effects {
 // exclude each other.
 Effects parse_effects(const std::string& list);
 
+// How directions towards what shines and has extent (emissive surfaces, the environment) are drawn:
+// for the light's sake, for the surface's, or both ways, weighed by the power heuristic. One way
+// alone is noisier and converges to the same picture.
+enum class Sampling { both, lights, lobes };
+
 struct Options {
     int width = 640;  // pixels
     int height = 480;
@@ -45,12 +50,15 @@ struct Options {
     std::uint64_t seed = 1;   // same seed, same picture, whatever the number of threads
     int roulette_depth = 16;  // surfaces that a path meets before chance may end it
     int threads = 0;          // 0: all
+    Sampling sampling = Sampling::both;
 };
 
 // A place to be lit, for irradiance(): local light atlases, probes, tests.
 struct Place {
     glm::dvec3 position;  // metres
     glm::vec3 normal;     // unit
+    // Of the surface behind it, unit: light from below that surface does not count. 0: `normal`.
+    glm::vec3 geometric = glm::vec3(0.0f);
 };
 
 struct Picture {
@@ -69,10 +77,13 @@ struct Irradiance {
     std::vector<glm::vec3> values;  // lux
     std::vector<float> error;       // standard error of luminance
     int samples = 0;
-    std::size_t non_finite = 0;  // samples left out because they were
+    std::size_t non_finite = 0;   // samples left out because they were
+    double relative_error = 0.0;  // root of the mean squared standard error, over the mean
+    double seconds = 0.0;
+    bool cancelled = false;
 };
 
-// Called between passes over the picture with the share done, [0,1]; false cancels.
+// Called between passes over the pixels or places with the share done, [0,1]; false cancels.
 using Progress = std::function<bool(double done)>;
 
 class PathTracer {
@@ -87,7 +98,8 @@ public:
                    const Progress& progress = nullptr) const;
 
     // What arrives at places, cosine included. width and height are not looked at.
-    Irradiance irradiance(const std::vector<Place>& places, const Options& options) const;
+    Irradiance irradiance(const std::vector<Place>& places, const Options& options,
+                          const Progress& progress = nullptr) const;
 
 private:
     struct World;

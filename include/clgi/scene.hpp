@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,20 @@ struct Camera {
     float near = 0.0f;          // metres; 0: derived from the scene's size
 };
 
+// Light from infinitely far, in every direction: a latitude-longitude picture or one colour.
+//
+// Row 0 of the picture lies around +Y, the last around -Y. Its columns go round as a viewer at the
+// origin sees them, from left to right: the middle of the picture is -Z, three quarters of its
+// width are +X, both edges +Z. A texel's radiance is the same all over it.
+struct Environment {
+    int width = 0;  // texels; 0x0: no picture, the factor alone
+    int height = 0;
+    std::vector<glm::vec3> texels;       // [height][width] linear rgb, at least 0
+    glm::vec3 factor = glm::vec3(1.0f);  // times the texel: radiance, cd/m^2
+    float rotation = 0.0f;  // radians about +Y, counter-clockwise seen from above: a quarter
+                            // turn takes the picture's middle from -Z to -X
+};
+
 // A range of triangles that moves as one: a glTF primitive placed by a node.
 struct Part {
     std::string name;
@@ -108,6 +123,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::vector<Part> parts;
+    std::optional<Environment> environment;  // none: black
 
     std::vector<std::string> warnings;  // one line each: what was ignored, mended or assumed
 };
@@ -116,14 +132,14 @@ struct Scene {
 Bounds bounds(const Scene& scene);
 
 // Throws InputError naming the first array, index and value that breaks Scene's contract:
-// array lengths, indices in range, finite positions, unit-length normals, materials and lights
-// in their ranges.
+// array lengths, indices in range, finite positions, unit-length normals, materials, lights and
+// environment in their ranges.
 void validate(const Scene& scene);
 
 // A camera looking at (or, in a room, through) the scene, for files that have none.
 Camera default_camera(const Scene& scene);
 
-// A light for files without any lamp or emissive surface: a directional light, pi lux.
+// A light for scenes without lamp, emissive surface and environment: a directional light, pi lux.
 Light default_light(const Scene& scene);
 
 bool has_emission(const Scene& scene);
