@@ -52,6 +52,10 @@
     MEMBER(CombineParams, stride) MEMBER(CombineParams, emitter_count)                          \
     MEMBER(CombineParams, exposure) MEMBER(CombineParams, texel_bias)                           \
     MEMBER(CombineParams, effects) MEMBER(CombineParams, pad_)                                  \
+    SIZE(EnvironmentParams) MEMBER(EnvironmentParams, factor)                                   \
+    MEMBER(EnvironmentParams, environment_width)                                                \
+    MEMBER(EnvironmentParams, environment_height) MEMBER(EnvironmentParams, stride)             \
+    MEMBER(EnvironmentParams, turn)                                                             \
     SIZE(TonemapParams) MEMBER(TonemapParams, width) MEMBER(TonemapParams, height)              \
     MEMBER(TonemapParams, stride) MEMBER(TonemapParams, exposure)                               \
     SIZE(MaterialRecord) MEMBER(MaterialRecord, base_color) MEMBER(MaterialRecord, emission)    \

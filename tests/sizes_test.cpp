@@ -181,6 +181,7 @@ TEST(Sizes, OfImagePasses) {
     combine.stride = stride;
     combine.effects = COMBINE_INDIRECT;
     const GatherParams gather{stride, 0, 0, 0};
+    const EnvironmentParams environment{glm::vec4(1.0f), 1, 1, stride, 0.0f};
     const std::size_t plane = stride * sizeof(float);
     const std::size_t points = POINT_PLANES * plane, irradiance = IRRADIANCE_PLANES * plane;
     const auto into = [&](const cl::Buffer& b) {
@@ -234,6 +235,12 @@ TEST(Sizes, OfImagePasses) {
          [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, z, b, a); }},
         {"image.combine", "non_finite", 4,
          [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, z, a, b); }},
+        {"image.environment", "texels", 3 * sizeof(float),
+         [&](B b) { passes.environment(queue, environment, p.view, b, z, a); }},
+        {"image.environment", "ids", GBUFFER_ID_PLANES * plane,
+         [&](B b) { passes.environment(queue, environment, p.view, z, b, a); }},
+        {"image.environment", "radiance", RADIANCE_PLANES * plane,
+         [&](B b) { passes.environment(queue, environment, p.view, z, z, b); }},
         {"image.tonemap", "radiance", RADIANCE_PLANES * plane,
          [&](B b) {
              passes.tonemap(queue, {width, height, stride, 1.0f}, b, a);
@@ -249,6 +256,8 @@ TEST(Sizes, OfImagePasses) {
     EXPECT_THROW(passes.gather(queue, gather, pixels, tiny, z, z, z, a), Error);
     EXPECT_THROW(passes.gather(queue, {15, 0, 0, 0}, pixels, z, z, z, z, a), Error);
     EXPECT_THROW(passes.place(queue, refine, tiny, z, z, a), Error);
+    EXPECT_THROW(
+        passes.environment(queue, {glm::vec4(1.0f), 0, 1, stride, 0.0f}, p.view, z, z, a), Error);
     EXPECT_THROW(passes.compact(queue, refine, z, tiny, z, a, a, a), Error);
 }
 

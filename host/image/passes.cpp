@@ -41,6 +41,8 @@ ImagePasses::ImagePasses(const cl::Context& context, const cl::Device& device,
     place_ = kernels[4];
     combine_ = kernels[5];
     tonemap_ = kernels[6];
+    if (options.environment)
+        environment_ = build_room(context, device, "image", {"environment"}, options)[0];
     prefer_small_groups(count_, device, options);
     prefer_small_groups(compact_, device, options);
 }
@@ -137,6 +139,27 @@ cl::Event ImagePasses::combine(const cl::CommandQueue& queue, const CombineParam
     return launch(combine_, queue, packets(combine_, pixels), wait, params, view, sources.emitters,
                   sources.views, sources.visibility, scene.materials(), planes, ids, irradiance,
                   radiance, non_finite);
+}
+
+cl::Event ImagePasses::environment(const cl::CommandQueue& queue, const EnvironmentParams& params,
+                                   const View& view, const cl::Buffer& texels,
+                                   const cl::Buffer& ids, const cl::Buffer& radiance,
+                                   const WaitList& wait) const {
+    if (!environment_.kernel())
+        throw Error(
+            "image.environment: the kernels were built without it (BuildOptions::environment)");
+    const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
+    if (params.environment_width < 1 || params.environment_height < 1)
+        throw Error("image.environment: the picture is " +
+                    std::to_string(params.environment_width) + "x" +
+                    std::to_string(params.environment_height) + ", at least 1x1 needed");
+    need_stride(environment_, "stride", params.stride, pixels);
+    need(environment_, "texels", texels,
+         plane_bytes(3, std::size_t{params.environment_width} * params.environment_height));
+    need(environment_, "ids", ids, plane_bytes(GBUFFER_ID_PLANES, params.stride));
+    need(environment_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
+    return launch(environment_, queue, packets(environment_, pixels), wait, params, view, texels,
+                  ids, radiance);
 }
 
 cl::Event ImagePasses::tonemap(const cl::CommandQueue& queue, const TonemapParams& params,

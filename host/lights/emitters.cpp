@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "lights/median_cut.hpp"
 #include "lights/replicate.hpp"
 #include "scene/luminance.hpp"
 
@@ -31,6 +32,7 @@ struct Source {
     std::vector<View> views;
     double power = 0.0;
     double acceptance = 0.0;  // share of the sphere in a spot's cone
+    bool of_environment = false;
 };
 
 View window(const glm::vec3& eye, const glm::vec3& right, const glm::vec3& up,
@@ -126,6 +128,22 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
     return out;
 }
 
+// Directional lights that stand for the environment.
+std::vector<Source> environment_lights(const DeviceScene& scene, const EmitterOptions& options) {
+    std::vector<Source> out;
+    if (!scene.environment()) return out;
+    for (const EnvironmentLight& part :
+         median_cut(*scene.environment(), options.environment_lights)) {
+        Light light;
+        light.kind = Light::Kind::directional;
+        light.direction = glm::vec3(-part.toward);
+        light.intensity = glm::vec3(part.lux);
+        out.push_back(directional(light, scene.frame(), options));
+        out.back().of_environment = true;
+    }
+    return out;
+}
+
 // `count` points on the emissive triangles, each standing for an equal share of their power.
 std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions& options) {
     const std::vector<EmissiveTriangle>& triangles = scene.emissive();
@@ -215,6 +233,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     check("shadow_size", options.shadow_size, 1, 8192);
     check("face_size", options.face_size, 1, 4096);
     check("area_samples", options.area_samples, 0, 4096);
+    check("environment_lights", options.environment_lights, 0, 4096);
 
     std::vector<Source> sources;
     if (scene.info().triangle_count > 0) {
@@ -222,16 +241,25 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
             sources.push_back(light.kind == Light::Kind::directional
                                   ? directional(light, scene.frame(), options)
                                   : spot_or_point(light, scene.frame(), options));
-        const std::vector<Source> areas = area_samples(scene, options);
-        sources.insert(sources.end(), areas.begin(), areas.end());
+        for (const auto& more : {area_samples(scene, options), environment_lights(scene, options)})
+            sources.insert(sources.end(), more.begin(), more.end());
     }
     std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
 
     EmitterSet out;
     if (sources.empty()) return out;
     const std::vector<std::uint32_t> shares = divide(sources, options.lights);
+    // All directions of the environment spread their lights over one disc together.
+    std::uint32_t of_environment = 0;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        if (sources[i].of_environment) of_environment += shares[i];
     for (std::size_t i = 0; i < sources.size(); ++i) {
         Source& source = sources[i];
+        if (source.emitter.kind == EMITTER_DIRECTIONAL) {
+            const std::uint32_t sharing = source.of_environment ? of_environment : shares[i];
+            source.emitter.area =
+                source.emitter.measure * (1.0f / static_cast<float>(std::max(sharing, 1u)));
+        }
         source.emitter.first_view = static_cast<std::uint32_t>(out.views.size());
         source.emitter.view_count = static_cast<std::uint32_t>(source.views.size());
         source.emitter.first_light = static_cast<std::uint32_t>(out.light_count);

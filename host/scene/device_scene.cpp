@@ -6,9 +6,10 @@
 #include <cmath>
 #include <string>
 
+#include "scene/environment.hpp"
 #include "scene/locality.hpp"
-#include "scene/texture_pool.hpp"
 #include "scene/luminance.hpp"
+#include "scene/texture_pool.hpp"
 
 namespace clgi {
 namespace {
@@ -41,6 +42,10 @@ double common_exposure(const Scene& scene, const SceneFrame& frame) {
     for (const Material& material : scene.materials)
         brightest = std::max({brightest, double{material.emission.x}, double{material.emission.y},
                               double{material.emission.z}});
+    if (scene.environment) {
+        const glm::dvec3 fluence = environment_fluence(*scene.environment);
+        brightest = std::max({brightest, fluence.x, fluence.y, fluence.z});
+    }
     if (!(brightest > 0.0)) return 1.0;
     int exponent = 0;
     std::frexp(brightest, &exponent);
@@ -207,6 +212,10 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     textures_ = upload("texture records", std::move(pool.records));
     texels_ = upload("texels", std::move(pool.texels));
     decode_ = upload("the sRGB table", srgb_decode_table());
+    if (scene.environment) {
+        environment_ = with_picture(*scene.environment);
+        environment_texels_ = upload("environment texels", environment_->texels);
+    }
     bytes_ = upload.bytes;
 }
 

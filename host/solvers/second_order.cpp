@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "lights/replicate.hpp"
 #include "solvers/recorder.hpp"
@@ -32,10 +33,11 @@ void on_device(const char* what, Work&& work) {
     }
 }
 
-// Kernels are built with textures only where the scene calls for them.
+// Kernels are built for textures and an environment only where the scene calls for them.
 SecondOrderOptions checked(SecondOrderOptions options, const DeviceScene& scene) {
     check(options);
     options.build.textures = options.build.textures && scene.needs_textures();
+    options.build.environment = options.build.environment && scene.environment().has_value();
     return options;
 }
 
@@ -235,6 +237,20 @@ void SecondOrderSolver::combine(Recorder& record, const View& view) {
     });
 }
 
+// What the environment sends where nothing stands before it.
+void SecondOrderSolver::fill_background(Recorder& record, const View& view) {
+    const Environment& environment = *scene_.environment();
+    const double turns = double{environment.rotation} / glm::two_pi<double>();
+    const EnvironmentParams params{glm::vec4(environment.factor, 0.0f),
+                                   static_cast<std::uint32_t>(environment.width),
+                                   static_cast<std::uint32_t>(environment.height), stride_,
+                                   static_cast<float>(turns - std::floor(turns))};
+    record("image.environment", pixel_count(options_), [&](const WaitList& wait) {
+        return image_.environment(queue_, params, view, scene_.environment_texels(), ids_,
+                                  radiance_, wait);
+    });
+}
+
 // Nothing to see, or nothing that shines: black, without a kernel.
 cl::Event SecondOrderSolver::black_frame() {
     const auto fill = [&](const cl::Buffer& buffer, auto value) {
@@ -263,7 +279,8 @@ cl::Event SecondOrderSolver::frame(const Camera& camera, const Progress& progres
     };
     const bool empty = scene_.info().triangle_count == 0;
     const bool dark = set_.emitters.empty() && !(scene_.info().flags & SCENE_HAS_EMISSION);
-    if (empty || dark) {
+    const bool background = options_.direct && scene_.environment();
+    if ((empty || dark) && !background) {
         const cl::Event event = black_frame();
         go_on(1.0);
         return event;
@@ -272,6 +289,7 @@ cl::Event SecondOrderSolver::frame(const Camera& camera, const Progress& progres
     if (go_on(0.2)) draw_camera(record, view);
     if (go_on(0.4) && indirect_) light_points(record, view);
     if (go_on(0.9)) combine(record, view);
+    if (!cancelled && background) fill_background(record, view);
     frame_end_ = record.wait();
     go_on(1.0);
     return frame_end_.empty() ? cl::Event() : frame_end_.front();

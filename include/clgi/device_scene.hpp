@@ -43,6 +43,8 @@ public:
     const SceneInfo& info() const { return info_; }
     const std::vector<Light>& lights() const { return lights_; }
     const std::vector<EmissiveTriangle>& emissive() const { return emissive_; }
+    // With a picture of one texel where the scene's had none.
+    const std::optional<Environment>& environment() const { return environment_; }
     bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
     bool needs_textures() const {                  // some surface has a texture or an alpha mask
         return has_masks_ || (info_.flags & SCENE_HAS_TEXTURES) != 0;
@@ -62,6 +64,8 @@ public:
     const cl::Buffer& triangles() const { return triangles_; }
     const cl::Buffer& positions() const { return positions_; }
     const cl::Buffer& materials() const { return materials_; }
+    // [height][width][3] float of the environment's picture, before its factor.
+    const cl::Buffer& environment_texels() const { return environment_texels_; }
 
 private:
     SceneFrame frame_;
@@ -69,11 +73,12 @@ private:
     std::vector<Light> lights_;
     std::vector<EmissiveTriangle> emissive_;
     std::vector<std::uint32_t> triangle_order_;
+    std::optional<Environment> environment_;
     bool has_lobes_ = false;
     bool has_masks_ = false;
     std::size_t bytes_ = 0;
     cl::Buffer triangles_, positions_, normals_, uvs_, colors_, materials_, textures_, texels_,
-        decode_;
+        decode_, environment_texels_;
 };
 
 // The reflectance that a material stands for (docs/materials.md).

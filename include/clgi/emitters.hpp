@@ -14,6 +14,7 @@ struct EmitterOptions {
     int shadow_size = 512;  // pixels, side of a spot's or directional light's image
     int face_size = 256;    // pixels, side of a cube or hemicube face
     int area_samples = 16;  // points that stand for all emissive surfaces together
+    int environment_lights = 16;  // directions that stand for the environment
     // 0: the Halton points themselves; any other: a randomised shift of them (Cranley and
     // Patterson), so that several replicates tell how far off one is.
     std::uint32_t replicate = 0;
@@ -27,8 +28,9 @@ struct EmitterSet {
     std::size_t light_count = 0;
 };
 
-// One emitter a lamp, `area_samples` more for the emissive triangles (stratified by power), each
-// with its views and its share of the indirect lights. Lamps without power are left out.
+// One emitter a lamp, `area_samples` more for the emissive triangles (stratified by power) and
+// `environment_lights` for the environment (median cut [Debevec05]), each with its views and its
+// share of the indirect lights. Lamps without power are left out.
 //
 // A spot of more than 60 degrees from its axis is seen through a cube, like a point light.
 // Where more than 2^22 candidates would have to be tried (300 lights below a degree), the cone is

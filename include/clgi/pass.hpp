@@ -25,11 +25,13 @@ struct BuildOptions {
     bool parallel = true;        // compile several kernels at a time; not every driver can
     bool textures = true;        // without, kernels compile faster, for scenes without textures
                                  // and alpha masks only (DeviceScene::needs_textures)
+    bool environment = true;     // build the pass that draws environments
 };
 
 inline bool operator==(const BuildOptions& a, const BuildOptions& b) {
-    return a.math == b.math && a.storage == b.storage && a.packet_width == b.packet_width && a.local_size == b.local_size &&
-           a.atomics64 == b.atomics64 && a.parallel == b.parallel && a.textures == b.textures;
+    return a.math == b.math && a.storage == b.storage && a.packet_width == b.packet_width &&
+           a.local_size == b.local_size && a.atomics64 == b.atomics64 && a.parallel == b.parallel &&
+           a.textures == b.textures && a.environment == b.environment;
 }
 inline bool operator!=(const BuildOptions& a, const BuildOptions& b) { return !(a == b); }
 

@@ -36,8 +36,10 @@ kernel void lights_fetch(
     while (e + 1 < params.emitter_count && light >= emitters[e + 1].first_light) ++e;
     global const Emitter* emitter = emitters + e;
     uint rank = light - emitter->first_light;
-    // Samples of the emissive surfaces go on along one sequence: each alone has too few directions.
-    uint index = emitter->kind == EMITTER_AREA ? light + 1 : rank + 1;
+    // Samples of the emissive surfaces, and of the directions of an environment, go on along one
+    // sequence: each alone has too few.
+    int one_of_many = emitter->kind == EMITTER_AREA || emitter->kind == EMITTER_DIRECTIONAL;
+    uint index = one_of_many ? light + 1 : rank + 1;
     if (emitter->kind == EMITTER_SPOT) index = accepted[light];
 
     IndirectLight out;

@@ -54,6 +54,12 @@ public:
                       const cl::Buffer& radiance, const cl::Buffer& non_finite,
                       const WaitList& wait = {}) const;
 
+    // Pixels of the view in which nothing is -> radiance [RADIANCE_PLANES][stride]; texels:
+    // [environment_height][environment_width][3] float, times the factor in cd/m^2.
+    cl::Event environment(const cl::CommandQueue& queue, const EnvironmentParams& params,
+                          const View& view, const cl::Buffer& texels, const cl::Buffer& ids,
+                          const cl::Buffer& radiance, const WaitList& wait = {}) const;
+
     // preview: [width * height] uint, RGBA8.
     cl::Event tonemap(const cl::CommandQueue& queue, const TonemapParams& params,
                       const cl::Buffer& radiance, const cl::Buffer& preview,
@@ -62,7 +68,7 @@ public:
     int packet_width() const { return gather_.packet_width; }
 
 private:
-    PassKernel gather_, count_, compact_, upsample_, place_, combine_, tonemap_;
+    PassKernel gather_, count_, compact_, upsample_, place_, combine_, tonemap_, environment_;
 };
 
 }  // namespace clgi

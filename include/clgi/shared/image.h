@@ -53,6 +53,15 @@ enum {
 // Radiance planes: rgb, stride apart.
 enum { RADIANCE_PLANES = 3 };
 
+// The environment behind everything: a latitude-longitude picture.
+typedef struct {
+    float4 factor;           // rgb times the texel: cd/m^2
+    uint environment_width;  // texels
+    uint environment_height;
+    uint stride;  // of the ids and the radiance planes
+    float turn;   // of the picture against the world, in turns, [0,1)
+} EnvironmentParams;
+
 typedef struct {
     uint width;
     uint height;

@@ -21,7 +21,8 @@ typedef struct {
     float4 shift;      // of the low-discrepancy points: bases 2, 3, 5, 7; each in [0,1)
     float range;       // where the light ends; 0: unlimited
     float measure;     // what the samples share: steradians; directional: area of the disc
-    float area;        // of the emitting surface that this sample stands for; area lights
+    float area;        // area lights: of the emitting surface that this sample stands for;
+                       // directional: of the disc, for one indirect light of all that share it
     uint kind;         // EMITTER_..., EMITTER_MAPPED
     uint first_view;   // its images of the scene: 1 (spot, directional), 5 (area) or 6 (point)
     uint view_count;

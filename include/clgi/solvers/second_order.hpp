@@ -112,6 +112,7 @@ private:
     void draw_camera(Recorder& record, const View& view);
     void light_points(Recorder& record, const View& view);
     void combine(Recorder& record, const View& view);
+    void fill_background(Recorder& record, const View& view);
     GatherParams gather_params(std::uint32_t stride) const;
     cl::Event black_frame();
     cl::Event frame(const Camera& camera, const Progress& progress, bool& cancelled);

@@ -1,0 +1,58 @@
+// The background: what the environment sends along the rays that meet nothing.
+//
+//   u = atan2(x, -z) / 2 pi + 1/2 + turn,  v = atan2(|(x, z)|, y) / pi
+//                                            [derived: Environment in clgi/scene.hpp]
+//
+// Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
+// Writes       radiance of those of its own pixels in which nothing is; the others stay
+// SPDX-License-Identifier: MIT
+#include "clgi/shared/gbuffer.h"
+#include "clgi/shared/image.h"
+#include "packet.clh"
+
+kernel void image_environment(
+    const EnvironmentParams  params,
+    const View               view,
+    global const float*      restrict texels,    // [environment_height][environment_width][3]
+    global const int*        restrict ids,       // [GBUFFER_ID_PLANES][stride]
+    global float*            restrict radiance)  // [RADIANCE_PLANES][stride] cd/m^2
+{
+    uint pixel = (uint)get_global_id(0) * CLGI_WIDTH;
+    if (pixel >= view.width * view.height) return;
+    intp nothing = packet_load(ids + GBUFFER_MATERIAL * params.stride + pixel) < 0;
+    if (!packet_any(nothing)) return;
+
+    // The ray through each pixel's centre; a packet may run on into the next rows.
+    uint row = pixel / view.width;
+    intp column = (int)(pixel - row * view.width) + packet_lanes;
+    intp line = (intp)((int)row);
+    for (intp past = column >= (int)view.width; packet_any(past);
+         past = column >= (int)view.width) {
+        column = packet_select(column, column - (int)view.width, past);
+        line = packet_select(line, line + 1, past);
+    }
+    floatp right = ((packet_float(column) + 0.5f) * (2.0f / (float)view.width) - 1.0f) *
+                       view.right.w + view.window.x;
+    floatp up = (1.0f - (packet_float(line) + 0.5f) * (2.0f / (float)view.height)) *
+                    view.up.w + view.window.y;
+    if (view.eye.w != 0.0f) right = up = packet_zero;  // orthographic: all rays are parallel
+    floatp x = fma(right, packet_splat(view.right.x), up * view.up.x) + view.forward.x;
+    floatp y = fma(right, packet_splat(view.right.y), up * view.up.y) + view.forward.y;
+    floatp z = fma(right, packet_splat(view.right.z), up * view.up.z) + view.forward.z;
+
+    floatp u = atan2(x, -z) * (0.5f / CLGI_PI) + (0.5f + params.turn);
+    floatp v = atan2(sqrt(x * x + z * z), y) * (1.0f / CLGI_PI);
+    u -= floor(u);
+    int most_x = (int)params.environment_width - 1;
+    int most_y = (int)params.environment_height - 1;
+    intp texel_x = min(packet_int(u * (float)params.environment_width), (intp)(most_x));
+    intp texel_y = min(packet_int(v * (float)params.environment_height), (intp)(most_y));
+    int first[CLGI_WIDTH];
+    packet_store(3 * (texel_y * (int)params.environment_width + texel_x), first);
+    float factor[3] = {params.factor.x, params.factor.y, params.factor.z};
+    for (int c = 0; c < RADIANCE_PLANES; ++c) {
+        global float* out = radiance + c * params.stride + pixel;
+        floatp sent = (floatp)(packet_lookup(texels + c, first));
+        packet_store(packet_select(packet_load(out), sent * factor[c], nothing), out);
+    }
+}
