@@ -1,4 +1,4 @@
-// clgi reference SCENE -o ref.exr: ground truth by path tracing.
+// clgi reference SCENE -o ref.exr: ground truth by path tracing, of a picture or a light atlas.
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 #include "cli/session.hpp"
 #include "cli/version.hpp"
 #include "io/atomic_file.hpp"
+#include "report/reference_atlas.hpp"
 #include "report/reference_picture.hpp"
 
 namespace clgi::cli {
@@ -22,6 +23,9 @@ namespace {
 struct ReferenceFlags {
     std::string scene;
     PictureFlags picture;
+    EnvironmentFlags environment;
+    int atlas = 0;    // texels, side; 0: a camera's picture
+    int uv_set = -1;  // -1: 1 where that is a lightmap, else 0
     reference::Options options;
     std::string effects;
     std::string error;
@@ -31,22 +35,57 @@ struct ReferenceFlags {
     bool quiet = false;
 };
 
-void save_stats(const reference::Picture& picture, const Scene& scene,
-                const ReferenceFlags& flags) {
-    const nlohmann::ordered_json json = {
+// What there is to tell about a picture or an atlas.
+struct Outcome {
+    io::Image image;
+    std::size_t texels = 0;  // that were lit; 0: a picture
+    int samples = 0;
+    double relative_error = 0.0;
+    double seconds = 0.0;
+    std::size_t non_finite = 0;
+};
+
+Outcome trace_picture(const reference::PathTracer& tracer, const Scene& scene,
+                      const ReferenceFlags& flags, const reference::Progress& progress) {
+    const reference::Picture found = tracer.render(
+        scene.cameras[static_cast<std::size_t>(flags.camera)], flags.options, progress);
+    if (found.cancelled) throw Interrupted();
+    return {report::reference_image(found, flags.effects),
+            0,
+            found.samples,
+            found.relative_error,
+            found.seconds,
+            found.non_finite};
+}
+
+Outcome trace_atlas(const reference::PathTracer& tracer, const report::AtlasPlaces& atlas,
+                    const ReferenceFlags& flags, const reference::Progress& progress) {
+    const reference::Irradiance found = tracer.irradiance(atlas.places, flags.options, progress);
+    if (found.cancelled) throw Interrupted();
+    return {report::atlas_image(atlas, found, flags.effects),
+            atlas.places.size(),
+            found.samples,
+            found.relative_error,
+            found.seconds,
+            found.non_finite};
+}
+
+void save_stats(const Outcome& outcome, const Scene& scene, const ReferenceFlags& flags) {
+    nlohmann::ordered_json json = {
         {"clgi", CLGI_VERSION},
         {"method", "reference"},
         {"scene", {{"triangles", scene.triangles.size()}, {"lights", scene.lights.size()}}},
         {"effects", flags.effects.empty() ? "all" : flags.effects},
-        {"samples", picture.samples},
-        {"relative_error", picture.relative_error},
-        {"seconds", picture.seconds},
-        {"non_finite", picture.non_finite},
+        {"samples", outcome.samples},
+        {"relative_error", outcome.relative_error},
+        {"seconds", outcome.seconds},
+        {"non_finite", outcome.non_finite},
         {"seed", flags.options.seed},
         {"converged",
-         flags.options.target == 0.0 || (picture.samples >= reference::Options::least_samples &&
-                                         picture.relative_error <= flags.options.target)},
+         flags.options.target == 0.0 || (outcome.samples >= reference::Options::least_samples &&
+                                         outcome.relative_error <= flags.options.target)},
         {"warnings", scene.warnings}};
+    if (flags.atlas > 0) json["texels"] = outcome.texels;
     io::AtomicFile file(flags.stats);
     const std::string text =
         json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
@@ -59,26 +98,36 @@ void run_reference(ReferenceFlags flags) {
     flags.options.effects = reference::parse_effects(flags.effects);
     if (!flags.error.empty())
         flags.options.target = parse_percent("reference", "--error", flags.error);
-    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.quiet);
+    Scene scene =
+        open_scene(flags.scene, flags.scene_index, flags.environment, flags.quiet, flags.atlas > 0);
     if (flags.camera >= static_cast<int>(scene.cameras.size()))
         throw Error(fmt::format("reference: --camera is {}, the scene has {}", flags.camera,
                                 scene.cameras.size()));
+    report::AtlasPlaces atlas;
+    if (flags.atlas > 0) atlas = report::atlas_places(scene, flags.atlas, flags.uv_set);
+    for (const std::string& warning : atlas.warnings) {
+        notice(flags.quiet, "warning: " + warning);
+        scene.warnings.push_back(warning);
+    }
     const reference::PathTracer tracer(scene);
     catch_interrupts();
     const auto bar = progress_bar("reference", flags.quiet);
-    const reference::Picture picture =
-        tracer.render(scene.cameras[static_cast<std::size_t>(flags.camera)], flags.options, bar);
-    if (picture.cancelled) throw Interrupted();
+    const Outcome outcome = flags.atlas > 0 ? trace_atlas(tracer, atlas, flags, bar)
+                                            : trace_picture(tracer, scene, flags, bar);
     if (bar) bar(1.0);
-    save_picture(report::reference_image(picture, flags.effects), flags.picture);
-    if (picture.non_finite > 0)
+    save_picture(outcome.image, flags.picture);
+    if (outcome.non_finite > 0)
         notice(false, fmt::format("warning: {} samples were not finite and were left out",
-                                  picture.non_finite));
+                                  outcome.non_finite));
     if (!flags.quiet)
-        fmt::print("{}: {} samples a pixel, {:.1f} s, standard error {:.3g} % of the mean\n",
+        fmt::print("{}: {}{} samples a {}, {:.1f} s, standard error {:.3g} % of the mean\n",
                    flags.picture.exr.empty() ? flags.picture.png : flags.picture.exr,
-                   picture.samples, picture.seconds, 100.0 * picture.relative_error);
-    if (!flags.stats.empty()) save_stats(picture, scene, flags);
+                   flags.atlas > 0
+                       ? fmt::format("{} texels of uv set {}, ", outcome.texels, atlas.uv_set)
+                       : "",
+                   outcome.samples, flags.atlas > 0 ? "texel" : "pixel", outcome.seconds,
+                   100.0 * outcome.relative_error);
+    if (!flags.stats.empty()) save_stats(outcome, scene, flags);
 }
 
 }  // namespace
@@ -90,6 +139,13 @@ void add_reference(CLI::App& app) {
         ->required()
         ->type_name("SCENE");
     add_picture_flags(*command, flags->picture);
+    add_environment_flags(*command, flags->environment);
+    CLI::Option* atlas = command->add_option("--atlas", flags->atlas,
+                                             "Irradiance of the texels of a lightmap, SIZE across");
+    atlas->type_name("SIZE")->check(CLI::Range(1, 8192))->excludes("--size");
+    command->add_option("--uv-set", flags->uv_set, "Of the lightmap; default: 1, else 0")
+        ->check(CLI::Range(0, 1))
+        ->needs(atlas);
     command->add_option("--spp", flags->options.samples, "Samples a pixel, at most")
         ->check(CLI::Range(1, 1 << 24));
     command->add_option("--error", flags->error,
@@ -106,7 +162,8 @@ void add_reference(CLI::App& app) {
         ->check(CLI::Range(0, 4096));
     command->add_option("--scene", flags->scene_index, "Which scene of the file");
     command->add_option("--camera", flags->camera, "Which camera of the scene")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::NonNegativeNumber)
+        ->excludes(atlas);
     command->add_option("--stats", flags->stats, "JSON file of samples, error and time");
     command->add_flag("--quiet", flags->quiet, "Only errors");
     command->callback([flags] { run_reference(*flags); });

@@ -24,6 +24,7 @@ struct RenderFlags {
     DeviceFlags device;
     PictureFlags picture;
     AskFlags ask;
+    EnvironmentFlags environment;
     std::string scene;
     int scene_index = -1;
     int camera = 0;
@@ -87,6 +88,7 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderS
     if (options.direct && !solver.sources().emitters.empty()) out.push_back("direct");
     if (options.direct && scene.has_lobes()) out.push_back("glossy-direct");
     if (options.direct && !scene.emissive().empty()) out.push_back("emission");
+    if (options.direct && scene.environment()) out.push_back("environment");
     if (lit) out.push_back("one-bounce");
     if (lit && options.negative_lights > 0) out.push_back("negative-lights");
     return out;
@@ -105,7 +107,7 @@ void run_render(RenderFlags flags) {
     flags.options.indirect = flags.method != "direct";
     flags.options.build = build_of(flags.device);
 
-    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.device.quiet);
+    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
     if (flags.camera >= static_cast<int>(scene.cameras.size()))
         throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
                                 scene.cameras.size()));
@@ -226,6 +228,11 @@ void add_render(CLI::App& app) {
     command
         ->add_option("--area-samples", options.sources.area_samples,
                      "Points that stand for all emissive surfaces")
+        ->check(CLI::Range(0, 4096));
+    add_environment_flags(*command, flags->environment);
+    command
+        ->add_option("--environment-lights", options.sources.environment_lights,
+                     "Directions that stand for the environment")
         ->check(CLI::Range(0, 4096));
     add_ask_flags(*command, flags->ask);
     command->add_flag("--no-direct", flags->no_direct, "Leave direct light out of the picture");

@@ -53,16 +53,19 @@ std::string build_flags(const DeviceFlags& flags) {
            (flags.storage == "full" ? "" : " --storage " + flags.storage);
 }
 
-Scene open_scene(const std::string& path, int scene_index, bool quiet) {
+Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlags& environment,
+                 bool quiet, bool lightmaps) {
     io::GltfOptions options;
     options.scene = scene_index;
+    options.lightmaps = lightmaps;
     Scene scene = io::load_gltf(path, options);
     for (const std::string& warning : scene.warnings) notice(quiet, "warning: " + warning);
     if (scene.cameras.empty()) {
         scene.cameras.push_back(default_camera(scene));
         notice(quiet, "note: the scene has no camera; a default one is used");
     }
-    if (scene.lights.empty() && !has_emission(scene)) {
+    add_environment(environment, scene, quiet);
+    if (scene.lights.empty() && !has_emission(scene) && !scene.environment) {
         scene.lights.push_back(default_light(scene));
         notice(quiet, "note: the scene has no light; a directional light of pi lux is used");
     }

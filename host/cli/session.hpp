@@ -9,6 +9,8 @@
 #include <functional>
 #include <string>
 
+#include "cli/environment.hpp"
+
 namespace clgi::cli {
 
 // Flags that every command with a device has.
@@ -35,9 +37,10 @@ BuildOptions build_of(const DeviceFlags& flags);
 // "" where they ask for nothing special, else the flags again, with a space before each.
 std::string build_flags(const DeviceFlags& flags);
 
-// Loads a glTF file, prints its warnings, and gives it a camera and a light where it has none,
-// saying so.
-Scene open_scene(const std::string& path, int scene_index, bool quiet);
+// Loads a glTF file, prints its warnings, gives it the environment that was asked for, and a camera
+// and a light where it has none, saying so. lightmaps: keeps texture coordinates without textures.
+Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlags& environment,
+                 bool quiet, bool lightmaps = false);
 
 // A line of notice on stderr, unless quiet.
 void notice(bool quiet, const std::string& text);

@@ -19,6 +19,7 @@ namespace {
 
 struct SweepFlags {
     DeviceFlags device;
+    EnvironmentFlags environment;
     std::string scene;
     std::string output;
     std::string method = "all";
@@ -38,7 +39,8 @@ void size_of(const SweepFlags& flags, report::SweepSetup& setup) {
 }
 
 void run_sweep(const SweepFlags& flags) {
-    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.device.quiet);
+    const Scene scene =
+        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
     if (flags.camera >= static_cast<int>(scene.cameras.size()))
         throw Error(fmt::format("sweep: --camera is {}, the scene has {}", flags.camera,
                                 scene.cameras.size()));
@@ -96,6 +98,7 @@ void add_sweep(CLI::App& app) {
     command->add_option("--scene", flags->scene_index, "Which scene of the file");
     command->add_option("--camera", flags->camera, "Which camera of the scene")
         ->check(CLI::NonNegativeNumber);
+    add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {
         flags->command = fmt::format(
@@ -108,6 +111,7 @@ void add_sweep(CLI::App& app) {
                 (flags->rounds > 0 ? fmt::format(" --rounds {}", flags->rounds) : "") +
                 (flags->scene_index >= 0 ? fmt::format(" --scene {}", flags->scene_index) : "") +
                 (flags->camera > 0 ? fmt::format(" --camera {}", flags->camera) : "") +
+                text_of(flags->environment) +
                 (flags->device.device.empty() ? "" : " --device " + flags->device.device) +
                 build_flags(flags->device));
         run_sweep(*flags);

@@ -21,8 +21,8 @@ constexpr double farthest = 1e18;  // metres; the square of a distance is still 
 
 class MeshPlacer {
 public:
-    MeshPlacer(Document& document, Scene& scene)
-        : document_(document), scene_(scene), poser_(document) {
+    MeshPlacer(Document& document, bool lightmaps, Scene& scene)
+        : document_(document), scene_(scene), poser_(document), textured_(lightmaps) {
         for (const Material& material : scene.materials) {
             textured_ = textured_ || material.base_texture.texture >= 0 ||
                         material.emission_texture.texture >= 0;
@@ -160,7 +160,7 @@ private:
     Document& document_;
     Scene& scene_;
     Poser poser_;
-    bool textured_ = false;
+    bool textured_;  // or its texture coordinates are wanted all the same
     bool colored_ = false;
     std::optional<std::uint32_t> default_material_;
     std::map<int, std::vector<std::size_t>> drawn_;  // mesh: its primitives with triangles
@@ -172,7 +172,7 @@ private:
 void place_meshes(Document& document, const std::vector<int>& nodes, const GltfOptions& options,
                   Scene& scene) {
     check_instancing(document);
-    MeshPlacer placer(document, scene);
+    MeshPlacer placer(document, options.lightmaps, scene);
     placer.count(nodes, std::min<std::size_t>(options.max_triangles, UINT32_MAX / 3));
     for (const int node : nodes) {
         if (document.nodes[node].mesh >= 0) placer.place(document.nodes[node]);

@@ -122,6 +122,12 @@ std::string scene_key(const Scene& scene) {
         hash.add(light.inner_angle);
         hash.add(light.outer_angle);
     }
+    if (scene.environment) {
+        hash.add(scene.environment->texels);
+        hash.add(scene.environment->width);
+        hash.add(scene.environment->factor);
+        hash.add(scene.environment->rotation);
+    }
     return hash.text();
 }
 

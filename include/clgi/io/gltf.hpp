@@ -9,6 +9,7 @@ namespace clgi::io {
 
 struct GltfOptions {
     int scene = -1;  // which scene of the file; -1: the file's default, else its first
+    bool lightmaps = false;  // keeps texture coordinates that no texture reads
     std::size_t max_triangles = std::size_t{1} << 26;  // placed; more is an InputError
     std::size_t max_texels = std::size_t{1} << 28;     // of all textures together
 };

@@ -1,0 +1,25 @@
+// --environment and what belongs to it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <clgi/scene.hpp>
+#include <string>
+
+namespace clgi::cli {
+
+struct EnvironmentFlags {
+    std::string source;     // a picture's file or R,G,B; empty: none
+    double rotation = 0.0;  // degrees about +Y
+    double scale = 1.0;
+};
+void add_environment_flags(CLI::App& command, EnvironmentFlags& flags);
+
+// Gives the scene what was asked for, if anything was, with a notice about what is odd in it unless
+// quiet. Throws InputError for a file that is no such picture, Error for a colour below 0.
+void add_environment(const EnvironmentFlags& flags, Scene& scene, bool quiet);
+
+// The flags as they were given, each with a blank before it.
+std::string text_of(const EnvironmentFlags& flags);
+
+}  // namespace clgi::cli

@@ -1,0 +1,156 @@
+// The program with --environment, and --atlas: flags, exit codes, files.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <clgi/io/gltf.hpp>
+#include <clgi/io/image.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using clgi::test::Outcome;
+using Program = clgi::test::Program;
+using clgi::io::Image;
+using clgi::io::load_image;
+
+Image sky_picture(float left, float right) {
+    Image sky;
+    sky.width = 4;
+    sky.height = 2;
+    for (const char* name : {"R", "G", "B"})
+        sky.channels.push_back({name, {left, left, right, right, left, left, right, right}});
+    return sky;
+}
+
+// A floor in the open without any lamp, its lightmap in the given UV set.
+clgi::Scene floor_scene(int uv_set) {
+    clgi::Scene scene = clgi::test::plain_scene(glm::vec3(1.0f));
+    clgi::test::add_floor(scene, 1.0);
+    for (const glm::vec2 uv : {glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(1, 0), glm::vec2(0, 0)})
+        scene.uvs.emplace_back(uv_set == 0 ? glm::vec4(uv, 0, 0) : glm::vec4(0, 0, uv));
+    scene.cameras = {clgi::test::camera_at({0, 2, 3}, {0, 0, 0})};
+    return scene;
+}
+
+TEST_F(Program, RendersUnderAnEnvironmentAsTheReferenceDoes) {
+    const std::string scene = file("floor.glb").string();
+    clgi::io::save_glb(floor_scene(1), scene);
+    const std::string sky = file("sky.exr").string();
+    clgi::io::save_exr(sky_picture(1.0f, 3.0f), sky, clgi::io::Storage::full);
+    const std::string flags = " --size 32x24 --full --environment " + sky +
+                              " --environment-rotation 90 --environment-scale 2 -o ";
+    const Outcome rendered = run("render " + scene + flags + file("a.exr").string() +
+                                 " --environment-lights 64 --stats " + file("s.json").string());
+    ASSERT_EQ(rendered.code, 0) << rendered.err;
+    EXPECT_EQ(rendered.err.find("pi lux"), std::string::npos) << rendered.err;
+    const auto effects = nlohmann::json::parse(read("s.json")).at("effects").dump();
+    EXPECT_NE(effects.find("environment"), std::string::npos) << effects;
+    ASSERT_EQ(run("reference " + scene + flags + file("b.exr").string() + " --spp 64").code, 0);
+    const Image a = load_image(file("a.exr")), b = load_image(file("b.exr"));
+    const auto& found = a.find("G")->values;
+    const auto& wanted = b.find("G")->values;
+    // A quarter turn to the left takes the left half, 2, behind the camera: ahead both meet.
+    EXPECT_EQ(found[0], wanted[0]);
+    EXPECT_EQ(found[31], wanted[31]);
+    EXPECT_NE(found[0], 0.0f);
+    // The floor sees half of either: 4 * albedo 1, give or take 64 directions.
+    EXPECT_NEAR(found[12 * 32 + 16], 4.0f, 0.2f);
+    EXPECT_NEAR(wanted[12 * 32 + 16], 4.0f, 0.5f);
+}
+
+TEST_F(Program, TakesAColourForAnEnvironment) {
+    const std::string scene = file("floor.glb").string();
+    clgi::io::save_glb(floor_scene(1), scene);
+    const std::string out = file("a.exr").string();
+    ASSERT_EQ(run("reference " + scene +
+                  " --size 8x8 --spp 4 --full --quiet --environment 1,2.5,3 -o " + out)
+                  .code,
+              0);
+    const Image image = load_image(out);
+    for (const float value : image.find("G")->values) EXPECT_NEAR(value, 2.5f, 1e-5f);
+}
+
+TEST_F(Program, RefusesWhatIsNoEnvironment) {
+    const std::string scene = make("cornell");
+    const std::string common = " --quiet --size 8x8 -o " + file("x.exr").string();
+    std::ofstream(file("text.exr")) << "not a picture";
+    Image grey = sky_picture(1, 1);
+    grey.channels.resize(1);
+    clgi::io::save_exr(grey, file("grey.exr"), clgi::io::Storage::full);
+    for (const std::string command : {"render ", "reference "}) {
+        const auto with = [&](const std::string& flags) {
+            return run(command + scene + common + " " + flags);
+        };
+        expect_one_error_line(with("--environment " + file("none.hdr").string()), 2);
+        expect_one_error_line(with("--environment " + file("text.exr").string()), 2);
+        expect_one_error_line(with("--environment " + file("grey.exr").string()), 2);
+        expect_one_error_line(with("--environment 1,2"), 2);  // a file of that name
+        expect_one_error_line(with("--environment=-1,2,3"), 1);
+        expect_one_error_line(with("--environment 1,2,3 --environment-scale=-1"), 1);
+        expect_one_error_line(with("--environment-rotation 90"), 1);
+        EXPECT_FALSE(fs::exists(file("x.exr")));
+    }
+    expect_one_error_line(run("render " + scene + common + " --environment-lights 5000"), 1);
+}
+
+TEST_F(Program, WarnsOfWhatIsOddInAnEnvironment) {
+    const std::string scene = make("cornell");
+    Image odd = sky_picture(1, 2);
+    odd.channels[1].values[3] = -4.0f;
+    clgi::io::save_exr(odd, file("odd.exr"), clgi::io::Storage::full);
+    const Outcome outcome = run("reference " + scene + " --size 8x8 --spp 1 --environment " +
+                                file("odd.exr").string() + " -o " + file("x.exr").string());
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("1 samples were negative"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Program, LightsTheTexelsOfALightmap) {
+    for (const int set : {0, 1}) {
+        const std::string scene = file("floor.glb").string();
+        clgi::io::save_glb(floor_scene(set), scene);
+        const Outcome outcome = run("reference " + scene + " --atlas 16 --spp 16 --full -o " +
+                                    file("a.exr").string() + " --png " + file("a.png").string() +
+                                    " --environment 1,2,3 --stats " + file("s.json").string());
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find("256 texels of uv set " + std::to_string(set)),
+                  std::string::npos)
+            << outcome.out;
+        const Image atlas = load_image(file("a.exr"));
+        EXPECT_EQ(atlas.width, 16);
+        EXPECT_EQ(atlas.attributes.at("clgi:quantity"), "irradiance");
+        EXPECT_EQ(atlas.attributes.at("clgi:unit"), "lux");
+        for (const float value : atlas.find("G")->values)
+            EXPECT_NEAR(value, 2 * std::numbers::pi_v<float>, 1e-4f);
+        for (const float alpha : atlas.find("A")->values) EXPECT_EQ(alpha, 1.0f);
+        EXPECT_NE(atlas.find("error.Y"), nullptr);
+        EXPECT_EQ(nlohmann::json::parse(read("s.json")).at("texels"), 256);
+        EXPECT_TRUE(fs::exists(file("a.png")));
+    }
+}
+
+TEST_F(Program, RefusesAnAtlasWithoutALightmap) {
+    const std::string bare = make("cornell");
+    const std::string out = " -o " + file("x.exr").string() + " --quiet";
+    expect_one_error_line(run("reference " + bare + " --atlas 16" + out), 2);
+    clgi::Scene overlapping = floor_scene(1);
+    clgi::test::add_floor(overlapping, 1.0, 1.0);
+    for (std::size_t i = 0; i < 4; ++i) overlapping.uvs.push_back(overlapping.uvs[i]);
+    clgi::io::save_glb(overlapping, file("o.glb"));
+    expect_one_error_line(run("reference " + file("o.glb").string() + " --atlas 16" + out), 2);
+    clgi::io::save_glb(floor_scene(1), file("f.glb"));
+    const std::string fine = "reference " + file("f.glb").string() + out;
+    expect_one_error_line(run(fine + " --atlas 16 --uv-set 0"), 2);
+    expect_one_error_line(run(fine + " --atlas 0"), 1);
+    expect_one_error_line(run(fine + " --atlas 16 --size 8x8"), 1);
+    expect_one_error_line(run(fine + " --atlas 16 --camera 0"), 1);
+    expect_one_error_line(run(fine + " --uv-set 0"), 1);
+    EXPECT_FALSE(fs::exists(file("x.exr")));
+}
+
+}  // namespace
