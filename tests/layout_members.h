@@ -26,6 +26,12 @@
     MEMBER(DownsampleParams, stride) MEMBER(DownsampleParams, low_stride)                       \
     MEMBER(DownsampleParams, step) MEMBER(DownsampleParams, pad0_)                              \
     MEMBER(DownsampleParams, pad1_) MEMBER(DownsampleParams, pad2_)                             \
+    SIZE(ImportParams) MEMBER(ImportParams, offset) MEMBER(ImportParams, scale)                 \
+    MEMBER(ImportParams, light) MEMBER(ImportParams, stride) MEMBER(ImportParams, flags)        \
+    MEMBER(ImportParams, material_count) MEMBER(ImportParams, triangle_count)                   \
+    MEMBER(ImportParams, normal_format) MEMBER(ImportParams, geometric_format)                  \
+    MEMBER(ImportParams, albedo_format) MEMBER(ImportParams, emission_format)                   \
+    MEMBER(ImportParams, pad0_) MEMBER(ImportParams, pad1_)                                     \
     SIZE(Emitter) MEMBER(Emitter, position) MEMBER(Emitter, axis) MEMBER(Emitter, right)        \
     MEMBER(Emitter, intensity) MEMBER(Emitter, shift) MEMBER(Emitter, range)                    \
     MEMBER(Emitter, measure)                                                                    \

@@ -8,6 +8,7 @@
 #include <clgi/error.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
+#include <clgi/passes/import.hpp>
 #include <clgi/passes/lights.hpp>
 #include <clgi/procedural.hpp>
 #include <clgi/scene.hpp>

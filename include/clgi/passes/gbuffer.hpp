@@ -27,6 +27,13 @@ inline std::size_t raster_runs(std::size_t triangles) {
     return (triangles + RASTER_BATCH - 1) / RASTER_BATCH;
 }
 
+// One picture's planes, wherever they come from: `resolve`, or another renderer (passes/import.hpp).
+struct GBuffer {
+    cl::Buffer planes;         // [GBUFFER_PLANES][stride] float
+    cl::Buffer ids;            // [GBUFFER_ID_PLANES][stride] int
+    std::uint32_t stride = 0;  // floats between planes
+};
+
 // Low-resolution points along a side of `size` pixels, one for every `step`.
 inline std::size_t low_size(std::uint32_t size, std::uint32_t step) {
     return (static_cast<std::size_t>(size) + step - 1) / step;

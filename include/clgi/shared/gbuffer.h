@@ -132,6 +132,37 @@ typedef struct {
     uint pad2_;
 } DownsampleParams;
 
+// What another renderer drew becomes planes: local = texel * scale + offset.
+typedef struct {
+    float4 offset;  // xyz: where the texel (0,0,0) lies, local frame
+    float scale;    // local units in a metre
+    float light;    // exposed radiance of 1 cd/m^2
+    uint stride;    // floats between planes, a multiple of 16, at least width * height
+    uint flags;     // IMPORT_...
+    uint material_count;   // ids that name no material become -1
+    uint triangle_count;    // nor any triangle
+    uint normal_format;     // TEXEL_..., of buffers; images know theirs
+    uint geometric_format;
+    uint albedo_format;
+    uint emission_format;
+    uint pad0_;
+    uint pad1_;
+} ImportParams;
+
+// What there is besides normals and albedo, and where the first row of texels belongs.
+enum {
+    IMPORT_POSITION = 1,    // else positions follow from depth
+    IMPORT_GEOMETRIC = 2,   // else the shading normals stand in
+    IMPORT_EMISSION = 4,    // else none
+    IMPORT_DEPTH = 8,       // else it follows from positions
+    IMPORT_MATERIAL = 16,   // else unknown: -1
+    IMPORT_TRIANGLE = 32,   // else unknown: -1; only beside IMPORT_MATERIAL
+    IMPORT_TOP_FIRST = 64   // row 0 is the top one; else the bottom one, as OpenGL has it
+};
+
+// Layouts of a texel in a buffer.
+enum { TEXEL_RGBA32F = 0, TEXEL_RGBA16F = 1, TEXEL_RGBA8 = 2 };
+
 // A set of points to be lit: position and shading normal, six planes in G-buffer order.
 enum { POINT_PLANES = 6 };
 

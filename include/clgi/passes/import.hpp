@@ -1,0 +1,64 @@
+// A G-buffer from what another renderer drew, one method a kernel. Layouts: clgi/shared/gbuffer.h.
+//
+// Every method checks sizes, enqueues one kernel on the caller's queue and returns its event. It
+// allocates nothing and never waits. Throws Error for what is too small or out of range.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/shared/gbuffer.h>
+#include <clgi/device_scene.hpp>
+#include <clgi/pass.hpp>
+#include <clgi/passes/gbuffer.hpp>
+
+namespace clgi {
+
+// Texels as images of the view's size. Those that ImportParams::flags leave out may be empty.
+struct ImportImages {
+    cl::Image2D position;  // xyz, metres
+    cl::Image2D normal;    // xyz, any length
+    cl::Image2D geometric;
+    cl::Image2D albedo;    // rgb, linear
+    cl::Image2D emission;  // rgb, cd/m^2
+    cl::Image2D depth;     // metres along the view's axis
+    cl::Image2D labels;    // x: material; y: triangle
+};
+
+// The same as rows of texels without gaps; formats are those of ImportParams.
+struct ImportBuffers {
+    cl::Buffer position;  // [height][width][4] float
+    cl::Buffer normal;    // [height][width] normal_format
+    cl::Buffer geometric;
+    cl::Buffer albedo;
+    cl::Buffer emission;
+    cl::Buffer depth;   // [height][width] float
+    cl::Buffer labels;  // [height][width][1, or 2 with IMPORT_TRIANGLE] int
+};
+
+// Scale, exposure and counts of a scene; flags and formats are left at 0. origin: the world point,
+// in metres, that positions in the texels are relative to.
+ImportParams import_params(const DeviceScene& scene, std::uint32_t stride,
+                           const glm::dvec3& origin = glm::dvec3(0.0));
+
+// Bytes of a texel in a TEXEL_... layout.
+std::size_t texel_bytes(std::uint32_t format);
+
+class ImportPasses {
+public:
+    ImportPasses(const cl::Context& context, const cl::Device& device,
+                 const BuildOptions& options = {});
+
+    // The pixels that were not finite are added to non_finite [1] uint.
+    cl::Event buffers(const cl::CommandQueue& queue, const View& view, const ImportParams& params,
+                      const ImportBuffers& texels, const GBuffer& out, const cl::Buffer& non_finite,
+                      const WaitList& wait = {}) const;
+
+    // Throws Error on a device without images.
+    cl::Event images(const cl::CommandQueue& queue, const View& view, const ImportParams& params,
+                     const ImportImages& texels, const GBuffer& out, const cl::Buffer& non_finite,
+                     const WaitList& wait = {}) const;
+
+private:
+    PassKernel buffers_, images_;
+};
+
+}  // namespace clgi
