@@ -18,13 +18,20 @@ public:
         events_.clear();
     }
 
-    // enqueue(wait) puts one pass on the queue. On a queue in order nothing need be waited for.
+    // enqueue(wait) puts one pass on the queue. On a queue in order nothing on it need be waited
+    // for.
     template <typename Enqueue>
     void operator()(const char* name, std::size_t items, Enqueue&& enqueue) {
-        cl::Event event = std::forward<Enqueue>(enqueue)(in_order_ ? none_ : last_);
+        WaitList waits = in_order_ ? WaitList() : last_;
+        waits.insert(waits.end(), elsewhere_.begin(), elsewhere_.end());
+        elsewhere_.clear();
+        cl::Event event = std::forward<Enqueue>(enqueue)(waits);
         last_.assign(1, event);
         events_.push_back({name, items, event});
     }
+
+    // Work on other queues, or of other libraries, that the next pass must wait for.
+    void wait_for(const WaitList& elsewhere) { elsewhere_ = elsewhere; }
 
     const WaitList& wait() const { return last_; }
     cl::Event last() const { return last_.empty() ? cl::Event() : last_.front(); }
@@ -32,7 +39,7 @@ public:
 private:
     bool in_order_;
     std::vector<PassEvent>& events_;
-    WaitList none_;
+    WaitList elsewhere_;
     WaitList last_;
 };
 

@@ -139,8 +139,8 @@ void SecondOrderSolver::draw_camera(Recorder& record, const View& view) {
     ResolveParams params{stride_, RESOLVE_GEOMETRIC, 0, 0};
     if (scene_.info().flags & SCENE_HAS_EMISSION) params.write |= RESOLVE_EMISSION;
     record("gbuffer.resolve", pixel_count(options_), [&](const WaitList& wait) {
-        return gbuffer_.resolve(queue_, view, scene_, params, camera_visibility_, planes_, ids_,
-                                wait);
+        return gbuffer_.resolve(queue_, view, scene_, params, camera_visibility_, seen_.planes,
+                                seen_.ids, wait);
     });
 }
 
@@ -163,13 +163,13 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
                                     replicate_shift(replicate, ShiftUse::image, 1),
                                     0};
         record("lights.negative", params.negative_count, [&](const WaitList& wait) {
-            return light_passes_.negative(queue_, params, view, planes_, lights_, negative_, wait);
+            return light_passes_.negative(queue_, params, view, seen_.planes, lights_, negative_, wait);
         });
     }
     const std::size_t pixels = pixel_count(options_);
     if (!refine_) {
         record("image.gather", pixels, [&](const WaitList& wait) {
-            return image_.gather(queue_, gather_params(stride_), pixels, all_count_, planes_,
+            return image_.gather(queue_, gather_params(stride_), pixels, all_count_, seen_.planes,
                                  lights_, negative_, irradiance_, wait);
         });
         return;
@@ -189,14 +189,14 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
                               0};
     record("gbuffer.downsample", low_pixels, [&](const WaitList& wait) {
         return gbuffer_.downsample(queue_, {width, height, stride_, low_stride_, step, 0, 0, 0},
-                                   planes_, low_points_, wait);
+                                   seen_.planes, low_points_, wait);
     });
     record("image.gather_low", low_pixels, [&](const WaitList& wait) {
         return image_.gather(queue_, gather_params(low_stride_), low_pixels, low_count_,
                              low_points_, lights_, negative_, low_irradiance_, wait);
     });
     record("image.upsample", pixels, [&](const WaitList& wait) {
-        return image_.upsample(queue_, params, planes_, low_points_, low_irradiance_, irradiance_,
+        return image_.upsample(queue_, params, seen_.planes, low_points_, low_irradiance_, irradiance_,
                                flags_, wait);
     });
     if (std::isinf(options_.discontinuity_threshold)) return;
@@ -204,7 +204,7 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
         return image_.count(queue_, width * height, flags_, counts_, wait);
     });
     record("image.compact", pixels, [&](const WaitList& wait) {
-        return image_.compact(queue_, params, flags_, counts_, planes_, listed_, listed_points_,
+        return image_.compact(queue_, params, flags_, counts_, seen_.planes, listed_, listed_points_,
                               listed_count_, wait);
     });
     record("image.gather", pixels, [&](const WaitList& wait) {
@@ -217,7 +217,7 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
     });
 }
 
-void SecondOrderSolver::combine(Recorder& record, const View& view) {
+void SecondOrderSolver::combine(Recorder& record, const View& view, bool emission) {
     CombineParams params{};
     params.width = view.width;
     params.height = view.height;
@@ -228,12 +228,12 @@ void SecondOrderSolver::combine(Recorder& record, const View& view) {
     if (options_.direct) {
         params.effects |= COMBINE_DIRECT;
         if (scene_.has_lobes()) params.effects |= COMBINE_SPECULAR;
-        if (scene_.info().flags & SCENE_HAS_EMISSION) params.effects |= COMBINE_EMISSION;
+        if (emission) params.effects |= COMBINE_EMISSION;
     }
     if (indirect_) params.effects |= COMBINE_INDIRECT;
     record("image.combine", pixel_count(options_), [&](const WaitList& wait) {
-        return image_.combine(queue_, params, view, scene_, sources_, planes_, ids_, irradiance_,
-                              radiance_, non_finite_, wait);
+        return image_.combine(queue_, params, view, scene_, sources_, seen_.planes, seen_.ids,
+                              irradiance_, radiance_, non_finite_, wait);
     });
 }
 
@@ -246,7 +246,7 @@ void SecondOrderSolver::fill_background(Recorder& record, const View& view) {
                                    static_cast<std::uint32_t>(environment.height), stride_,
                                    static_cast<float>(turns - std::floor(turns))};
     record("image.environment", pixel_count(options_), [&](const WaitList& wait) {
-        return image_.environment(queue_, params, view, scene_.environment_texels(), ids_,
+        return image_.environment(queue_, params, view, scene_.environment_texels(), seen_.ids,
                                   radiance_, wait);
     });
 }
@@ -260,14 +260,31 @@ cl::Event SecondOrderSolver::black_frame() {
         frame_end_.assign(1, event);
     };
     on_device("the black frame cannot be filled", [&] {
-        for (const cl::Buffer* buffer : {&planes_, &irradiance_, &radiance_}) fill(*buffer, 0.0f);
-        fill(ids_, std::int32_t{-1});
+        for (const cl::Buffer* buffer : {&seen_.planes, &irradiance_, &radiance_}) fill(*buffer, 0.0f);
+        fill(seen_.ids, std::int32_t{-1});
     });
     return frame_end_.front();
 }
 
-cl::Event SecondOrderSolver::frame(const Camera& camera, const Progress& progress,
+void SecondOrderSolver::check_given(const GBuffer& given) const {
+    if (given.stride != stride_)
+        throw Error("second-order: the G-buffer's stride is " + std::to_string(given.stride) +
+                    ", " + std::to_string(stride_) + " needed");
+    const auto holds = [](const char* what, const cl::Buffer& buffer, std::size_t needed) {
+        const std::size_t held = buffer() ? buffer.getInfo<CL_MEM_SIZE>() : 0;
+        if (held < needed)
+            throw Error(std::string("second-order: the G-buffer's ") + what + " hold " +
+                        std::to_string(held) + " bytes, " + std::to_string(needed) + " needed");
+    };
+    holds("planes", given.planes, gbuffer_bytes(options_.build.storage, stride_));
+    holds("ids", given.ids, sizeof(std::int32_t) * GBUFFER_ID_PLANES * stride_);
+}
+
+cl::Event SecondOrderSolver::frame(const Camera& camera, const GBuffer* given,
+                                   const WaitList& wait, const Progress& progress,
                                    bool& cancelled) {
+    if (given) check_given(*given);
+    seen_ = given ? *given : drawn_;
     Recorder record(queue_, frame_end_, events_);
     const View view = make_view(camera, scene_.frame(), options_.width, options_.height);
     cancelled = false;
@@ -280,15 +297,17 @@ cl::Event SecondOrderSolver::frame(const Camera& camera, const Progress& progres
     const bool empty = scene_.info().triangle_count == 0;
     const bool dark = set_.emitters.empty() && !(scene_.info().flags & SCENE_HAS_EMISSION);
     const bool background = options_.direct && scene_.environment();
-    if ((empty || dark) && !background) {
+    if (!given && (empty || dark) && !background) {
         const cl::Event event = black_frame();
         go_on(1.0);
         return event;
     }
     if (go_on(0.0)) place_lights(record);
-    if (go_on(0.2)) draw_camera(record, view);
+    record.wait_for(wait);
+    if (go_on(0.2) && !given) draw_camera(record, view);
     if (go_on(0.4) && indirect_) light_points(record, view);
-    if (go_on(0.9)) combine(record, view);
+    const bool emission = given || (scene_.info().flags & SCENE_HAS_EMISSION) != 0;
+    if (go_on(0.9)) combine(record, view, emission);
     if (!cancelled && background) fill_background(record, view);
     frame_end_ = record.wait();
     go_on(1.0);
@@ -297,12 +316,18 @@ cl::Event SecondOrderSolver::frame(const Camera& camera, const Progress& progres
 
 cl::Event SecondOrderSolver::render(const Camera& camera) {
     bool cancelled = false;
-    return frame(camera, nullptr, cancelled);
+    return frame(camera, nullptr, {}, nullptr, cancelled);
+}
+
+cl::Event SecondOrderSolver::render(const Camera& camera, const GBuffer& given,
+                                    const WaitList& wait) {
+    bool cancelled = false;
+    return frame(camera, &given, wait, nullptr, cancelled);
 }
 
 bool SecondOrderSolver::run(const Camera& camera, const Progress& progress) {
     bool cancelled = false;
-    cl::Event event = frame(camera, progress, cancelled);
+    cl::Event event = frame(camera, nullptr, {}, progress, cancelled);
     if (event()) event.wait();
     return !cancelled;
 }

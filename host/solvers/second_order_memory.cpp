@@ -183,8 +183,8 @@ void SecondOrderSolver::allocate() {
     sources_.pixels = set_.pixels;
     sources_.emitters = filled(set_.emitters.data(), set_.emitters.size() * sizeof(Emitter));
     sources_.views = filled(set_.views.data(), set_.views.size() * sizeof(View));
-    planes_ = buffer(size.planes);
-    ids_ = buffer(size.ids);
+    drawn_ = {buffer(size.planes), buffer(size.ids), stride_};
+    seen_ = drawn_;
     radiance_ = buffer(size.radiance);
     non_finite_ = word(0);
     irradiance_ = buffer(size.irradiance);

@@ -79,7 +79,15 @@ public:
     // Enqueues a whole frame; the event is its end. Where nothing can be lit no kernel runs.
     cl::Event render(const Camera& camera);
 
-    // The same, waiting after each part to report. False when progress cancelled.
+    // The same, with what the camera sees given instead of drawn: planes of the solver's stride and
+    // size, as include/clgi/shared/gbuffer.h states them, ready when the events of `wait` are. Their
+    // material ids are the scene's, or -1; emission counts. Sources and shadows are those of the
+    // scene; an empty one has none. The planes are read until the returned event is complete. A
+    // G-buffer of one's own may be given, or gbuffer(), filled from outside.
+    // Throws Error when it is too small.
+    cl::Event render(const Camera& camera, const GBuffer& given, const WaitList& wait = {});
+
+    // render(camera), waiting after each part to report. False when progress cancelled.
     bool run(const Camera& camera, const Progress& progress);
 
     // Passes of the last frame, for profiling.
@@ -98,8 +106,9 @@ public:
     const cl::Buffer& irradiance() const {
         return irradiance_;
     }                                                     // [IRRADIANCE_PLANES][stride], exposed
-    const cl::Buffer& planes() const { return planes_; }  // [GBUFFER_PLANES][stride]
-    const cl::Buffer& ids() const { return ids_; }        // [GBUFFER_ID_PLANES][stride]
+    const cl::Buffer& planes() const { return seen_.planes; }  // [GBUFFER_PLANES][stride]
+    const cl::Buffer& ids() const { return seen_.ids; }        // [GBUFFER_ID_PLANES][stride]
+    const GBuffer& gbuffer() const { return drawn_; }  // the solver's own, written by render(camera)
     const cl::Buffer& indirect_lights() const { return lights_; }  // [N] IndirectLight
     const cl::Buffer& negative_lights() const { return negative_; }
     const ImagePasses& image_passes() const { return image_; }
@@ -111,11 +120,13 @@ private:
     void place_lights(Recorder& record);
     void draw_camera(Recorder& record, const View& view);
     void light_points(Recorder& record, const View& view);
-    void combine(Recorder& record, const View& view);
+    void combine(Recorder& record, const View& view, bool emission);
     void fill_background(Recorder& record, const View& view);
     GatherParams gather_params(std::uint32_t stride) const;
+    void check_given(const GBuffer& given) const;
     cl::Event black_frame();
-    cl::Event frame(const Camera& camera, const Progress& progress, bool& cancelled);
+    cl::Event frame(const Camera& camera, const GBuffer* given, const WaitList& wait,
+                    const Progress& progress, bool& cancelled);
 
     cl::CommandQueue queue_;
     const DeviceScene& scene_;
@@ -135,7 +146,7 @@ private:
     RasterBuffers raster_;  // shared by all views, each with its own visibility
     cl::Buffer camera_visibility_;
     SourceBuffers sources_;
-    cl::Buffer planes_, ids_;
+    GBuffer drawn_, seen_;  // its own, and that of the last frame
     cl::Buffer mask_, accepted_, lights_, negative_;
     cl::Buffer low_points_, low_irradiance_, low_count_, all_count_;
     cl::Buffer flags_, counts_, listed_, listed_points_, listed_irradiance_, listed_count_;
