@@ -53,6 +53,14 @@ forbid("^(clgi/)?(io|cli|report|reference|gl)/" "the library knows no files, pro
 forbid("tiny_gltf|^stb_|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/"
        "the library stands on OpenCL and GLM alone" ${public} ${library})
 
+# OpenGL: the library below it, OpenGL itself through epoxy alone, and nobody but the program above.
+set(gl "${SOURCE_DIR}/host/gl/*.?pp" "${SOURCE_DIR}/include/clgi/gl/*.hpp")
+forbid("^(clgi/)?(io|cli|report|reference)/|^clgi/reference\\.hpp|^(OpenEXR|nlohmann|CLI|fmt)/|^png\\.h"
+       "gl stands on the library alone" ${gl})
+forbid("^(GL|EGL|GLES[0-9]?|GLFW|X11)/" "OpenGL and EGL are seen through epoxy" ${gl})
+forbid("^(clgi/)?gl/|^epoxy/" "only the program uses gl"
+       "${SOURCE_DIR}/host/io/*" "${SOURCE_DIR}/host/report/*" "${SOURCE_DIR}/host/reference/*")
+
 # Ground truth is no use where it shares a mistake with what it judges.
 forbid("^(clgi/)?(passes|solvers|shared|gbuffer|lights|image|opencl|io|report|cli)/|^clgi/(clgi|device_scene|emitters|device|pass)\\.hpp"
        "the path tracer shares no transport code with the library"
@@ -132,7 +140,7 @@ endforeach()
 set(most_lines 400)
 set(globs "")
 foreach(folder IN ITEMS cmake host include kernels samples tests)
-    foreach(extension IN ITEMS c cl clh cmake cpp h hpp sh txt)
+    foreach(extension IN ITEMS c cl clh cmake cpp glsl h hpp sh txt)
         list(APPEND globs "${SOURCE_DIR}/${folder}/*.${extension}")
     endforeach()
 endforeach()
