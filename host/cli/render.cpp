@@ -9,9 +9,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "cli/ask.hpp"
 #include "cli/commands.hpp"
+#include "cli/gl_frames.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
 #include "cli/stats.hpp"
@@ -30,6 +32,7 @@ struct RenderFlags {
     int camera = 0;
     std::string method = "auto";
     std::string low_res;
+    std::string gbuffer = "cl";
     std::string stats;
     int frames = 1;
     int replicates = 0;
@@ -103,20 +106,30 @@ void run_render(RenderFlags flags) {
         throw Error(
             "render: --method direct has no settings to find, neither for --target-error "
             "nor for --time-budget");
+    if (flags.gbuffer == "gl" && (asked || flags.replicates > 1))
+        throw Error(
+            "render: --gbuffer gl goes with neither --replicates nor --target-error nor "
+            "--time-budget");
     flags.options.direct = !flags.no_direct;
     flags.options.indirect = flags.method != "direct";
     flags.options.build = build_of(flags.device);
 
-    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
+    const Scene scene =
+        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
     if (flags.camera >= static_cast<int>(scene.cameras.size()))
         throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
                                 scene.cameras.size()));
     const Camera camera = scene.cameras[flags.camera];
-    const Session session = open_session(flags.device);
+    std::optional<GlFrames> gl;
+    if (flags.gbuffer == "gl") gl.emplace();
+    const Session session = open_session(flags.device, [&](const cl::Device& device) {
+        return gl ? gl->properties(device) : std::vector<cl_context_properties>();
+    });
 
     const auto build_start = std::chrono::steady_clock::now();
     DeviceScene device_scene(session.context, session.device, scene);
     SecondOrderSolver solver(session.queue, device_scene, flags.options);
+    if (gl) gl->open(session.queue, device_scene);
     RenderRecord record;
     record.build_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - build_start)
@@ -125,7 +138,12 @@ void run_render(RenderFlags flags) {
     catch_interrupts();
     const auto bar = progress_bar("render", flags.device.quiet);
     // The first frame also compiles what the driver left for later: it warms up and is not timed.
-    if (!solver.run(camera, [&](double done) { return bar(done); })) throw Interrupted();
+    if (gl) {
+        gl->render(solver, camera).wait();
+        if (!bar(1.0)) throw Interrupted();
+    } else if (!solver.run(camera, [&](double done) { return bar(done); })) {
+        throw Interrupted();
+    }
     if (asked) {
         try {
             record.ask = AskRecord{wish, report::ask(session.queue, device_scene, solver, camera,
@@ -143,8 +161,10 @@ void run_render(RenderFlags flags) {
             spin_lights(device_scene, scene, angle);
             solver.lights_changed();
         }
-        record.frame_ms.push_back(report::time_frame(
-            solver, session.queue, flags.orbit ? orbited(camera, centre, angle) : camera));
+        const Camera at = flags.orbit ? orbited(camera, centre, angle) : camera;
+        record.frame_ms.push_back(
+            gl ? report::time_frame(session.queue, [&] { gl->render(solver, at); })
+               : report::time_frame(solver, session.queue, at));
         record.passes.push_back(report::pass_times(solver));
         if (interrupted()) throw Interrupted();
     }
@@ -159,6 +179,15 @@ void run_render(RenderFlags flags) {
     if (record.status.non_finite > 0)
         notice(false, fmt::format("warning: {} packets of pixels were not finite and were mended",
                                   record.status.non_finite));
+    if (gl) {
+        record.gl_renderer = gl->renderer();
+        record.gl_path = gl->path();
+        notice(flags.device.quiet, fmt::format("OpenGL {}; {}", gl->renderer(), gl->path()));
+        if (const std::uint32_t texels = gl->non_finite())
+            notice(false, fmt::format("warning: {} texels of the G-buffer were not finite and "
+                                      "were taken for background",
+                                      texels));
+    }
     const report::Spread times = report::spread(record.frame_ms);
     if (record.ask) {
         const std::string warning = ask_warning(*record.ask);
@@ -183,6 +212,7 @@ void run_render(RenderFlags flags) {
     if (!flags.stats.empty()) {
         record.device = session.device;
         record.build = flags.options.build;
+        record.gbuffer = flags.gbuffer;
         record.method = flags.method == "auto" ? "second-order" : flags.method;
         record.triangles = scene.triangles.size();
         record.lights = solver.sources().emitters.size();
@@ -234,6 +264,8 @@ void add_render(CLI::App& app) {
         ->add_option("--environment-lights", options.sources.environment_lights,
                      "Directions that stand for the environment")
         ->check(CLI::Range(0, 4096));
+    command->add_option("--gbuffer", flags->gbuffer, "What draws the camera's view: cl or gl")
+        ->check(CLI::IsMember({"cl", "gl"}));
     add_ask_flags(*command, flags->ask);
     command->add_flag("--no-direct", flags->no_direct, "Leave direct light out of the picture");
     command->add_option("--frames", flags->frames, "Frames to render and time; the last is kept")

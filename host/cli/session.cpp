@@ -27,12 +27,13 @@ void add_device_flags(CLI::App& command, DeviceFlags& flags) {
     command.add_flag("--quiet", flags.quiet, "Print nothing but errors");
 }
 
-Session open_session(const DeviceFlags& flags) {
+Session open_session(const DeviceFlags& flags, const ContextProperties& properties) {
     Session out;
     out.device = choose_device(flags.device);
     notice(flags.quiet, describe(out.device));
+    const auto more = properties ? properties(out.device) : std::vector<cl_context_properties>();
     try {
-        out.context = cl::Context(out.device);
+        out.context = cl::Context(out.device, more.empty() ? nullptr : more.data());
         out.queue = cl::CommandQueue(out.context, out.device, CL_QUEUE_PROFILING_ENABLE);
     } catch (const cl::Error& error) {
         throw DeviceError(fmt::format("device: {} cannot be opened (OpenCL error {})",

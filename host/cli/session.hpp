@@ -8,6 +8,7 @@
 #include <clgi/scene.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "cli/environment.hpp"
 
@@ -28,8 +29,10 @@ struct Session {
     cl::CommandQueue queue;  // with profiling
 };
 
-// Opens the device and names it in one line, unless quiet.
-Session open_session(const DeviceFlags& flags);
+// Opens the device and names it in one line, unless quiet. properties: what its context is made
+// with besides the device, if anything.
+using ContextProperties = std::function<std::vector<cl_context_properties>(const cl::Device&)>;
+Session open_session(const DeviceFlags& flags, const ContextProperties& properties = nullptr);
 
 // How the flags ask for kernels to be built.
 BuildOptions build_of(const DeviceFlags& flags);

@@ -57,6 +57,10 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         {"non_finite", record.status.non_finite},
         {"converged", true},
         {"warnings", record.warnings}};
+    if (record.gbuffer == "gl")
+        out["gbuffer"] = {{"by", "gl"}, {"renderer", record.gl_renderer}, {"path", record.gl_path}};
+    else
+        out["gbuffer"] = {{"by", record.gbuffer}};
     if (record.replicates)
         out["replicates"] = {{"count", record.replicates->count},
                              {"error", record.replicates->error},

@@ -27,6 +27,9 @@ struct RenderRecord {
     std::size_t bytes = 0;                              // of scene and solver
     double build_ms = 0.0;                              // kernels and buffers
     FrameStatus status;
+    std::string gbuffer = "cl";  // what drew the camera's view: cl or gl
+    std::string gl_renderer;     // of gl: "surfaceless: llvmpipe ..."
+    std::string gl_path;         // of gl: "copied: ..."
     std::optional<report::Replicates> replicates;
     std::optional<AskRecord> ask;  // where a result was asked for
     std::vector<std::string> warnings;

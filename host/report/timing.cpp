@@ -16,8 +16,12 @@ Spread spread(std::vector<double> values) {
 }
 
 double time_frame(SecondOrderSolver& solver, const cl::CommandQueue& queue, const Camera& camera) {
+    return time_frame(queue, [&] { solver.render(camera); });
+}
+
+double time_frame(const cl::CommandQueue& queue, const std::function<void()>& enqueue) {
     const auto start = std::chrono::steady_clock::now();
-    solver.render(camera);
+    enqueue();
     queue.finish();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
         .count();

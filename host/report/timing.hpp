@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/solvers/second_order.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ Spread spread(std::vector<double> values);
 
 // Renders one frame and waits for it. Milliseconds on the host's clock, nothing transferred.
 double time_frame(SecondOrderSolver& solver, const cl::CommandQueue& queue, const Camera& camera);
+
+// The same of any frame that `enqueue` puts on the queue.
+double time_frame(const cl::CommandQueue& queue, const std::function<void()>& enqueue);
 
 struct PassTime {
     std::string name;
