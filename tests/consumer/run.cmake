@@ -37,4 +37,7 @@ run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${build}" -G "${GENERA
 run("${CMAKE_COMMAND}" --build "${build}" --config "${CONFIG}")
 run("${build}/bin/furnace" "${WORK_DIR}/furnace.glb")
 run("${build}/bin/raw_kernel" "${prefix}/${KERNELS}/image/tonemap.cl")
+if(EXISTS "${build}/bin/textures")
+    run("${build}/bin/textures")
+endif()
 run("${prefix}/bin/clgi" --version)
