@@ -22,7 +22,7 @@ void need_target(const PassKernel& pass, const View& view, const ImportParams& p
     if (out.stride != params.stride)
         throw Error(pass.name + ": the G-buffer's stride is " + std::to_string(out.stride) + ", " +
                     std::to_string(params.stride) + " needed");
-    need(pass, "planes", out.planes, sizeof(float) * GBUFFER_PLANES * params.stride);
+    need(pass, "planes", out.planes, gbuffer_bytes(pass.storage, params.stride));
     need(pass, "ids", out.ids, sizeof(std::int32_t) * GBUFFER_ID_PLANES * params.stride);
     need(pass, "non_finite", non_finite, sizeof(std::uint32_t));
 }

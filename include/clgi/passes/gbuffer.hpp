@@ -29,9 +29,9 @@ inline std::size_t raster_runs(std::size_t triangles) {
 
 // One picture's planes, wherever they come from: `resolve`, or another renderer (passes/import.hpp).
 struct GBuffer {
-    cl::Buffer planes;         // [GBUFFER_PLANES][stride] float
+    cl::Buffer planes;         // [GBUFFER_PLANES][stride], see clgi/shared/planes.h
     cl::Buffer ids;            // [GBUFFER_ID_PLANES][stride] int
-    std::uint32_t stride = 0;  // floats between planes
+    std::uint32_t stride = 0;  // values between planes
 };
 
 // Low-resolution points along a side of `size` pixels, one for every `step`.
