@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "device.hpp"
 #include "drawing.hpp"
 
 namespace clgi::test {

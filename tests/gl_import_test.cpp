@@ -227,6 +227,19 @@ TEST_F(GlImport, RefusesTexturesNamingWhatWasGotAndNeeded) {
     EXPECT_NE(convert(whole).at(GBUFFER_NORMAL, 0), glm::vec3(0.0f));
 }
 
+TEST_F(GlImport, TakesNoBlameForEarlierErrors) {
+    const Engine engine;
+    glEnable(GL_TEXTURE_CUBE_MAP_POSITIVE_X);  // which nobody can
+    try {
+        convert(engine.textures());
+        ADD_FAILURE() << "converted";
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "gl.import: OpenGL error 0x0500 is pending from an earlier call");
+    }
+    EXPECT_NE(convert(engine.textures()).at(GBUFFER_NORMAL, 0), glm::vec3(0.0f));
+}
+
 TEST_F(GlImport, LeavesTheStateOfOpenGlAsItWas) {
     const Engine engine;
     const GlTexture other(GL_RGBA8, 2, 2, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);

@@ -26,6 +26,12 @@ void* glx_current(const char* function) {
     return nullptr;
 }
 
+std::string code_of(GLenum error) {
+    char text[16];
+    std::snprintf(text, sizeof text, "0x%04x", error);
+    return text;
+}
+
 }  // namespace
 
 CurrentContext current_context() {
@@ -49,12 +55,17 @@ void need_context(const std::string& who) {
                     std::to_string(version % 10) + needed);
 }
 
+void need_no_errors(const std::string& who) {
+    const GLenum error = glGetError();
+    if (error == GL_NO_ERROR) return;
+    for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i) continue;  // one flag a kind
+    throw Error(who + ": OpenGL error " + code_of(error) + " is pending from an earlier call");
+}
+
 void check_errors(const std::string& what) {
     const GLenum error = glGetError();
     if (error == GL_NO_ERROR) return;
-    char code[16];
-    std::snprintf(code, sizeof code, "0x%04x", error);
-    throw DeviceError(what + " failed with OpenGL error " + code +
+    throw DeviceError(what + " failed with OpenGL error " + code_of(error) +
                       (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
 }
 

@@ -32,7 +32,7 @@ EGLDisplay open_display(EGLenum platform, void* native, bool counted) {
 
 HeadlessContext::HeadlessContext() {
     const std::string failed = "gl: no OpenGL context without a window: ";
-    const std::string install = " (Debian: libegl1, libgl1-mesa-dri)";
+    const std::string install = " (Debian: libegl1, libgl1, libgl1-mesa-dri)";
     if (!epoxy_has_egl()) throw DeviceError(failed + "libEGL.so.1 is not there" + install);
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!lists(client, "EGL_EXT_platform_base"))

@@ -87,6 +87,7 @@ cl::Event GBufferImport::convert(const cl::CommandQueue& queue, const View& view
                                  const DeviceScene& scene, const GBufferTextures& textures,
                                  const GBuffer& out, const WaitList& wait) {
     need_context("gl.import");
+    need_no_errors("gl.import");
     Channels channels = inspect(textures, view);
     ImportParams params = import_params(scene, out.stride, textures.origin);
     params.flags = channels.flags(textures.top_first);

@@ -158,6 +158,7 @@ SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::draw(const View& view) {
     need_context("gl.renderer");
+    need_no_errors("gl.renderer");
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     const auto side = static_cast<std::uint32_t>(std::min(most, 16384));

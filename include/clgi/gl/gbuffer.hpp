@@ -46,7 +46,8 @@ public:
     // the picture and the textures may be drawn to again.
     // A texel with a number that is not finite becomes background and is counted.
     // Throws Error for a texture that is missing, of another size or of another format, naming what
-    // was got and what is needed; DeviceError when OpenGL or OpenCL fails.
+    // was got and what is needed, and for an OpenGL error that is pending from before; DeviceError
+    // when OpenGL or OpenCL fails.
     cl::Event convert(const cl::CommandQueue& queue, const View& view, const DeviceScene& scene,
                       const GBufferTextures& textures, const GBuffer& out,
                       const WaitList& wait = {});
