@@ -50,7 +50,8 @@ void draw(bool atomics64) {
     options.height = 16;
     options.sources = {.lights = 8, .shadow_size = 16, .face_size = 8, .area_samples = 1};
     options.negative_lights = 4;
-    options.build = {.packet_width = 4, .local_size = 16, .atomics64 = atomics64, .parallel = false};
+    options.build = {
+        .packet_width = 4, .local_size = 16, .atomics64 = atomics64, .parallel = false};
     const test::Frame frame =
         test::render(stamp(), test::camera_at({0, 0.1, 0.9}, {0, -0.2, -1}, 1.2f), options);
     double sum = 0.0;
@@ -59,12 +60,54 @@ void draw(bool atomics64) {
                 sum / static_cast<double>(frame.pixels));
 }
 
+// Texels to planes, from buffers and images that hold not a byte more than is needed.
+void import_texels() {
+    const test::Device& on = test::device();
+    const ImportPasses passes(on.context, on.device,
+                              {.packet_width = 4, .local_size = 16, .parallel = false});
+    const DeviceScene placed = test::on_device(stamp());
+    constexpr std::size_t width = 7, height = 3, pixels = width * height, stride = 32;
+    const View view =
+        make_view(test::camera_at({0, 0.1, 0.9}, {0, 0, 0}), placed.frame(), width, height);
+    const std::vector<float> ones(4 * pixels, 1.0f);
+    const std::vector<cl_ushort> halves(4 * pixels, 0x3c00);
+    const std::vector<cl_uchar> bytes(4 * pixels, 99);
+    const std::vector<cl_int> labels(4 * pixels, 1);
+    const ImportBuffers buffers = {test::upload(ones),
+                                   test::upload(halves),
+                                   test::upload(halves),
+                                   test::upload(bytes),
+                                   test::upload(halves),
+                                   test::upload(std::vector<float>(pixels, 1.0f)),
+                                   test::upload(std::vector<cl_int>(2 * pixels, 1))};
+    const auto image = [&](cl_channel_type type, const void* texels) {
+        return cl::Image2D(on.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+                           cl::ImageFormat(CL_RGBA, type), width, height, 0,
+                           const_cast<void*>(texels));
+    };
+    const cl::Image2D whites = image(CL_FLOAT, ones.data());
+    const ImportImages images = {
+        whites, whites, whites, whites, whites, whites, image(CL_SIGNED_INT32, labels.data())};
+    ImportParams params = import_params(placed, stride);
+    params.flags = IMPORT_POSITION | IMPORT_GEOMETRIC | IMPORT_EMISSION | IMPORT_DEPTH |
+                   IMPORT_MATERIAL | IMPORT_TRIANGLE;
+    params.normal_format = params.geometric_format = params.emission_format = TEXEL_RGBA16F;
+    params.albedo_format = TEXEL_RGBA8;
+    const GBuffer out{test::empty<float>(GBUFFER_PLANES * stride),
+                      test::empty<cl_int>(GBUFFER_ID_PLANES * stride), stride};
+    const cl::Buffer count = test::upload(std::vector<cl_uint>{0});
+    passes.buffers(on.queue, view, params, buffers, out, count);
+    passes.images(on.queue, view, params, images, out, count);
+    std::printf("imported, first position %g\n", double{test::download<float>(out.planes, 1)[0]});
+}
+
 }  // namespace
 
 int main() {
     try {
         draw(true);
         draw(false);
+        import_texels();
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;
