@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -12,7 +13,7 @@ namespace clgi::io {
 // Until commit() the file at path stays as it was; without commit() the destructor leaves no
 // trace. A symbolic link at path is followed. Everything that fails throws InputError
 // "path: what is wrong".
-class AtomicFile {
+class CLGI_API AtomicFile {
 public:
     explicit AtomicFile(const std::filesystem::path& path);
     ~AtomicFile();

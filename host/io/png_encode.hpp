@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,6 @@ namespace clgi::io {
 
 // rgba: [h][w][4], row 0 at the top. Throws Error for a size that is not positive, or that a PNG
 // cannot have.
-std::vector<std::uint8_t> encode_png(int w, int h, const std::uint8_t* rgba);
+CLGI_API std::vector<std::uint8_t> encode_png(int w, int h, const std::uint8_t* rgba);
 
 }  // namespace clgi::io

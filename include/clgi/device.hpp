@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <clgi/opencl.hpp>
 #include <string>
 #include <vector>
@@ -10,18 +11,18 @@ namespace clgi {
 
 // Every device of every platform, in the order the ICD loader gives them.
 // Throws DeviceError when there is no platform; the text names the ICD folders searched.
-std::vector<cl::Device> all_devices();
+CLGI_API std::vector<cl::Device> all_devices();
 
 // Picks a device by "platform:CPU|GPU:name-or-index"; any field may be empty or missing, names
 // match as a part of the real name, ignoring case. An empty choice takes the variable
 // CLGI_DEVICE, else the first GPU, else the first CPU, else the first device.
 // Throws DeviceError naming the choice and what there is when nothing matches.
-cl::Device choose_device(const std::string& choice = "");
+CLGI_API cl::Device choose_device(const std::string& choice = "");
 
 // "platform: device name (OpenCL version)", for people.
-std::string describe(const cl::Device& device);
+CLGI_API std::string describe(const cl::Device& device);
 
 // Lanes of a packet (kernels/packet.clh) that suit the device: 4, 8 or 16 on CPUs, 1 elsewhere.
-int packet_width(const cl::Device& device);
+CLGI_API int packet_width(const cl::Device& device);
 
 }  // namespace clgi

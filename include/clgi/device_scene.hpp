@@ -5,6 +5,7 @@
 #include <clgi/shared/gbuffer.h>
 #include <clgi/shared/scene.h>
 #include <array>
+#include <clgi/export.hpp>
 #include <clgi/opencl.hpp>
 #include <clgi/scene.hpp>
 
@@ -33,7 +34,7 @@ struct EmissiveTriangle {
     glm::vec3 radiance = glm::vec3(0.0f);  // exposed
 };
 
-class DeviceScene {
+class CLGI_API DeviceScene {
 public:
     // Validates and uploads; the scene itself is not needed afterwards.
     // Throws InputError for a broken scene, DeviceError when the device has no room for it.
@@ -94,9 +95,9 @@ private:
 struct Reflectance {
     float diffuse, coat, lobe, exponent;
 };
-Reflectance reflectance(float metallic, float roughness);
+CLGI_API Reflectance reflectance(float metallic, float roughness);
 
 // The view of a camera for an image of this size, in the scene's local frame.
-View make_view(const Camera& camera, const SceneFrame& frame, int width, int height);
+CLGI_API View make_view(const Camera& camera, const SceneFrame& frame, int width, int height);
 
 }  // namespace clgi

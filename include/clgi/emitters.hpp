@@ -5,6 +5,7 @@
 #include <clgi/shared/gbuffer.h>
 #include <clgi/shared/lights.h>
 #include <clgi/device_scene.hpp>
+#include <clgi/export.hpp>
 #include <vector>
 
 namespace clgi {
@@ -36,6 +37,6 @@ struct EmitterSet {
 // Where more than 2^22 candidates would have to be tried (300 lights below a degree), the cone is
 // mapped directly instead: its samples then turn with the light.
 // Throws Error for options out of range and for more than 2^30 pixels of views.
-EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options);
+CLGI_API EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options);
 
 }  // namespace clgi

@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <clgi/scene.hpp>
 #include <glm/glm.hpp>
 
@@ -20,7 +21,7 @@ struct CornellOptions {
     glm::vec3 intensity = glm::vec3(1.5f, 1.35f, 1.15f);  // cd; spot and point
     float cone_angle = 0.6f;                              // from the axis; spot
 };
-Scene cornell(const CornellOptions& options = {});
+CLGI_API Scene cornell(const CornellOptions& options = {});
 
 // A closed room of 12 triangles with a mesh floating in its middle, one lamp near the front of
 // the ceiling and the camera before the front wall: the test scene of [Cochran07].
@@ -37,11 +38,11 @@ struct BoxOptions {
 };
 // Takes the shape of mesh alone: its materials, lights and cameras are left behind. Intensity is
 // scaled with the square of the box's height, so that a box of any size looks the same.
-Scene box(const Scene& mesh, const BoxOptions& options = {});
-Scene box(const BoxOptions& options = {});  // with bumpy_mesh()
+CLGI_API Scene box(const Scene& mesh, const BoxOptions& options = {});
+CLGI_API Scene box(const BoxOptions& options = {});  // with bumpy_mesh()
 
 // A star-shaped solid, about 2 m across, of 69,451 triangles: as many as the Stanford bunny has.
-Scene bumpy_mesh();
+CLGI_API Scene bumpy_mesh();
 
 // A sphere seen from inside, one reflectance everywhere, its light at the centre. The closed
 // form: with a spot or point of flux Phi, indirect irradiance is rho Phi / (4 pi R^2 (1 - rho))
@@ -55,7 +56,7 @@ struct FurnaceOptions {
     float intensity = 1.0f;          // cd; spot and point
     float radiance = 1.0f;           // cd/m^2; area
 };
-Scene furnace(const FurnaceOptions& options = {});
+CLGI_API Scene furnace(const FurnaceOptions& options = {});
 
 // A corridor with rooms behind doors on both sides; a spot near one end shines along it, so that
 // the rooms are lit by what comes through their doors alone. No edge ends on another's middle.
@@ -69,6 +70,6 @@ struct CorridorOptions {
     glm::vec3 intensity = glm::vec3(60.0f, 57.0f, 52.0f);  // cd
     float cone_angle = 0.5f;                               // from the axis
 };
-Scene corridor(const CorridorOptions& options = {});
+CLGI_API Scene corridor(const CorridorOptions& options = {});
 
 }  // namespace clgi

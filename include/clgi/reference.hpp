@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <functional>
@@ -32,7 +33,7 @@ struct Effects {
 // unshadowed-indirect (one bounce, unshadowed), diffuse (no gloss at all), diffuse-indirect.
 // "all" or an empty list: everything. Throws Error naming the word it does not know, or words that
 // exclude each other.
-Effects parse_effects(const std::string& list);
+CLGI_API Effects parse_effects(const std::string& list);
 
 // How directions towards what shines and has extent (emissive surfaces, the environment) are drawn:
 // for the light's sake, for the surface's, or both ways, weighed by the power heuristic. One way
@@ -86,7 +87,7 @@ struct Irradiance {
 // Called between passes over the pixels or places with the share done, [0,1]; false cancels.
 using Progress = std::function<bool(double done)>;
 
-class PathTracer {
+class CLGI_API PathTracer {
 public:
     // Validates and copies what it needs. Throws InputError for a broken scene.
     explicit PathTracer(const Scene& scene);

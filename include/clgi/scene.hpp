@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -129,19 +130,19 @@ struct Scene {
 };
 
 // Box around every vertex that a triangle uses; both corners zero for a scene without triangles.
-Bounds bounds(const Scene& scene);
+CLGI_API Bounds bounds(const Scene& scene);
 
 // Throws InputError naming the first array, index and value that breaks Scene's contract:
 // array lengths, indices in range, finite positions, unit-length normals, materials, lights and
 // environment in their ranges.
-void validate(const Scene& scene);
+CLGI_API void validate(const Scene& scene);
 
 // A camera looking at (or, in a room, through) the scene, for files that have none.
-Camera default_camera(const Scene& scene);
+CLGI_API Camera default_camera(const Scene& scene);
 
 // A light for scenes without lamp, emissive surface and environment: a directional light, pi lux.
-Light default_light(const Scene& scene);
+CLGI_API Light default_light(const Scene& scene);
 
-bool has_emission(const Scene& scene);
+CLGI_API bool has_emission(const Scene& scene);
 
 }  // namespace clgi

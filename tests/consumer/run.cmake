@@ -1,9 +1,13 @@
-# Installs a build of clgi aside, then builds and runs the project in this folder against it.
+# Installs a build of clgi aside, then builds and runs the projects of its users against it.
 #
-#   cmake -DBUILD_DIR=... -DWORK_DIR=... -DGENERATOR=... -DCXX=... -DCXX_FLAGS=... -DCONFIG=...
-#         -DKERNELS=share/clgi/kernels -P run.cmake
+#   cmake -DBUILD_DIR=... -DWORK_DIR=... -DGENERATOR=... -DCXX=... -DCXX_FLAGS=...
+#         -DCONFIG=... -DLIBDIR=lib -DKERNELS=share/clgi/kernels -DSHARED=ON|OFF
+#         -DCOMPONENTS=io,reference -P run.cmake
 
 cmake_minimum_required(VERSION 3.22)
+set(here "${CMAKE_CURRENT_LIST_DIR}")
+get_filename_component(source "${here}/../.." ABSOLUTE)
+string(REPLACE "," ";" components "${COMPONENTS}")
 
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result COMMAND_ECHO STDOUT)
@@ -12,16 +16,29 @@ function(run)
     endif()
 endfunction()
 
+# configure(folder build components): a user's project on the installed clgi.
+function(configure folder build wanted)
+    string(TOUPPER "${CONFIG}" upper)
+    run("${CMAKE_COMMAND}" -S "${folder}" -B "${build}" -G "${GENERATOR}"
+        "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}"
+        "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" "-DCMAKE_BUILD_TYPE=${CONFIG}"
+        "-DCONSUMER_COMPONENTS=${wanted}" "-DCMAKE_RUNTIME_OUTPUT_DIRECTORY=${build}/bin"
+        "-DCMAKE_RUNTIME_OUTPUT_DIRECTORY_${upper}=${build}/bin")
+endfunction()
+
 file(REMOVE_RECURSE "${WORK_DIR}")
-set(prefix "${WORK_DIR}/prefix")
-set(build "${WORK_DIR}/build")
+set(prefix "${WORK_DIR}/first")
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${prefix}" --config "${CONFIG}")
+# An installed tree may be moved: everything below finds itself.
+file(RENAME "${prefix}" "${WORK_DIR}/prefix")
+set(prefix "${WORK_DIR}/prefix")
 
 # Nothing installed may point back into the source or build tree.
-file(GLOB_RECURSE files "${prefix}/*.cmake" "${prefix}/*.hpp" "${prefix}/*.h" "${prefix}/*.cl")
+file(GLOB_RECURSE files "${prefix}/*.cmake" "${prefix}/*.hpp" "${prefix}/*.h" "${prefix}/*.cl"
+     "${prefix}/*.pc")
 foreach(file IN LISTS files)
     file(READ "${file}" text)
-    foreach(tree IN ITEMS "${BUILD_DIR}" "${CMAKE_CURRENT_LIST_DIR}")
+    foreach(tree IN ITEMS "${BUILD_DIR}" "${source}" "${WORK_DIR}/first")
         string(FIND "${text}" "${tree}" found)
         if(NOT found EQUAL -1)
             message(FATAL_ERROR "consumer: ${file} names ${tree}")
@@ -29,15 +46,86 @@ foreach(file IN LISTS files)
     endforeach()
 endforeach()
 
-string(TOUPPER "${CONFIG}" upper)
-run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${build}" -G "${GENERATOR}"
-    "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
-    "-DCMAKE_BUILD_TYPE=${CONFIG}" "-DCMAKE_RUNTIME_OUTPUT_DIRECTORY=${build}/bin"
-    "-DCMAKE_RUNTIME_OUTPUT_DIRECTORY_${upper}=${build}/bin")
-run("${CMAKE_COMMAND}" --build "${build}" --config "${CONFIG}")
-run("${build}/bin/furnace" "${WORK_DIR}/furnace.glb")
-run("${build}/bin/raw_kernel" "${prefix}/${KERNELS}/image/tonemap.cl")
-if(EXISTS "${build}/bin/textures")
-    run("${build}/bin/textures")
+# find_package
+configure("${here}" "${WORK_DIR}/build" "${COMPONENTS}")
+run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build" --config "${CONFIG}")
+run("${WORK_DIR}/build/bin/furnace")
+if("io" IN_LIST components AND "reference" IN_LIST components)
+    run("${WORK_DIR}/build/bin/truth" "${WORK_DIR}/furnace.glb")
 endif()
-run("${prefix}/bin/clgi" --version)
+if("gl" IN_LIST components)
+    run("${WORK_DIR}/build/bin/textures")
+endif()
+
+# A component that is not there is named, with those that are.
+execute_process(COMMAND "${CMAKE_COMMAND}" -S "${here}" -B "${WORK_DIR}/absent" -G "${GENERATOR}"
+                        "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}"
+                        -DCONSUMER_COMPONENTS=nosuch
+                RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE error)
+string(REGEX REPLACE "[ \n]+" " " error "${error}")
+if(result EQUAL 0 OR NOT error MATCHES "without the component 'nosuch'; its components are: core")
+    message(FATAL_ERROR "consumer: an absent component is not named:\n${error}")
+endif()
+
+# pkg-config
+find_program(pkg_config pkg-config REQUIRED)
+set(static "--static")
+set(ENV{LD_LIBRARY_PATH} "")
+if(SHARED)
+    set(static "")
+    set(ENV{LD_LIBRARY_PATH} "${prefix}/${LIBDIR}")
+endif()
+set(ENV{PKG_CONFIG_PATH} "${prefix}/${LIBDIR}/pkgconfig")
+run(sh "${here}/pkgconfig.sh" "${CXX} ${CXX_FLAGS}" "${here}/furnace.cpp"
+    "${WORK_DIR}/furnace_pc" clgi ${static})
+run("${WORK_DIR}/furnace_pc")
+if("io" IN_LIST components AND "reference" IN_LIST components)
+    run(sh "${here}/pkgconfig.sh" "${CXX} ${CXX_FLAGS}" "${here}/truth.cpp"
+        "${WORK_DIR}/truth_pc" "clgi-io clgi-reference" ${static})
+    run("${WORK_DIR}/truth_pc" "${WORK_DIR}/furnace_pc.glb")
+endif()
+
+# The samples, and the kernels alone: they give the library's bits.
+configure("${source}/samples" "${WORK_DIR}/samples" "")
+run("${CMAKE_COMMAND}" --build "${WORK_DIR}/samples" --config "${CONFIG}")
+run("${WORK_DIR}/samples/bin/raw_kernels" "${prefix}/${KERNELS}" "${WORK_DIR}/raw.pfm")
+run("${WORK_DIR}/build/bin/same_bits" "${WORK_DIR}/library.pfm")
+run("${CMAKE_COMMAND}" -E compare_files "${WORK_DIR}/raw.pfm" "${WORK_DIR}/library.pfm")
+if("io" IN_LIST components)
+    run("${CMAKE_COMMAND}" -E chdir "${WORK_DIR}" "${WORK_DIR}/samples/bin/hello_clgi")
+    if(NOT EXISTS "${WORK_DIR}/hello.exr")
+        message(FATAL_ERROR "consumer: hello_clgi wrote no picture")
+    endif()
+endif()
+if(EXISTS "${prefix}/bin/clgi")
+    run("${prefix}/bin/clgi" --version)
+endif()
+
+# Debian packages, where their tools are.
+find_program(cpack cpack)
+find_program(dpkg_deb dpkg-deb)
+find_program(shlibdeps dpkg-shlibdeps)
+if(NOT cpack OR NOT dpkg_deb OR NOT shlibdeps)
+    message(STATUS "consumer: no cpack, dpkg-deb or dpkg-shlibdeps here; no package was made")
+    return()
+endif()
+run("${cpack}" -G DEB --config "${BUILD_DIR}/CPackConfig.cmake" -C "${CONFIG}" -B "${WORK_DIR}/deb")
+file(GLOB packages "${WORK_DIR}/deb/*.deb")
+set(listed "")
+foreach(package IN LISTS packages)
+    execute_process(COMMAND "${dpkg_deb}" --info "${package}" OUTPUT_VARIABLE info)
+    execute_process(COMMAND "${dpkg_deb}" --contents "${package}" OUTPUT_VARIABLE contents)
+    message(STATUS "${package}\n${info}${contents}")
+    string(APPEND listed "${info}${contents}")
+endforeach()
+set(wanted "/usr/include/clgi/clgi.hpp" "/usr/${LIBDIR}/cmake/clgi/clgiConfig.cmake"
+    "/usr/${LIBDIR}/pkgconfig/clgi.pc" "/usr/${KERNELS}/image/gather.cl" "Package: libclgi-dev")
+if(SHARED)
+    list(APPEND wanted "/usr/${LIBDIR}/libclgi.so.0" "Package: clgi\n" "ocl-icd-libopencl1")
+endif()
+foreach(text IN LISTS wanted)
+    string(FIND "${listed}" "${text}" found)
+    if(found EQUAL -1)
+        message(FATAL_ERROR "consumer: the packages are without ${text}")
+    endif()
+endforeach()

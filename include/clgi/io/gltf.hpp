@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <clgi/scene.hpp>
 #include <filesystem>
 
@@ -21,11 +22,11 @@ struct GltfOptions {
 // Throws InputError with one line "file: what is wrong and where" for a file that is broken or
 // that requires an extension which is not supported. What is merely odd becomes a line in
 // Scene::warnings.
-Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
+CLGI_API Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 // Writes a self-contained .glb: geometry, materials, textures (as PNG), lights, cameras.
 // Positions are stored as float32 relative to a node at the scene's centre.
 // The file appears whole or not at all. Throws InputError when it cannot be written.
-void save_glb(const Scene& scene, const std::filesystem::path& path);
+CLGI_API void save_glb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace clgi::io

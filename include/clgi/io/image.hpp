@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,7 +13,7 @@
 namespace clgi::io {
 
 // Float planes of one size, row 0 at the top.
-struct Image {
+struct CLGI_API Image {
     struct Channel {
         std::string name;           // "R", "G", "B", "A", "normal.X" ...
         std::vector<float> values;  // [height][width]
@@ -33,14 +34,14 @@ struct LoadReport {
 
 // Reads .exr (scanline or tiled, first part) or .hdr (told apart by content). Non-finite samples
 // are replaced and counted in report. Throws InputError: "file: what is wrong".
-Image load_image(const std::filesystem::path& path, LoadReport* report = nullptr);
+CLGI_API Image load_image(const std::filesystem::path& path, LoadReport* report = nullptr);
 
 // Writes EXR, ZIP-compressed. half saturates at 65504 instead of becoming infinite.
 // Attributes become string attributes of the header.
-void save_exr(const Image& image, const std::filesystem::path& path, Storage storage);
+CLGI_API void save_exr(const Image& image, const std::filesystem::path& path, Storage storage);
 
 // Writes an 8-bit sRGB PNG from RGBA bytes, row 0 at the top. rgba: [height][width][4]
-void save_png(int width, int height, const std::vector<std::uint8_t>& rgba,
-              const std::filesystem::path& path);
+CLGI_API void save_png(int width, int height, const std::vector<std::uint8_t>& rgba,
+                       const std::filesystem::path& path);
 
 }  // namespace clgi::io

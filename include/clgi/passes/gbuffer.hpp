@@ -8,6 +8,7 @@
 
 #include <clgi/shared/gbuffer.h>
 #include <clgi/device_scene.hpp>
+#include <clgi/export.hpp>
 #include <clgi/pass.hpp>
 #include <clgi/planes.hpp>
 
@@ -39,7 +40,7 @@ inline std::size_t low_size(std::uint32_t size, std::uint32_t step) {
     return (static_cast<std::size_t>(size) + step - 1) / step;
 }
 
-class GBufferPasses {
+class CLGI_API GBufferPasses {
 public:
     GBufferPasses(const cl::Context& context, const cl::Device& device,
                   const BuildOptions& options = {});

@@ -5,13 +5,14 @@
 
 #include <clgi/shared/image.h>
 #include <clgi/device_scene.hpp>
+#include <clgi/export.hpp>
 #include <clgi/pass.hpp>
 #include <clgi/planes.hpp>
 #include <clgi/passes/lights.hpp>
 
 namespace clgi {
 
-class ImagePasses {
+class CLGI_API ImagePasses {
 public:
     ImagePasses(const cl::Context& context, const cl::Device& device,
                 const BuildOptions& options = {});

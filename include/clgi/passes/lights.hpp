@@ -5,6 +5,7 @@
 
 #include <clgi/shared/lights.h>
 #include <clgi/device_scene.hpp>
+#include <clgi/export.hpp>
 #include <clgi/pass.hpp>
 
 namespace clgi {
@@ -18,7 +19,7 @@ struct SourceBuffers {
     std::size_t pixels = 0;
 };
 
-class LightPasses {
+class CLGI_API LightPasses {
 public:
     LightPasses(const cl::Context& context, const cl::Device& device,
                 const BuildOptions& options = {});

@@ -54,12 +54,12 @@ struct PassEvent {
 // Called between the parts of a frame with the share done, [0,1]; false cancels the frame.
 using Progress = std::function<bool(double done)>;
 
-Estimate estimate(const cl::Device& device, const DeviceScene& scene,
-                  const SecondOrderOptions& options);
+CLGI_API Estimate estimate(const cl::Device& device, const DeviceScene& scene,
+                           const SecondOrderOptions& options);
 
 // Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
 // outlive the solver. One solver is used by one thread at a time.
-class SecondOrderSolver {
+class CLGI_API SecondOrderSolver {
 public:
     // Builds kernels and allocates. Throws Error for options out of range, DeviceError when the
     // device cannot.
