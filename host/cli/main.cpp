@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <clgi/error.hpp>
+#include <clgi/opencl.hpp>
 #include <cstdio>
 #include <new>
 #include <string>
@@ -13,6 +14,7 @@
 #include "cli/commands.hpp"
 #include "cli/session.hpp"
 #include "cli/version.hpp"
+#include "opencl/error_text.hpp"
 
 namespace {
 
@@ -79,6 +81,9 @@ int main(int argc, char** argv) {
         return fail(device_or_memory, error.what());
     } catch (const clgi::Error& error) {
         return fail(wrong_use, error.what());
+    } catch (const cl::Error& error) {
+        return fail(device_or_memory,
+                    fmt::format("{}: {}", error.what(), clgi::error_text(error.err())));
     } catch (const std::bad_alloc&) {
         return fail(device_or_memory, "out of memory");
     } catch (const std::exception& error) {

@@ -11,6 +11,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "opencl/error_text.hpp"
+
 namespace clgi::cli {
 namespace {
 
@@ -36,8 +38,8 @@ Session open_session(const DeviceFlags& flags, const ContextProperties& properti
         out.context = cl::Context(out.device, more.empty() ? nullptr : more.data());
         out.queue = cl::CommandQueue(out.context, out.device, CL_QUEUE_PROFILING_ENABLE);
     } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("device: {} cannot be opened (OpenCL error {})",
-                                      describe(out.device), error.err()));
+        throw DeviceError(fmt::format("device: {} cannot be opened: {}", describe(out.device),
+                                      error_text(error.err())));
     }
     return out;
 }

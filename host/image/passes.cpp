@@ -48,18 +48,18 @@ ImagePasses::ImagePasses(const cl::Context& context, const cl::Device& device,
 }
 
 cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams& params,
-                              std::size_t most, const cl::Buffer& point_count,
+                              const Range& range, const cl::Buffer& point_count,
                               const cl::Buffer& points, const cl::Buffer& lights,
                               const cl::Buffer& negative, const cl::Buffer& irradiance,
                               const WaitList& wait) const {
-    need_stride(gather_, "stride", params.stride, most);
+    need_stride(gather_, "stride", params.stride, range.first + range.count);
     need(gather_, "point_count", point_count, sizeof(std::uint32_t));
     need(gather_, "points", points, point_bytes(gather_.storage, params.stride));
     need(gather_, "lights", lights, params.light_count * sizeof(IndirectLight));
     need(gather_, "negative", negative, params.negative_count * sizeof(IndirectLight));
     need(gather_, "irradiance", irradiance, irradiance_bytes(gather_.storage, params.stride));
-    return launch(gather_, queue, packets(gather_, most), wait, params, point_count, points, lights,
-                  negative, irradiance);
+    return launch(gather_, queue, packets(gather_, range), wait, params, point_count, points,
+                  lights, negative, irradiance);
 }
 
 cl::Event ImagePasses::count(const cl::CommandQueue& queue, std::uint32_t pixels,

@@ -30,7 +30,7 @@ cl::Event LightPasses::accept_mask(const cl::CommandQueue& queue, const AcceptPa
     if (params.candidate_count % 32 != 0)
         throw Error("lights.accept_mask: candidate_count is " +
                     std::to_string(params.candidate_count) + ", a multiple of 32 needed");
-    need(accept_mask_, "emitters", emitters, (params.emitter + 1) * sizeof(Emitter));
+    need(accept_mask_, "emitters", emitters, (std::size_t{params.emitter} + 1) * sizeof(Emitter));
     need(accept_mask_, "mask", mask, params.candidate_count / 8);
     return launch(accept_mask_, queue, params.candidate_count / 32, wait, params, emitters, mask);
 }
@@ -38,7 +38,7 @@ cl::Event LightPasses::accept_mask(const cl::CommandQueue& queue, const AcceptPa
 cl::Event LightPasses::accept_list(const cl::CommandQueue& queue, const AcceptParams& params,
                                    const cl::Buffer& emitters, const cl::Buffer& mask,
                                    const cl::Buffer& accepted, const WaitList& wait) const {
-    need(accept_list_, "emitters", emitters, (params.emitter + 1) * sizeof(Emitter));
+    need(accept_list_, "emitters", emitters, (std::size_t{params.emitter} + 1) * sizeof(Emitter));
     need(accept_list_, "mask", mask, params.candidate_count / 8);
     need(accept_list_, "accepted", accepted,
          std::max(params.light_count, 1u) * sizeof(std::uint32_t));
@@ -67,14 +67,25 @@ cl::Event LightPasses::negative(const cl::CommandQueue& queue, const NegativePar
                                 const View& view, const cl::Buffer& planes,
                                 const cl::Buffer& lights, const cl::Buffer& negative,
                                 const WaitList& wait) const {
+    return this->negative(queue, params, Range(params.negative_count), view, planes, lights,
+                          negative, wait);
+}
+
+cl::Event LightPasses::negative(const cl::CommandQueue& queue, const NegativeParams& params,
+                                const Range& samples, const View& view, const cl::Buffer& planes,
+                                const cl::Buffer& lights, const cl::Buffer& negative,
+                                const WaitList& wait) const {
+    if (samples.first + samples.count > params.negative_count)
+        throw Error("lights.negative: the range ends at " +
+                    std::to_string(samples.first + samples.count) + ", at most " +
+                    std::to_string(params.negative_count) + " needed");
     if (params.stride < static_cast<std::size_t>(view.width) * view.height)
         throw Error("lights.negative: stride is " + std::to_string(params.stride) + ", at least " +
                     std::to_string(view.width * view.height) + " needed");
     need(negative_, "planes", planes, gbuffer_bytes(negative_.storage, params.stride));
     need(negative_, "lights", lights, params.light_count * sizeof(IndirectLight));
     need(negative_, "negative", negative, params.negative_count * sizeof(IndirectLight));
-    return launch(negative_, queue, params.negative_count, wait, params, view, planes, lights,
-                  negative);
+    return launch(negative_, queue, samples, wait, params, view, planes, lights, negative);
 }
 
 }  // namespace clgi

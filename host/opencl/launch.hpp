@@ -7,6 +7,8 @@
 #include <clgi/pass.hpp>
 #include <string>
 
+#include "opencl/error_text.hpp"
+
 namespace clgi {
 
 inline void set_argument(cl::Kernel& kernel, cl_uint& index, const DeviceScene& scene) {
@@ -18,11 +20,21 @@ void set_argument(cl::Kernel& kernel, cl_uint& index, const T& value) {
     kernel.setArg(index++, value);
 }
 
-// Enqueues at least `items` work-items in groups of the pass's size; none at all for items = 0,
-// where the event only stands for the wait list.
+// The largest group, up to the pass's size, that work-items of a part fill exactly: what lies
+// beside the part is not touched.
+inline std::size_t dividing_group(const PassKernel& pass, std::size_t items) {
+    std::size_t size = 1;
+    while (2 * size <= pass.local_size && items % (2 * size) == 0) size *= 2;
+    return size;
+}
+
+// Enqueues work-items in groups of the pass's size, at least as many as a whole range has and
+// exactly those of a part; none at all for an empty range, where the event only stands for the
+// wait list.
 template <typename... Arguments>
-cl::Event launch(const PassKernel& pass, const cl::CommandQueue& queue, std::size_t items,
+cl::Event launch(const PassKernel& pass, const cl::CommandQueue& queue, const Range& range,
                  const WaitList& wait, const Arguments&... arguments) {
+    const std::size_t items = range.count;
     cl::Event event;
     const WaitList* waits = wait.empty() ? nullptr : &wait;
     try {
@@ -33,12 +45,15 @@ cl::Event launch(const PassKernel& pass, const cl::CommandQueue& queue, std::siz
         cl::Kernel kernel = pass.kernel;  // a second handle: arguments live in the kernel itself
         cl_uint index = 0;
         (set_argument(kernel, index, arguments), ...);
-        const std::size_t groups = (items + pass.local_size - 1) / pass.local_size;
-        queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups * pass.local_size),
-                                   cl::NDRange(pass.local_size), waits, &event);
+        const std::size_t group = range.whole ? pass.local_size : dividing_group(pass, items);
+        const std::size_t groups = (items + group - 1) / group;
+        queue.enqueueNDRangeKernel(kernel, cl::NDRange(range.first), cl::NDRange(groups * group),
+                                   cl::NDRange(group), waits, &event);
     } catch (const cl::Error& error) {
-        throw DeviceError(pass.name + ": enqueueing failed with OpenCL error " +
-                          std::to_string(error.err()) + " in " + error.what());
+        const std::string text =
+            pass.name + ": " + error.what() + " failed: " + error_text(error.err());
+        if (is_wrong_call(error.err())) throw Error(text);
+        throw DeviceError(text);
     }
     return event;
 }
@@ -54,6 +69,17 @@ inline void need(const PassKernel& pass, const char* argument, const cl::Buffer&
 
 inline std::size_t packets(const PassKernel& pass, std::size_t items) {
     return (items + pass.packet_width - 1) / pass.packet_width;
+}
+
+// The same for a range of points, which must begin with a packet of any width.
+inline Range packets(const PassKernel& pass, const Range& points) {
+    if (points.first % 16 != 0)
+        throw Error(pass.name + ": the range begins at " + std::to_string(points.first) +
+                    ", a multiple of 16 needed");
+    Range out = points;
+    out.first = points.first / pass.packet_width;
+    out.count = packets(pass, points.count);
+    return out;
 }
 
 }  // namespace clgi

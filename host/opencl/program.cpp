@@ -4,22 +4,66 @@
 #include <algorithm>
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
-#include <cstring>
+#include <clgi/kernel_source.hpp>
 #include <future>
 
 #include "opencl/embedded.hpp"
+#include "opencl/error_text.hpp"
 
 namespace clgi {
 namespace {
 
-const char* find_source(const std::string& name) {
+int width_of(const cl::Device& device, const BuildOptions& options) {
+    const int width = options.packet_width > 0 ? options.packet_width : packet_width(device);
+    if (width != 1 && width != 4 && width != 8 && width != 16)
+        throw Error("program: packet_width is " + std::to_string(width) + ", 1, 4, 8 or 16 needed");
+    return width;
+}
+
+// What the compiler said; empty where there is no program or nobody to ask any more.
+std::string build_log(const cl::Program& program, const cl::Device& device) {
+    if (!program()) return "";
+    try {
+        return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
+    } catch (const cl::Error&) {
+        return "";
+    }
+}
+
+PassKernel build_pass(const cl::Context& context, const cl::Device& device, const std::string& room,
+                      const std::string& pass, const BuildOptions& options) {
+    const int width = width_of(device, options);
+    const std::string build = compiler_options(device, options);
+    const std::string source = kernel_source(room + "/" + pass);
+    cl::Program program;
+    PassKernel out;
+    try {
+        program = cl::Program(context, source);
+        program.build(device, build.c_str());
+        out.kernel = cl::Kernel(program, (room + "_" + pass).c_str());
+    } catch (const cl::Error& error) {
+        throw DeviceError("program: " + room + "/" + pass + ".cl does not build on " +
+                          describe(device) + ": " + error_text(error.err()) + "\n" +
+                          build_log(program, device));
+    }
+    out.name = room + "." + pass;
+    const std::size_t most = out.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device);
+    out.local_size = std::min(options.local_size > 0 ? options.local_size : 64, most);
+    out.packet_width = width;
+    out.storage = options.storage;
+    return out;
+}
+
+}  // namespace
+
+const char* kernel_source(const std::string& name) {
     for (unsigned i = 0; i < embedded_kernel_count; ++i)
         if (name == embedded_kernels[i].name) return embedded_kernels[i].source;
     throw Error("program: no embedded kernel is called " + name);
 }
 
-std::string compiler_options(const cl::Device& device, const BuildOptions& options, int width) {
-    std::string text = "-cl-std=CL1.2 -DCLGI_WIDTH=" + std::to_string(width);
+std::string compiler_options(const cl::Device& device, const BuildOptions& options) {
+    std::string text = "-cl-std=CL1.2 -DCLGI_WIDTH=" + std::to_string(width_of(device, options));
     if (uses_atomics64(device, options)) text += " -DCLGI_ATOMIC64";
     if (!options.textures) text += " -DCLGI_NO_TEXTURES";
     if (options.storage == Storage::half) text += " -DCLGI_HALF";
@@ -30,31 +74,6 @@ std::string compiler_options(const cl::Device& device, const BuildOptions& optio
     }
     return text;
 }
-
-PassKernel build_pass(const cl::Context& context, const cl::Device& device, const std::string& room,
-                      const std::string& pass, const BuildOptions& options) {
-    const int width = options.packet_width > 0 ? options.packet_width : packet_width(device);
-    if (width != 1 && width != 4 && width != 8 && width != 16)
-        throw Error("program: packet_width is " + std::to_string(width) + ", 1, 4, 8 or 16 needed");
-    cl::Program program(context, std::string(find_source(room + "/" + pass)));
-    try {
-        program.build(device, compiler_options(device, options, width).c_str());
-    } catch (const cl::Error& error) {
-        throw DeviceError("program: " + room + "/" + pass + ".cl does not build on " +
-                          describe(device) + " (OpenCL error " + std::to_string(error.err()) +
-                          ")\n" + program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device));
-    }
-    PassKernel out;
-    out.name = room + "." + pass;
-    out.kernel = cl::Kernel(program, (room + "_" + pass).c_str());
-    const std::size_t most = out.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device);
-    out.local_size = std::min(options.local_size > 0 ? options.local_size : 64, most);
-    out.packet_width = width;
-    out.storage = options.storage;
-    return out;
-}
-
-}  // namespace
 
 bool uses_atomics64(const cl::Device& device, const BuildOptions& options) {
     return options.atomics64 && device.getInfo<CL_DEVICE_EXTENSIONS>().find(

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "opencl/error_text.hpp"
 #include "scene/environment.hpp"
 #include "scene/locality.hpp"
 #include "scene/luminance.hpp"
@@ -91,8 +92,7 @@ public:
                               values.data());
         } catch (const cl::Error& error) {
             throw DeviceError(std::string("scene: no room for ") + what + " (" +
-                              std::to_string(size) + " bytes, OpenCL error " +
-                              std::to_string(error.err()) + ")");
+                              std::to_string(size) + " bytes): " + error_text(error.err()));
         }
     }
 

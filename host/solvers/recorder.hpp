@@ -1,46 +1,75 @@
-// Enqueues one pass after the other and remembers each one's event.
+// Enqueues one pass after the other, remembers each one's event, and stops between two of them
+// when it is told to.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/error.hpp>
 #include <clgi/solvers/second_order.hpp>
 #include <utility>
+
+#include "opencl/error_text.hpp"
 
 namespace clgi {
 
 class SecondOrderSolver::Recorder {
 public:
-    // before: what the first pass must wait for, a frame still on the queue; may be empty.
-    Recorder(const cl::CommandQueue& queue, const WaitList& before, std::vector<PassEvent>& events)
+    // wait: what the first pass must wait for besides the frame still on the queue. end: the
+    // event of the last pass on the queue, kept up to date pass by pass, so that a frame that
+    // fails half-way leaves behind what the next one must wait for.
+    Recorder(const cl::CommandQueue& queue, const WaitList& wait, WaitList& end,
+             std::vector<PassEvent>& events, const Progress& progress)
         : in_order_(
               !(queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)),
+          before_(wait),
+          end_(end),
           events_(events),
-          last_(before) {
+          progress_(progress) {
         events_.clear();
     }
 
-    // enqueue(wait) puts one pass on the queue. On a queue in order nothing on it need be waited
-    // for.
+    // enqueue(wait) puts one pass on the queue. On a queue in order what is on it need not be
+    // waited for.
     template <typename Enqueue>
     void operator()(const char* name, std::size_t items, Enqueue&& enqueue) {
-        WaitList waits = in_order_ ? WaitList() : last_;
-        waits.insert(waits.end(), elsewhere_.begin(), elsewhere_.end());
-        elsewhere_.clear();
-        cl::Event event = std::forward<Enqueue>(enqueue)(waits);
-        last_.assign(1, event);
+        if (cancelled_) return;
+        WaitList wait = before_;
+        if (!in_order_) wait.insert(wait.end(), end_.begin(), end_.end());
+        cl::Event event = std::forward<Enqueue>(enqueue)(wait);
+        before_.clear();
+        end_.assign(1, event);
         events_.push_back({name, items, event});
     }
 
-    // Work on other queues, or of other libraries, that the next pass must wait for.
-    void wait_for(const WaitList& elsewhere) { elsewhere_ = elsewhere; }
+    // A pass on another queue, which the next one on this queue waits for.
+    void beside(const char* name, std::size_t items, const cl::Event& event) {
+        events_.push_back({name, items, event});
+        before_.push_back(event);
+        end_.push_back(event);
+    }
 
-    const WaitList& wait() const { return last_; }
-    cl::Event last() const { return last_.empty() ? cl::Event() : last_.front(); }
+    // Waits for what was enqueued and tells how much of the frame that is, [0,1].
+    void report(double done) {
+        if (!progress_ || cancelled_) return;
+        try {
+            if (!before_.empty()) cl::Event::waitForEvents(before_);
+            if (!end_.empty()) cl::Event::waitForEvents(end_);
+        } catch (const cl::Error& error) {
+            throw DeviceError("second-order: the frame failed on the device: " +
+                              error_text(error.err()));
+        }
+        cancelled_ = !progress_(done);
+    }
+
+    bool cancelled() const { return cancelled_; }
+    cl::Event last() const { return end_.empty() ? cl::Event() : end_.front(); }
 
 private:
     bool in_order_;
+    bool cancelled_ = false;
+    WaitList before_;
+    WaitList& end_;
     std::vector<PassEvent>& events_;
-    WaitList elsewhere_;
-    WaitList last_;
+    const Progress& progress_;
 };
 
 }  // namespace clgi

@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "lights/replicate.hpp"
+#include "opencl/error_text.hpp"
 #include "solvers/recorder.hpp"
 #include "solvers/second_order_sizes.hpp"
 
@@ -28,12 +29,11 @@ void on_device(const char* what, Work&& work) {
     try {
         work();
     } catch (const cl::Error& error) {
-        throw DeviceError("second-order: " + std::string(what) + " (OpenCL error " +
-                          std::to_string(error.err()) + ")");
+        throw DeviceError("second-order: " + std::string(what) + ": " + error_text(error.err()));
     }
 }
 
-// Kernels are built for textures and an environment only where the scene calls for them.
+// Kernels are built with textures only where the scene calls for them.
 SecondOrderOptions checked(SecondOrderOptions options, const DeviceScene& scene) {
     check(options);
     options.build.textures = options.build.textures && scene.needs_textures();
@@ -44,13 +44,20 @@ SecondOrderOptions checked(SecondOrderOptions options, const DeviceScene& scene)
 }  // namespace
 
 SecondOrderSolver::SecondOrderSolver(const cl::CommandQueue& queue, const DeviceScene& scene,
-                                     const SecondOrderOptions& options)
+                                     const SecondOrderOptions& options,
+                                     const std::vector<cl::CommandQueue>& helpers)
     : queue_(queue),
       scene_(scene),
       options_(checked(options, scene)),
       gbuffer_(context_of(queue), device_of(queue), options_.build),
       light_passes_(context_of(queue), device_of(queue), options_.build),
       image_(context_of(queue), device_of(queue), options_.build) {
+    for (const cl::CommandQueue& helper : helpers) {
+        if (context_of(helper)() != context_of(queue)())
+            throw Error("second-order: a helper's queue is of another context, the same needed");
+        helpers_.push_back(
+            {helper, ImagePasses(context_of(helper), device_of(helper), options_.build), {}});
+    }
     allocate();
 }
 
@@ -62,7 +69,14 @@ void SecondOrderSolver::reconfigure(const SecondOrderOptions& options) {
     allocate();
 }
 
+// Waiting for what has failed would fail again.
+void SecondOrderSolver::forget_failed_frame() {
+    if (!frame_end_.empty() && frame_end_.front().getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() < 0)
+        frame_end_.clear();
+}
+
 void SecondOrderSolver::lights_changed() {
+    forget_failed_frame();
     const EmitterSet before = set_;
     set_ = make_emitters(scene_, options_.sources);
     const bool same_shape =
@@ -112,7 +126,10 @@ void SecondOrderSolver::draw_view(Recorder& record, const View& view,
 
 // The scene as every source sees it, and the indirect lights on what they light. [section 3.1]
 void SecondOrderSolver::place_lights(Recorder& record) {
-    for (const View& view : set_.views) draw_view(record, view, sources_.visibility);
+    for (std::size_t v = 0; v < set_.views.size(); ++v) {
+        draw_view(record, set_.views[v], sources_.visibility);
+        record.report(0.2 * static_cast<double>(v + 1) / static_cast<double>(set_.views.size()));
+    }
     if (!indirect_) return;
     for (std::size_t e = 0; e < set_.emitters.size(); ++e) {
         if (set_.candidates[e] == 0) continue;
@@ -144,11 +161,6 @@ void SecondOrderSolver::draw_camera(Recorder& record, const View& view) {
     });
 }
 
-GatherParams SecondOrderSolver::gather_params(std::uint32_t stride) const {
-    return {stride, static_cast<std::uint32_t>(set_.light_count),
-            static_cast<std::uint32_t>(options_.negative_lights), 0};
-}
-
 // I_s and I_n at every pixel. [sections 3.2, 3.3, 3.5]
 void SecondOrderSolver::light_points(Recorder& record, const View& view) {
     if (options_.negative_lights > 0) {
@@ -162,16 +174,12 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
                                     replicate_shift(replicate, ShiftUse::image, 0),
                                     replicate_shift(replicate, ShiftUse::image, 1),
                                     0};
-        record("lights.negative", params.negative_count, [&](const WaitList& wait) {
-            return light_passes_.negative(queue_, params, view, seen_.planes, lights_, negative_, wait);
-        });
+        place_negative(record, params, view);
     }
     const std::size_t pixels = pixel_count(options_);
     if (!refine_) {
-        record("image.gather", pixels, [&](const WaitList& wait) {
-            return image_.gather(queue_, gather_params(stride_), pixels, all_count_, seen_.planes,
-                                 lights_, negative_, irradiance_, wait);
-        });
+        gather(record,
+               {"image.gather", pixels, stride_, all_count_, seen_.planes, irradiance_, 0.4, 0.9});
         return;
     }
 
@@ -191,26 +199,22 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
         return gbuffer_.downsample(queue_, {width, height, stride_, low_stride_, step, 0, 0, 0},
                                    seen_.planes, low_points_, wait);
     });
-    record("image.gather_low", low_pixels, [&](const WaitList& wait) {
-        return image_.gather(queue_, gather_params(low_stride_), low_pixels, low_count_,
-                             low_points_, lights_, negative_, low_irradiance_, wait);
-    });
+    gather(record, {"image.gather_low", low_pixels, low_stride_, low_count_, low_points_,
+                    low_irradiance_, 0.4, 0.6});
     record("image.upsample", pixels, [&](const WaitList& wait) {
-        return image_.upsample(queue_, params, seen_.planes, low_points_, low_irradiance_, irradiance_,
-                               flags_, wait);
+        return image_.upsample(queue_, params, seen_.planes, low_points_, low_irradiance_,
+                               irradiance_, flags_, wait);
     });
     if (std::isinf(options_.discontinuity_threshold)) return;
     record("image.count", pixels, [&](const WaitList& wait) {
         return image_.count(queue_, width * height, flags_, counts_, wait);
     });
     record("image.compact", pixels, [&](const WaitList& wait) {
-        return image_.compact(queue_, params, flags_, counts_, seen_.planes, listed_, listed_points_,
-                              listed_count_, wait);
+        return image_.compact(queue_, params, flags_, counts_, seen_.planes, listed_,
+                              listed_points_, listed_count_, wait);
     });
-    record("image.gather", pixels, [&](const WaitList& wait) {
-        return image_.gather(queue_, gather_params(stride_), pixels, listed_count_, listed_points_,
-                             lights_, negative_, listed_irradiance_, wait);
-    });
+    gather(record, {"image.gather", pixels, stride_, listed_count_, listed_points_,
+                    listed_irradiance_, 0.6, 0.9});
     record("image.place", pixels, [&](const WaitList& wait) {
         return image_.place(queue_, params, listed_count_, listed_, listed_irradiance_, irradiance_,
                             wait);
@@ -252,18 +256,20 @@ void SecondOrderSolver::fill_background(Recorder& record, const View& view) {
 }
 
 // Nothing to see, or nothing that shines: black, without a kernel.
-cl::Event SecondOrderSolver::black_frame() {
+void SecondOrderSolver::black_frame(const WaitList& wait) {
+    frame_end_.insert(frame_end_.end(), wait.begin(), wait.end());
     const auto fill = [&](const cl::Buffer& buffer, auto value) {
         cl::Event event;
         const std::size_t bytes = buffer.getInfo<CL_MEM_SIZE>() / sizeof value * sizeof value;
         queue_.enqueueFillBuffer(buffer, value, 0, bytes, &frame_end_, &event);
         frame_end_.assign(1, event);
+        fills_.push_back(event);
     };
     on_device("the black frame cannot be filled", [&] {
-        for (const cl::Buffer* buffer : {&seen_.planes, &irradiance_, &radiance_}) fill(*buffer, 0.0f);
+        for (const cl::Buffer* buffer : {&seen_.planes, &irradiance_, &radiance_})
+            fill(*buffer, 0.0f);
         fill(seen_.ids, std::int32_t{-1});
     });
-    return frame_end_.front();
 }
 
 void SecondOrderSolver::check_given(const GBuffer& given) const {
@@ -285,38 +291,34 @@ cl::Event SecondOrderSolver::frame(const Camera& camera, const GBuffer* given,
                                    bool& cancelled) {
     if (given) check_given(*given);
     seen_ = given ? *given : drawn_;
-    Recorder record(queue_, frame_end_, events_);
     const View view = make_view(camera, scene_.frame(), options_.width, options_.height);
-    cancelled = false;
-    const auto go_on = [&](double done) {
-        if (!progress || cancelled) return !cancelled;
-        if (!record.wait().empty()) cl::Event::waitForEvents(record.wait());
-        cancelled = !progress(done);
-        return !cancelled;
-    };
+    forget_failed_frame();
+    fills_.clear();
+    Recorder record(queue_, wait, frame_end_, events_, progress);
     const bool empty = scene_.info().triangle_count == 0;
     const bool dark = set_.emitters.empty() && !(scene_.info().flags & SCENE_HAS_EMISSION);
     const bool background = options_.direct && scene_.environment();
     if (!given && (empty || dark) && !background) {
-        const cl::Event event = black_frame();
-        go_on(1.0);
-        return event;
+        black_frame(wait);
+    } else {
+        record.report(0.0);
+        place_lights(record);
+        record.report(0.2);
+        if (!given) draw_camera(record, view);
+        record.report(0.4);
+        if (indirect_) light_points(record, view);
+        record.report(0.9);
+        combine(record, view, given || (scene_.info().flags & SCENE_HAS_EMISSION));
+        if (background) fill_background(record, view);
     }
-    if (go_on(0.0)) place_lights(record);
-    record.wait_for(wait);
-    if (go_on(0.2) && !given) draw_camera(record, view);
-    if (go_on(0.4) && indirect_) light_points(record, view);
-    const bool emission = given || (scene_.info().flags & SCENE_HAS_EMISSION) != 0;
-    if (go_on(0.9)) combine(record, view, emission);
-    if (!cancelled && background) fill_background(record, view);
-    frame_end_ = record.wait();
-    go_on(1.0);
-    return frame_end_.empty() ? cl::Event() : frame_end_.front();
+    record.report(1.0);
+    cancelled = record.cancelled();
+    return record.last();
 }
 
-cl::Event SecondOrderSolver::render(const Camera& camera) {
+cl::Event SecondOrderSolver::render(const Camera& camera, const WaitList& wait) {
     bool cancelled = false;
-    return frame(camera, nullptr, {}, nullptr, cancelled);
+    return frame(camera, nullptr, wait, nullptr, cancelled);
 }
 
 cl::Event SecondOrderSolver::render(const Camera& camera, const GBuffer& given,
@@ -327,9 +329,15 @@ cl::Event SecondOrderSolver::render(const Camera& camera, const GBuffer& given,
 
 bool SecondOrderSolver::run(const Camera& camera, const Progress& progress) {
     bool cancelled = false;
-    cl::Event event = frame(camera, nullptr, {}, progress, cancelled);
-    if (event()) event.wait();
+    const cl::Event event = frame(camera, nullptr, {}, progress, cancelled);
+    if (event()) on_device("the frame failed on the device", [&] { event.wait(); });
     return !cancelled;
+}
+
+Interval SecondOrderSolver::interval() const {
+    WaitList all = fills_;
+    for (const PassEvent& pass : events_) all.push_back(pass.event);
+    return clgi::interval(all);
 }
 
 FrameStatus SecondOrderSolver::status() const {

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
+#include <cstdio>
+#include <map>
 #include <string>
+#include <vector>
 
+#include "opencl/error_text.hpp"
 #include "solvers/second_order_sizes.hpp"
 
 namespace clgi {
@@ -61,16 +65,91 @@ namespace {
 
 // Sizes in bytes of every buffer that a frame works with; 0: not needed.
 struct Sizes {
-    std::size_t vertices, polygons, runs, source_visibility, camera_visibility, planes, ids, mask,
-        accepted, lights, negative, low_points, low_irradiance, flags, counts, listed,
-        listed_points, listed_irradiance, irradiance, radiance;
-
-    std::size_t sum() const {
-        return vertices + polygons + runs + source_visibility + camera_visibility + planes + ids + mask +
-               accepted + lights + negative + low_points + low_irradiance + flags + counts +
-               listed + listed_points + listed_irradiance + irradiance + radiance;
-    }
+    std::size_t vertices, polygons, runs, source_visibility, emitters, views, camera_visibility, planes,
+        ids, mask, accepted, lights, negative, low_points, low_irradiance, flags, counts, listed,
+        listed_points, listed_irradiance, irradiance, radiance, helper;
 };
+
+// One buffer, and what lowers it.
+struct Need {
+    const char* name;
+    const char* lower;
+    std::size_t bytes;
+};
+
+constexpr std::size_t least = 16;  // bytes: no buffer is empty
+constexpr std::size_t words = 5;   // counters of one uint
+
+std::vector<Need> needs(const Sizes& size, std::size_t helpers) {
+    const char* scene = "the scene's triangles";
+    const char* sources = "sources.shadow_size, face_size or area_samples";
+    const char* picture = "width and height";
+    const char* lights = "sources.lights";
+    std::vector<Need> out = {{"vertices", scene, size.vertices},
+                             {"polygons", scene, size.polygons},
+                             {"runs", scene, size.runs},
+                             {"the sources' visibility", sources, size.source_visibility},
+                             {"emitters", sources, size.emitters},
+                             {"views", sources, size.views},
+                             {"the camera's visibility", picture, size.camera_visibility},
+                             {"planes", picture, size.planes},
+                             {"ids", picture, size.ids},
+                             {"the candidates' mask", lights, size.mask},
+                             {"accepted candidates", lights, size.accepted},
+                             {"indirect lights", lights, size.lights},
+                             {"negative lights", "negative_lights", size.negative},
+                             {"low-resolution points", picture, size.low_points},
+                             {"low-resolution irradiance", picture, size.low_irradiance},
+                             {"flags", picture, size.flags},
+                             {"counts", picture, size.counts},
+                             {"listed pixels", picture, size.listed},
+                             {"listed points", picture, size.listed_points},
+                             {"listed irradiance", picture, size.listed_irradiance},
+                             {"irradiance", picture, size.irradiance},
+                             {"radiance", picture, size.radiance}};
+    out.insert(out.end(), helpers, {"a helper's irradiance", picture, size.helper});
+    out.insert(out.end(), words, {"counters", picture, least});
+    for (Need& need : out) need.bytes = std::max(need.bytes, least);
+    return out;
+}
+
+std::size_t sum(const std::vector<Need>& needs) {
+    std::size_t out = 0;
+    for (const Need& need : needs) out += need.bytes;
+    return out;
+}
+
+std::string megabytes(std::size_t bytes) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f MB", 1e-6 * static_cast<double>(bytes));
+    return text;
+}
+
+// Throws DeviceError where the device or the budget cannot hold it, before anything is allocated.
+void check_room(const std::vector<Need>& needs, const SecondOrderOptions& options,
+                const cl::Device& device, std::size_t scene_bytes) {
+    const std::size_t most = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    std::map<std::string, std::size_t> by_option;
+    for (const Need& need : needs) {
+        if (need.bytes > most)
+            throw DeviceError(std::string("second-order: ") + need.name + " need " +
+                              megabytes(need.bytes) + " in one buffer, the device allows " +
+                              megabytes(most) + "; lower " + need.lower);
+        by_option[need.lower] += need.bytes;
+    }
+    const std::size_t device_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    const std::size_t beside = device_bytes - std::min(scene_bytes, device_bytes);
+    const bool asked = options.memory_budget > 0;
+    const std::size_t room = asked ? options.memory_budget : beside;
+    if (sum(needs) <= room) return;
+    const auto largest =
+        std::max_element(by_option.begin(), by_option.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    throw DeviceError("second-order: " + megabytes(sum(needs)) + " are needed, " +
+                      (asked ? "memory_budget allows " : "the device has beside the scene ") +
+                      megabytes(room) + "; " + megabytes(largest->second) + " of it depend on " +
+                      largest->first + ", to be lowered");
+}
 
 Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const EmitterSet& set) {
     const std::size_t stride = padded(pixel_count(options));
@@ -82,6 +161,8 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
     std::uint32_t candidates = 0;
     for (const std::uint32_t count : set.candidates) candidates = std::max(candidates, count);
     Sizes out{};
+    out.emitters = set.emitters.size() * sizeof(Emitter);
+    out.views = set.views.size() * sizeof(View);
     out.vertices = scene.info().vertex_count * sizeof(ScreenVertex);
     out.polygons = scene.info().triangle_count * sizeof(RasterPolygon);
     out.runs = raster_runs(scene.info().triangle_count) * sizeof(RasterRun);
@@ -96,6 +177,7 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
     out.lights = set.light_count * sizeof(IndirectLight);
     out.negative = negative * sizeof(IndirectLight);
     out.irradiance = irradiance_bytes(storage, stride);
+    out.helper = out.irradiance;
     if (!refine) return out;
     out.low_points = point_bytes(storage, low_stride);
     out.low_irradiance = irradiance_bytes(storage, low_stride);
@@ -110,11 +192,11 @@ Sizes sizes(const DeviceScene& scene, const SecondOrderOptions& options, const E
 }  // namespace
 
 Estimate estimate(const cl::Device& device, const DeviceScene& scene,
-                  const SecondOrderOptions& options) {
+                  const SecondOrderOptions& options, std::size_t devices) {
     check(options);
     const EmitterSet set = make_emitters(scene, options.sources);
     Estimate out;
-    out.bytes = sizes(scene, options, set).sum();
+    out.bytes = sum(needs(sizes(scene, options, set), std::max<std::size_t>(devices, 1) - 1));
 
     // Cycles of one compute unit, as measured on a CPU with packets of 8: a packet of points and a
     // light 16, a triangle drawn 90, a packet of pixels resolved, interpolated and combined 900.
@@ -143,20 +225,20 @@ void SecondOrderSolver::allocate() {
     refine_ = indirect_ && refines(options_);
     const Sizes size = sizes(scene_, options_, set_);
     const cl::Context context = queue_.getInfo<CL_QUEUE_CONTEXT>();
-    const std::size_t most =
-        cl::Device(queue_.getInfo<CL_QUEUE_DEVICE>()).getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    const std::vector<Need> all = needs(size, helpers_.size());
+    check_room(all, options_, queue_.getInfo<CL_QUEUE_DEVICE>(), scene_.bytes());
+    for (const Helper& helper : helpers_)
+        check_room(all, options_, helper.queue.getInfo<CL_QUEUE_DEVICE>(), scene_.bytes());
     bytes_ = 0;
     const auto buffer = [&](std::size_t bytes) {
-        bytes = std::max<std::size_t>(bytes, 16);
+        bytes = std::max(bytes, least);
         bytes_ += bytes;
-        if (bytes > most)
-            throw DeviceError("second-order: a buffer of " + std::to_string(bytes) +
-                              " bytes is needed, the device allows " + std::to_string(most));
         try {
             return cl::Buffer(context, CL_MEM_READ_WRITE, bytes);
         } catch (const cl::Error& error) {
-            throw DeviceError("second-order: no room for a buffer of " + std::to_string(bytes) +
-                              " bytes (OpenCL error " + std::to_string(error.err()) + ")");
+            throw DeviceError("second-order: no room for a buffer of " + megabytes(bytes) +
+                              ", of " + megabytes(sum(all)) +
+                              " in all: " + error_text(error.err()));
         }
     };
     const auto filled = [&](const void* data, std::size_t bytes) {
@@ -164,8 +246,8 @@ void SecondOrderSolver::allocate() {
         try {
             if (bytes > 0) queue_.enqueueWriteBuffer(out, CL_TRUE, 0, bytes, data);
         } catch (const cl::Error& error) {
-            throw DeviceError("second-order: a buffer cannot be written (OpenCL error " +
-                              std::to_string(error.err()) + ")");
+            throw DeviceError("second-order: a buffer cannot be written: " +
+                              error_text(error.err()));
         }
         return out;
     };
@@ -181,8 +263,8 @@ void SecondOrderSolver::allocate() {
     sources_.visibility = buffer(size.source_visibility);
     sources_.view_count = set_.views.size();
     sources_.pixels = set_.pixels;
-    sources_.emitters = filled(set_.emitters.data(), set_.emitters.size() * sizeof(Emitter));
-    sources_.views = filled(set_.views.data(), set_.views.size() * sizeof(View));
+    sources_.emitters = filled(set_.emitters.data(), size.emitters);
+    sources_.views = filled(set_.views.data(), size.views);
     drawn_ = {buffer(size.planes), buffer(size.ids), stride_};
     seen_ = drawn_;
     radiance_ = buffer(size.radiance);
@@ -202,6 +284,7 @@ void SecondOrderSolver::allocate() {
     listed_ = buffer(size.listed);
     listed_points_ = buffer(size.listed_points);
     listed_irradiance_ = buffer(size.listed_irradiance);
+    for (Helper& helper : helpers_) helper.irradiance = buffer(size.helper);
 }
 
 }  // namespace clgi

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/opencl.hpp>
+#include <cstddef>
 #include <string>
 
 namespace clgi {
@@ -34,6 +35,15 @@ inline bool operator==(const BuildOptions& a, const BuildOptions& b) {
            a.textures == b.textures && a.environment == b.environment;
 }
 inline bool operator!=(const BuildOptions& a, const BuildOptions& b) { return !(a == b); }
+
+// Which of its items a pass works on. A number alone stands for all of so many.
+struct Range {
+    Range(std::size_t all) : count(all), whole(true) {}
+    Range(std::size_t first_item, std::size_t item_count) : first(first_item), count(item_count) {}
+    std::size_t first = 0;
+    std::size_t count = 0;
+    bool whole = false;
+};
 
 // One kernel of a room.
 struct PassKernel {

@@ -18,8 +18,9 @@ public:
                 const BuildOptions& options = {});
 
     // points [POINT_PLANES][stride] lit by lights and negative lights into irradiance
-    // [IRRADIANCE_PLANES][stride], for the first *point_count points, of at most `most`.
-    cl::Event gather(const cl::CommandQueue& queue, const GatherParams& params, std::size_t most,
+    // [IRRADIANCE_PLANES][stride], for those of the range that are among the first *point_count.
+    // A range begins at a multiple of 16.
+    cl::Event gather(const cl::CommandQueue& queue, const GatherParams& params, const Range& range,
                      const cl::Buffer& point_count, const cl::Buffer& points,
                      const cl::Buffer& lights, const cl::Buffer& negative,
                      const cl::Buffer& irradiance, const WaitList& wait = {}) const;

@@ -45,6 +45,12 @@ public:
                        const View& view, const cl::Buffer& planes, const cl::Buffer& lights,
                        const cl::Buffer& negative, const WaitList& wait = {}) const;
 
+    // The same for a range of the samples.
+    cl::Event negative(const cl::CommandQueue& queue, const NegativeParams& params,
+                       const Range& samples, const View& view, const cl::Buffer& planes,
+                       const cl::Buffer& lights, const cl::Buffer& negative,
+                       const WaitList& wait = {}) const;
+
 private:
     PassKernel accept_mask_, accept_list_, fetch_, negative_;
     bool textures_;
