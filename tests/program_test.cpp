@@ -182,6 +182,67 @@ TEST_F(Program, AMissingDeviceEndsWithThree) {
     EXPECT_FALSE(fs::exists(file("x.exr")));
 }
 
+TEST_F(Program, AFailingCompilerOrTooLittleMemoryEndsWithThree) {
+    const std::string scene = make("cornell");
+    const std::string out = "render " + scene + " --quiet -o " + file("x.exr").string();
+    const Outcome huge = run(out + " --size 16384x16384", "POCL_MEMORY_LIMIT=1");
+    if (huge.code != 0) {  // a device of 30 GB could
+        expect_one_error_line(huge, 3);
+        EXPECT_NE(huge.err.find("lower width and height"), std::string::npos) << huge.err;
+    }
+    const Outcome refused = run(out + " --size 16x16 --vpls 4",
+                                "POCL_KERNEL_CACHE=0 POCL_EXTRA_BUILD_FLAGS=-Dkernel=no_such_word");
+    if (refused.code != 0) {  // drivers other than PoCL do not know the variable
+        expect_one_error_line(refused, 3);
+        EXPECT_NE(refused.err.find("does not build on"), std::string::npos) << refused.err;
+    }
+    expect_one_error_line(run(out, "CLGI_DEVICE=nobody::"), 3);
+    expect_one_error_line(run(out, "CLGI_DEVICE=:TPU:"), 1);
+    EXPECT_FALSE(fs::exists(file("x.exr")));
+}
+
+// oclgrind as a second OpenCL beside the first. Its options are those of tests/oclgrind.sh.
+TEST_F(Program, ASecondPlatformIsListedAndCanBeChosen) {
+    const char* driver = "/usr/lib/oclgrind/liboclgrind-rt-icd.so";
+    if (!fs::exists(driver)) GTEST_SKIP() << "oclgrind's driver is not at " << driver;
+    fs::create_directories(file("vendors"));
+    for (const auto& entry : fs::directory_iterator("/etc/OpenCL/vendors"))
+        fs::copy_file(entry.path(), file("vendors") / entry.path().filename());
+    std::ofstream(file("vendors/second.icd")) << driver << '\n';
+    const std::string both = "OCL_ICD_VENDORS=" + file("vendors").string() +
+                             "/ OCLGRIND_BUILD_OPTIONS='-cl-opt-disable "
+                             "-Dalways_inline=noinline -DCLGI_ATOMICS_ONLY'";
+    const Outcome list = run("devices --device oclgrind", both);
+    ASSERT_EQ(list.code, 0) << list.err;
+    EXPECT_NE(list.out.find("* Oclgrind"), std::string::npos) << list.out;
+    EXPECT_NE(list.out.find("\n  "), std::string::npos) << list.out;  // and others, not taken
+
+    const std::string render = "render " + make("cornell") +
+                               " --size 16x12 --vpls 4 --negative-vpls 2 --face-size 8 "
+                               "--area-samples 1 --full --quiet -o ";
+    const Outcome there = run(render + file("there.exr").string() + " --device oclgrind", both);
+    ASSERT_EQ(there.code, 0) << there.err;
+    ASSERT_EQ(run(render + file("here.exr").string()).code, 0);
+    const auto report =
+        nlohmann::json::parse(run("compare --no-flip --json " + file("there.exr").string() + " " +
+                                  file("here.exr").string())
+                                  .out);
+    EXPECT_EQ(report.at("nonfinite_a"), 0.0);
+    // Roots and quotients may round otherwise there: a unit in the last place of floats.
+    EXPECT_LT(report.at("rel_rmse").get<double>(), 1e-6);
+}
+
+TEST_F(Program, TheLayersCostIsTold) {
+    const Outcome outcome = run("bench layer --repeats 3 --json --quiet");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto rows = nlohmann::json::parse(outcome.out).at("rows");
+    ASSERT_EQ(rows.size(), 5u);
+    for (const auto& row : rows) {
+        EXPECT_GT(row.at("by_hand_ms"), 0.0) << row;
+        EXPECT_GT(row.at("library_ms"), 0.0) << row;
+    }
+}
+
 TEST_F(Program, FastMathStaysCloseToStrict) {
     const std::string scene = make("box");
     const std::string common = "render " + scene + " --size 96x72 --quiet -o ";

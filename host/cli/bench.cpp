@@ -1,4 +1,4 @@
-// clgi bench TABLE: a paper's table, run again on this device.
+// clgi bench TABLE: a paper's table, or the cost of the library, on this device.
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include "cli/commands.hpp"
 #include "cli/session.hpp"
 #include "report/bench.hpp"
+#include "report/bench_layer.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -57,8 +58,36 @@ void print_text(const report::BenchTable& table) {
                    row.paper_error ? fmt::format("{:.4f}", *row.paper_error) : "-");
 }
 
+void run_layer(const BenchFlags& flags, const Session& session) {
+    catch_interrupts();
+    const auto bar = progress_bar(flags.table, flags.device.quiet);
+    const auto rows = report::bench_layer(session.queue, flags.repeats, [&](double done) {
+        if (!bar(done)) throw Interrupted();
+        return true;
+    });
+    bar(1.0);
+    if (flags.json) {
+        nlohmann::ordered_json out = {{"table", "layer"},
+                                      {"device", describe(session.device)},
+                                      {"rows", nlohmann::ordered_json::array()}};
+        for (const report::LayerRow& row : rows)
+            out["rows"].push_back({{"name", row.name},
+                                   {"by_hand_ms", row.by_hand_ms},
+                                   {"library_ms", row.library_ms},
+                                   {"ratio", row.ratio}});
+        fmt::print("{}\n", out.dump(2));
+        return;
+    }
+    fmt::print("layer on {}\n\n{:<20}{:>14}{:>14}{:>9}\n", describe(session.device), "pass",
+               "by hand ms", "library ms", "ratio");
+    for (const report::LayerRow& row : rows)
+        fmt::print("{:<20}{:>14.4f}{:>14.4f}{:>9.3f}\n", row.name, row.by_hand_ms, row.library_ms,
+                   row.ratio);
+}
+
 void run_bench(const BenchFlags& flags) {
     const Session session = open_session(flags.device);
+    if (flags.table == "layer") return run_layer(flags, session);
     report::BenchSetup setup;
     setup.queue = session.queue;
     setup.scene = flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh));
@@ -81,9 +110,11 @@ void run_bench(const BenchFlags& flags) {
 void add_bench(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "Run a paper's table again");
     const auto flags = std::make_shared<BenchFlags>();
-    command->add_option("table", flags->table, "cochran1 or cochran2")
+    command
+        ->add_option("table", flags->table,
+                     "cochran1, cochran2, or layer: passes against kernels by hand")
         ->required()
-        ->check(CLI::IsMember({"cochran1", "cochran2"}));
+        ->check(CLI::IsMember({"cochran1", "cochran2", "layer"}));
     command->add_option("--mesh", flags->mesh,
                         "Mesh in the box, such as the Stanford bunny; default: a generated one");
     command->add_option("--repeats", flags->repeats, "Frames measured of each row")

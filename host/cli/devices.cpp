@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <clgi/device.hpp>
 #include <memory>
+#include <vector>
 
 #include "cli/commands.hpp"
 
@@ -20,9 +21,18 @@ bool has(const cl::Device& device, const char* extension) {
     return device.getInfo<CL_DEVICE_EXTENSIONS>().find(extension) != std::string::npos;
 }
 
-void run_devices(const std::string& choice) {
-    const cl::Device taken = choose_device(choice);
-    for (const cl::Device& device : all_devices()) {
+// A platform whose hardware is absent says so by an error.
+std::vector<cl::Device> devices_of(const cl::Platform& platform) {
+    std::vector<cl::Device> out;
+    try {
+        platform.getDevices(CL_DEVICE_TYPE_ALL, &out);
+    } catch (const cl::Error&) {
+    }
+    return out;
+}
+
+void print_devices(const std::vector<cl::Device>& devices, const cl::Device& taken) {
+    for (const cl::Device& device : devices) {
         fmt::print("{} {}\n", device() == taken() ? "*" : " ", describe(device));
         fmt::print("    {}, {} compute units at {} MHz, packets of {} floats\n", kind_of(device),
                    device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(),
@@ -37,6 +47,19 @@ void run_devices(const std::string& choice) {
                    has(device, "cl_khr_fp64") ? "yes" : "no",
                    has(device, "cl_khr_fp16") ? "yes" : "no",
                    has(device, "cl_khr_gl_sharing") ? "yes" : "no");
+    }
+}
+
+void run_devices(const std::string& choice) {
+    const cl::Device taken = choose_device(choice);
+    std::vector<cl::Platform> platforms;
+    cl::Platform::get(&platforms);
+    for (const cl::Platform& platform : platforms) {
+        fmt::print("{}, {}\n", platform.getInfo<CL_PLATFORM_NAME>(),
+                   platform.getInfo<CL_PLATFORM_VERSION>());
+        const std::vector<cl::Device> devices = devices_of(platform);
+        if (devices.empty()) fmt::print("  no device\n");
+        print_devices(devices, taken);
     }
 }
 
