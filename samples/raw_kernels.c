@@ -30,7 +30,8 @@ typedef struct {
 enum { width = 160, height = 120, pixels = width * height, stride = pixels };
 enum { boxes = 2, vertex_count = 24 * boxes, triangle_count = 12 * boxes, light_count = 64 };
 enum { gbuffer_planes = 16, id_planes = 2, point_planes = 6, irradiance_planes = 3 };
-enum { screen_vertex_bytes = 16, raster_polygon_bytes = 128, raster_tile = 32, raster_batch = 4 };
+enum { screen_vertex_bytes = 16, raster_polygon_bytes = 128, raster_run_bytes = 32 };
+enum { raster_tile = 32, raster_batch = 4 };
 enum { raster_depth = 1, raster_identity = 2 };
 
 static cl_context context;
@@ -186,12 +187,13 @@ static cl_mem draw(const View* view) {
                             buffer(sizeof white, &white), empty, empty, empty};
     const cl_mem vertices = buffer((size_t)vertex_count * screen_vertex_bytes, NULL);
     const cl_mem polygons = buffer((size_t)triangle_count * raster_polygon_bytes, NULL);
-    const cl_mem polygon_count = buffer(sizeof(cl_uint), NULL);
+    const cl_mem runs = buffer((size_t)triangle_count * raster_run_bytes, NULL);
+    const cl_mem run_count = buffer(sizeof(cl_uint), NULL);
     const cl_mem visibility = buffer((size_t)pixels * sizeof(cl_ulong), NULL);
     const cl_mem planes = buffer((size_t)gbuffer_planes * stride * sizeof(cl_float), NULL);
     const cl_mem ids = buffer((size_t)id_planes * stride * sizeof(cl_int), NULL);
 
-    const cl_mem cleared[] = {visibility, polygon_count};
+    const cl_mem cleared[] = {visibility, run_count};
     cl_kernel kernel = load("gbuffer", "clear");
     set_buffers(kernel, set_values(kernel, 0, sizeof *view, view), 2, cleared);
     run(kernel, (pixels + 7) / 8);
@@ -204,20 +206,20 @@ static cl_mem draw(const View* view) {
     run(kernel, vertex_count);
 
     /* Without 64-bit atomics first the nearest depth, then who is there. */
-    const cl_mem drawn[] = {scene[0], vertices, scene[1], visibility, polygons, polygon_count};
+    const cl_mem drawn[] = {scene[0], vertices, scene[1], visibility, polygons, runs, run_count};
     for (cl_uint stage = raster_depth; stage <= raster_identity; ++stage) {
         const RasterParams params = {triangle_count, stage, 12, 0};
         kernel = load("gbuffer", "raster");
         next = set_values(kernel, 0, sizeof *view, view);
-        set_buffers(kernel, set_values(kernel, next, sizeof params, &params), 6, drawn);
+        set_buffers(kernel, set_values(kernel, next, sizeof params, &params), 7, drawn);
         run(kernel, (triangle_count + raster_batch - 1) / raster_batch);
     }
     const cl_uint scene_flags = 0;
-    const cl_mem listed[] = {polygons, polygon_count};
+    const cl_mem listed[] = {polygons, runs, run_count};
     kernel = load("gbuffer", "raster_large");
     next = set_values(kernel, 0, sizeof *view, view);
     next = set_values(kernel, next, sizeof scene_flags, &scene_flags);
-    next = set_buffers(kernel, next, 2, listed);
+    next = set_buffers(kernel, next, 3, listed);
     set_buffers(kernel, set_buffers(kernel, next, 9, scene), 1, &visibility);
     run(kernel, (size_t)((width + raster_tile - 1) / raster_tile) *
                     ((height + raster_tile - 1) / raster_tile));
@@ -232,8 +234,8 @@ static cl_mem draw(const View* view) {
     set_buffers(kernel, set_buffers(kernel, next, 9, scene), 3, resolved);
     run(kernel, pixels);
 
-    const cl_mem done[] = {scene[0], scene[1], scene[2],      scene[5],   empty,
-                           vertices, polygons, polygon_count, visibility, ids};
+    const cl_mem done[] = {scene[0], scene[1], scene[2],  scene[5],   empty, vertices,
+                           polygons, runs,     run_count, visibility, ids};
     for (size_t i = 0; i < sizeof done / sizeof *done; ++i) clReleaseMemObject(done[i]);
     return planes;
 }

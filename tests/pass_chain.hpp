@@ -95,7 +95,8 @@ private:
     }
     const cl::Buffer& at(const std::string& name) const { return buffers.at(name); }
     RasterBuffers raster(const std::string& who) const {
-        return {at(who + "_visibility"), at("vertices"), at("polygons"), at("polygon_count")};
+        return {at(who + "_visibility"), at("vertices"), at("polygons"), at("runs"),
+                at("run_count")};
     }
     SourceBuffers sources() const {
         return {at("emitters"), at("views"), at("source_visibility"), set_.views.size(),
@@ -109,7 +110,9 @@ private:
                                     scene_.info().vertex_count * sizeof(ScreenVertex)};
         const PassArgument polygons{"polygons", "polygons",
                                     scene_.info().triangle_count * sizeof(RasterPolygon)};
-        const PassArgument count{"polygon_count", "polygon_count", 4};
+        const PassArgument runs{"runs", "runs",
+                                raster_runs(scene_.info().triangle_count) * sizeof(RasterRun)};
+        const PassArgument count{"run_count", "run_count", 4};
         steps.push_back({"gbuffer.clear", {visibility, count}, [=, this](auto& queue, auto& wait) {
                              return gbuffer_.clear(queue, view, raster(who), wait);
                          }});
@@ -121,13 +124,13 @@ private:
                              : std::vector<std::uint32_t>{RASTER_DEPTH, RASTER_IDENTITY};
         for (const std::uint32_t stage : stages)
             steps.push_back({"gbuffer.raster",
-                             {visibility, vertices, polygons, count},
+                             {visibility, vertices, polygons, runs, count},
                              [=, this](auto& queue, auto& wait) {
                                  return gbuffer_.raster(queue, view, scene_, stage, raster(who),
                                                         wait);
                              }});
         steps.push_back({"gbuffer.raster_large",
-                         {visibility, polygons, count},
+                         {visibility, polygons, runs, count},
                          [=, this](auto& queue, auto& wait) {
                              return gbuffer_.raster_large(queue, view, scene_, raster(who), wait);
                          }});

@@ -90,7 +90,8 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
     const cl::Buffer irradiance = room(IRRADIANCE_PLANES * sizeof(float) * stride);
     const cl::Buffer preview = room(pixels * sizeof(cl_uint));
     const RasterBuffers raster{room(pixels * sizeof(cl_ulong)),
-                               room(vertices * sizeof(ScreenVertex)), room(16), room(16)};
+                               room(vertices * sizeof(ScreenVertex)), room(16), room(16),
+                               room(16)};
     const GatherParams gather{stride, light_count, 0, 0};
     const TonemapParams tonemap{width, height, stride, 1.0f};
 
@@ -100,7 +101,7 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
     const Hand lit(queue, "image", "gather"), toned(queue, "image", "tonemap");
     const std::size_t packet = static_cast<std::size_t>(packet_width(device));
     std::vector<Way> ways = {
-        {"gbuffer.clear", [&] { clear(pixels / 8, view, raster.visibility, raster.polygon_count); },
+        {"gbuffer.clear", [&] { clear(pixels / 8, view, raster.visibility, raster.run_count); },
          [&] { gbuffer.clear(queue, view, raster); }},
         {"gbuffer.transform",
          [&] { transform(vertices, view, vertices, scene.positions(), raster.vertices); },

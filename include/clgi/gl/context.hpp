@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <string>
 
 namespace clgi::gl {
 
 // OpenGL 3.3 core or later through EGL: its surfaceless platform, else its device platform. Current
 // on the thread that made it, until it is destroyed; a thread has one current context at a time.
-class HeadlessContext {
+class CLGI_API HeadlessContext {
 public:
     // Throws DeviceError naming what was tried and why it failed.
     HeadlessContext();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <clgi/gl/sharing.hpp>
 #include <clgi/passes/import.hpp>
 #include <memory>
@@ -27,7 +28,7 @@ struct GBufferTextures {
 
 // Needs the OpenGL context (3.3 or later, not ES) of the textures current on the calling thread in
 // all its functions, the destructor too. OpenGL state is left as it was found.
-class GBufferImport {
+class CLGI_API GBufferImport {
 public:
     // Builds the kernels and chooses the way, with find_sharing or as given.
     // Throws Error when no OpenGL context is current.

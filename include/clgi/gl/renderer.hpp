@@ -14,7 +14,7 @@ namespace clgi::gl {
 //
 // Needs an OpenGL context (3.3 core or later, not ES) current in all its functions, the destructor
 // too, and leaves its state changed: give it a context of its own.
-class SceneRenderer {
+class CLGI_API SceneRenderer {
 public:
     // Reads the scene's buffers back from the device, once, and waits for that; neither scene nor
     // queue is needed afterwards. Throws DeviceError when OpenGL cannot hold them.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <clgi/opencl.hpp>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace clgi::gl {
 // on this thread, EGL's or GLX's; ends with 0. Empty when the device cannot: without
 // cl_khr_gl_sharing, or when the context lives on another device.
 // Throws Error when no OpenGL context is current.
-std::vector<cl_context_properties> sharing_properties(const cl::Device& device);
+CLGI_API std::vector<cl_context_properties> sharing_properties(const cl::Device& device);
 
 // The way that textures take. A default one copies, and says that it was asked to.
 struct Sharing {
@@ -34,6 +35,6 @@ struct Sharing {
 // Zero copy when the device lists cl_khr_gl_sharing and has images, and the context was made with
 // sharing_properties() of the OpenGL context that is current; else copied. reason says why, such as
 // "copied: device does not list cl_khr_gl_sharing". Throws Error when no OpenGL context is current.
-Sharing find_sharing(const cl::Context& context, const cl::Device& device);
+CLGI_API Sharing find_sharing(const cl::Context& context, const cl::Device& device);
 
 }  // namespace clgi::gl

@@ -36,13 +36,13 @@ struct ImportBuffers {
 
 // Scale, exposure and counts of a scene; flags and formats are left at 0. origin: the world point,
 // in metres, that positions in the texels are relative to.
-ImportParams import_params(const DeviceScene& scene, std::uint32_t stride,
+CLGI_API ImportParams import_params(const DeviceScene& scene, std::uint32_t stride,
                            const glm::dvec3& origin = glm::dvec3(0.0));
 
 // Bytes of a texel in a TEXEL_... layout.
-std::size_t texel_bytes(std::uint32_t format);
+CLGI_API std::size_t texel_bytes(std::uint32_t format);
 
-class ImportPasses {
+class CLGI_API ImportPasses {
 public:
     ImportPasses(const cl::Context& context, const cl::Device& device,
                  const BuildOptions& options = {});
