@@ -197,7 +197,7 @@ TEST(EnvironmentLights, ComeCloseToTheReference) {
     truth.width = 80;
     truth.height = 60;
     const reference::Picture wanted = reference::PathTracer(scene).render(camera, truth);
-    for (const auto& [count, most] : {std::pair(16, 0.10), {64, 0.06}, {256, 0.04}}) {
+    for (const auto& [count, most] : {std::pair(16, 0.085), {64, 0.04}, {256, 0.033}}) {
         SecondOrderOptions options = options_for(80, 60);
         options.sources.environment_lights = count;
         options.sources.lights = 2048;
