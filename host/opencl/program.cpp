@@ -20,6 +20,12 @@ int width_of(const cl::Device& device, const BuildOptions& options) {
     return width;
 }
 
+// oclgrind's compiler breaks when two threads call it, though OpenCL lets them.
+bool builds_from_threads(const cl::Device& device) {
+    return cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>() !=
+           "Oclgrind";
+}
+
 // What the compiler said; empty where there is no program or nobody to ask any more.
 std::string build_log(const cl::Program& program, const cl::Device& device) {
     if (!program()) return "";
@@ -90,7 +96,8 @@ std::vector<PassKernel> build_room(const cl::Context& context, const cl::Device&
                                    const std::string& room,
                                    std::initializer_list<const char*> passes,
                                    const BuildOptions& options) {
-    const auto how = options.parallel ? std::launch::async : std::launch::deferred;
+    const bool parallel = options.parallel && builds_from_threads(device);
+    const auto how = parallel ? std::launch::async : std::launch::deferred;
     std::vector<std::future<PassKernel>> builds;
     for (const char* pass : passes)
         builds.push_back(std::async(how, [&, name = std::string(pass)] {

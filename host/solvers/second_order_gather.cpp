@@ -53,23 +53,25 @@ void SecondOrderSolver::gather_together(Recorder& record, const GatherJob& job,
                                         const std::vector<Share>& shares) {
     const WaitList ready{record.last()};
     queue_.flush();  // others wait for it: OpenCL wants it flushed
+    // Its own share first: whatever comes after the helpers' waits for them.
     std::vector<Share> lent;
     for (const Share& share : shares) {
-        if (share.worker == 0) continue;
-        const Helper& helper = helpers_[share.worker - 1];
-        record.beside(job.name, share.range.count,
-                      helper.image.gather(helper.queue, params, share.range, job.count, job.points,
-                                          lights_, negative_, helper.irradiance, ready));
-        lent.push_back(share);
-    }
-    for (const Helper& helper : helpers_) helper.queue.flush();
-    for (const Share& share : shares) {
-        if (share.worker != 0) continue;
+        if (share.worker > 0) {
+            lent.push_back(share);
+            continue;
+        }
         record(job.name, share.range.count, [&](const WaitList& wait) {
             return image_.gather(queue_, params, share.range, job.count, job.points, lights_,
                                  negative_, job.irradiance, wait);
         });
     }
+    for (const Share& share : lent) {
+        const Helper& helper = helpers_[share.worker - 1];
+        record.beside(job.name, share.range.count,
+                      helper.image.gather(helper.queue, params, share.range, job.count, job.points,
+                                          lights_, negative_, helper.irradiance, ready));
+    }
+    for (const Helper& helper : helpers_) helper.queue.flush();
     for (const Share& share : lent) {
         record("image.collect", share.range.count, [&](const WaitList& wait) {
             const std::size_t pitch =
