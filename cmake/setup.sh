@@ -14,7 +14,7 @@ clgi_packages=(
     libcli11-dev libfmt-dev                                                      # the program
     pocl-opencl-icd                                                              # OpenCL on CPUs
     gnuplot-nox                                                                  # plots of sweeps
-    libgtest-dev oclgrind                                                        # tests
+    libgtest-dev oclgrind dpkg-dev                                               # tests
 )
 
 # Installs what is missing; does nothing, and needs no rights, when nothing is.
