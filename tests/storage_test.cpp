@@ -111,7 +111,7 @@ TEST(HalfStorage, IsTheSameForEveryWorkGroupAndPacket) {
 glm::vec3 lit_by(float flux, const ImagePasses& passes, Storage storage) {
     const std::uint32_t stride = 16;
     const std::vector<IndirectLight> lights{{{0, 0, 0.1f, 0}, {0, 0, -1, 0}, {flux, 1, -flux, 1}}};
-    std::vector<std::uint16_t> rows(POINT_HALF_ROWS * stride);
+    std::vector<std::uint16_t> rows(point_bytes(Storage::half, stride) / sizeof(std::uint16_t));
     const float position = 0.0f;
     std::memcpy(rows.data(), &position, sizeof position);
     rows[HALF_ROW(GBUFFER_NORMAL + 2) * stride] = glm::packHalf1x16(1.0f);

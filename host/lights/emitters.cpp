@@ -183,7 +183,6 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
         e.intensity = glm::vec4(t.radiance * static_cast<float>(share / lum), 0.0f);
         e.area = static_cast<float>(share / (pi * lum));
         e.kind = EMITTER_AREA;
-        e.measure = static_cast<float>(2.0 * pi);
         source.power = share;
         source.views = hemicube(glm::vec3(e.position), t.normal, 0.5f * lift, options.face_size);
         out.push_back(source);
@@ -249,10 +248,13 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     EmitterSet out;
     if (sources.empty()) return out;
     const std::vector<std::uint32_t> shares = divide(sources, options.lights);
-    // All directions of the environment spread their lights over one disc together.
-    std::uint32_t of_environment = 0;
-    for (std::size_t i = 0; i < sources.size(); ++i)
+    // All directions of the environment spread their lights over one disc together, and all samples
+    // of the emissive surfaces theirs over what they light.
+    std::uint32_t of_environment = 0, of_surfaces = 0;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
         if (sources[i].of_environment) of_environment += shares[i];
+        if (sources[i].emitter.kind == EMITTER_AREA) of_surfaces += shares[i];
+    }
     for (std::size_t i = 0; i < sources.size(); ++i) {
         Source& source = sources[i];
         if (source.emitter.kind == EMITTER_DIRECTIONAL) {
@@ -260,6 +262,9 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
             source.emitter.area =
                 source.emitter.measure * (1.0f / static_cast<float>(std::max(sharing, 1u)));
         }
+        if (source.emitter.kind == EMITTER_AREA)
+            source.emitter.measure =
+                static_cast<float>(pi * shares[i] / static_cast<double>(std::max(of_surfaces, 1u)));
         source.emitter.first_view = static_cast<std::uint32_t>(out.views.size());
         source.emitter.view_count = static_cast<std::uint32_t>(source.views.size());
         source.emitter.first_light = static_cast<std::uint32_t>(out.light_count);

@@ -82,7 +82,8 @@ cl::Event LightPasses::negative(const cl::CommandQueue& queue, const NegativePar
     if (params.stride < static_cast<std::size_t>(view.width) * view.height)
         throw Error("lights.negative: stride is " + std::to_string(params.stride) + ", at least " +
                     std::to_string(view.width * view.height) + " needed");
-    need(negative_, "planes", planes, gbuffer_bytes(negative_.storage, params.stride));
+    need(negative_, "planes", planes,
+         gbuffer_bytes(negative_.storage, params.stride, GBUFFER_GEOMETRIC + 3));
     need(negative_, "lights", lights, params.light_count * sizeof(IndirectLight));
     need(negative_, "negative", negative, params.negative_count * sizeof(IndirectLight));
     return launch(negative_, queue, samples, wait, params, view, planes, lights, negative);

@@ -8,16 +8,18 @@
 
 namespace clgi {
 
-// A whole G-buffer, stride values from plane to plane.
-inline std::size_t gbuffer_bytes(Storage storage, std::size_t stride) {
-    return storage == Storage::half ? GBUFFER_HALF_ROWS * stride * sizeof(std::uint16_t)
-                                    : GBUFFER_PLANES * stride * sizeof(float);
+// A G-buffer, or the first planes of one, stride values from plane to plane.
+inline std::size_t gbuffer_bytes(Storage storage, std::size_t stride,
+                                 std::size_t planes = GBUFFER_PLANES) {
+    const std::size_t half_rows =
+        planes == GBUFFER_PLANES ? std::size_t{GBUFFER_HALF_ROWS} : HALF_ROW(planes);
+    return storage == Storage::half ? half_rows * stride * sizeof(std::uint16_t)
+                                    : planes * stride * sizeof(float);
 }
 
 // A set of points: positions and normals.
 inline std::size_t point_bytes(Storage storage, std::size_t stride) {
-    return storage == Storage::half ? POINT_HALF_ROWS * stride * sizeof(std::uint16_t)
-                                    : POINT_PLANES * stride * sizeof(float);
+    return gbuffer_bytes(storage, stride, POINT_PLANES);
 }
 
 inline std::size_t irradiance_bytes(Storage storage, std::size_t stride) {

@@ -77,7 +77,9 @@ std::vector<float> irradiance() {
     const clgi::RasterBuffers raster{
         buffer(pixels * sizeof(std::uint64_t)),
         buffer(scene.info().vertex_count * sizeof(clgi::ScreenVertex)),
-        buffer(scene.info().triangle_count * sizeof(clgi::RasterPolygon)), buffer(sizeof(cl_uint))};
+        buffer(scene.info().triangle_count * sizeof(clgi::RasterPolygon)),
+        buffer(clgi::raster_runs(scene.info().triangle_count) * sizeof(clgi::RasterRun)),
+        buffer(sizeof(cl_uint))};
     const cl::Buffer planes = buffer(sizeof(float) * clgi::GBUFFER_PLANES * stride);
     const cl::Buffer ids = buffer(sizeof(int) * clgi::GBUFFER_ID_PLANES * stride);
     const cl::Buffer result = buffer(sizeof(float) * clgi::IRRADIANCE_PLANES * stride);

@@ -20,7 +20,8 @@ typedef struct {
     float4 intensity;  // rgb: candela; directional lux; area: flux, lumen. All exposed
     float4 shift;      // of the low-discrepancy points: bases 2, 3, 5, 7; each in [0,1)
     float range;       // where the light ends; 0: unlimited
-    float measure;     // what the samples share: steradians; directional: area of the disc
+    float measure;     // what the samples share: steradians; directional: area of the disc; area:
+                       // projected steradians, this emitter's part of what all area lights share
     float area;        // area lights: of the emitting surface that this sample stands for;
                        // directional: of the disc, for one indirect light of all that share it
     uint kind;         // EMITTER_..., EMITTER_MAPPED

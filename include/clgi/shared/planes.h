@@ -15,7 +15,7 @@
 // Whether a plane of a G-buffer or of points is half in half storage.
 #define HALF_PLANE(plane) ((plane) >= GBUFFER_NORMAL && (plane) < GBUFFER_DEPTH)
 
-// Rows of halves that a whole G-buffer and a set of points take.
-enum { GBUFFER_HALF_ROWS = 20, POINT_HALF_ROWS = 9 };
+// Rows of halves that a whole G-buffer takes.
+enum { GBUFFER_HALF_ROWS = 20 };
 
 #endif
