@@ -37,6 +37,8 @@
     MEMBER(Emitter, measure)                                                                    \
     MEMBER(Emitter, area) MEMBER(Emitter, kind) MEMBER(Emitter, first_view)                     \
     MEMBER(Emitter, view_count) MEMBER(Emitter, first_light) MEMBER(Emitter, light_count)       \
+    MEMBER(Emitter, first_index) MEMBER(Emitter, taken_over)                                    \
+    MEMBER(Emitter, pad0_) MEMBER(Emitter, pad1_)                                               \
     SIZE(IndirectLight) MEMBER(IndirectLight, position) MEMBER(IndirectLight, normal)           \
     MEMBER(IndirectLight, flux)                                                                 \
     SIZE(AcceptParams) MEMBER(AcceptParams, emitter) MEMBER(AcceptParams, candidate_count)      \

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <clgi/io/gltf.hpp>
 #include <clgi/io/image.hpp>
 #include <cmath>
@@ -108,6 +109,22 @@ TEST_F(Program, WarnsOfWhatIsOddInAnEnvironment) {
                                 file("odd.exr").string() + " -o " + file("x.exr").string());
     EXPECT_EQ(outcome.code, 0);
     EXPECT_NE(outcome.err.find("1 samples were negative"), std::string::npos) << outcome.err;
+
+    // A sun beyond the numbers of its file is as bright as the brightest sample beside it.
+    Image sun = sky_picture(1, 2);
+    for (Image::Channel& channel : sun.channels) channel.values[5] = INFINITY;
+    sun.channels[0].values[1] = NAN;
+    clgi::io::save_exr(sun, file("sun.exr"), clgi::io::Storage::full);
+    clgi::io::save_glb(floor_scene(1), file("floor.glb"));
+    const Outcome sunny = run("reference " + file("floor.glb").string() +
+                              " --size 64x64 --spp 1 --effects emission --full --environment " +
+                              file("sun.exr").string() + " -o " + file("s.exr").string());
+    ASSERT_EQ(sunny.code, 0) << sunny.err;
+    EXPECT_NE(sunny.err.find("4 samples were negative"), std::string::npos) << sunny.err;
+    float brightest = 0.0f;
+    for (const float value : load_image(file("s.exr")).find("G")->values)
+        brightest = std::max(brightest, value);
+    EXPECT_EQ(brightest, 2.0f);
 }
 
 TEST_F(Program, LightsTheTexelsOfALightmap) {

@@ -304,6 +304,8 @@ TEST(ReferenceEnvironment, IsCheckedBeforeItIsUsed) {
     refused([](Environment& sky) { sky.texels[3].y = -1.0f; });
     refused([](Environment& sky) { sky.texels[3].y = infinite; });
     refused([](Environment& sky) { sky.texels[3].y = sky.factor.y = 1e30f; });
+    // Each texel is a number, what they send together is not.
+    refused([](Environment& sky) { sky.factor.y = 1e38f; });
     refused([](Environment& sky) { sky.factor.z = -1.0f; });
     refused([](Environment& sky) { sky.factor.z = infinite; });
     refused([](Environment& sky) { sky.rotation = std::nanf(""); });

@@ -67,6 +67,9 @@ TEST(Front, KnowsScenesByTheirLamps) {
     test::add_floor(sunlit, 1.0);
     sunlit.lights = {test::directional_light({0, -1, 0})};
     EXPECT_EQ(class_of(sunlit), SceneClass::directional);
+    sunlit.lights.clear();
+    sunlit.environment.emplace();
+    EXPECT_EQ(class_of(sunlit), SceneClass::directional);
 }
 
 TEST(WithinBudget, FollowsTheOrderOfBudgets) {

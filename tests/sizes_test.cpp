@@ -237,7 +237,7 @@ TEST(Sizes, OfImagePasses) {
          [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, z, a, b); }},
         {"image.environment", "texels", 3 * sizeof(float),
          [&](B b) { passes.environment(queue, environment, p.view, b, z, a); }},
-        {"image.environment", "ids", GBUFFER_ID_PLANES * plane,
+        {"image.environment", "planes", (GBUFFER_NORMAL + 3) * plane,
          [&](B b) { passes.environment(queue, environment, p.view, z, b, a); }},
         {"image.environment", "radiance", RADIANCE_PLANES * plane,
          [&](B b) { passes.environment(queue, environment, p.view, z, z, b); }},

@@ -110,6 +110,10 @@ TEST(UvTexels, SayWhatIsOddAboutThem) {
             EXPECT_LT(texel.triangle, 2u);
         }
     EXPECT_EQ(uv_texels(charted_floor({0.5f, 0}, {1.25f, 1}), 1, 64).outside, 2u);
+    // However far it reaches.
+    const UvTexels far = uv_texels(charted_floor({-1e30f, -1e30f}, {1e30f, 1e30f}), 1, 16384);
+    EXPECT_EQ(far.outside, 2u);
+    EXPECT_TRUE(far.texels.empty());
     // Rounding of a packer is not outside.
     EXPECT_EQ(uv_texels(charted_floor({0, 0}, {1.000001f, 1}), 1, 64).outside, 0u);
     EXPECT_TRUE(uv_texels(Scene(), 1, 8).texels.empty());

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <clgi/error.hpp>
 #include <clgi/io/image.hpp>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -46,10 +48,18 @@ Environment load_environment(const std::string& path, bool quiet) {
     Environment out;
     out.width = picture.width;
     out.height = picture.height;
+    // Infinity was read as the largest float, which would drown all else. What overflowed was at
+    // least as bright as the brightest of the others.
+    constexpr float overflown = std::numeric_limits<float>::max();
+    float greatest = 0.0f;
+    for (const io::Image::Channel* plane : planes)
+        for (const float value : plane->values)
+            if (value < overflown) greatest = std::max(greatest, value);
     std::size_t replaced = report.non_finite;
     for (std::size_t i = 0; i < planes[0]->values.size(); ++i) {
         glm::vec3 texel(planes[0]->values[i], planes[1]->values[i], planes[2]->values[i]);
         for (int c = 0; c < 3; ++c) {
+            if (texel[c] == overflown) texel[c] = greatest;
             if (texel[c] >= 0.0f) continue;
             texel[c] = 0.0f;
             ++replaced;

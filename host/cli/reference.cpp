@@ -104,7 +104,10 @@ void run_reference(ReferenceFlags flags) {
         throw Error(fmt::format("reference: --camera is {}, the scene has {}", flags.camera,
                                 scene.cameras.size()));
     report::AtlasPlaces atlas;
-    if (flags.atlas > 0) atlas = report::atlas_places(scene, flags.atlas, flags.uv_set);
+    if (flags.atlas > 0) {
+        atlas = report::atlas_places(scene, flags.atlas, flags.uv_set);
+        flags.picture.full = true;  // daylight, in lux, is beyond the range of half
+    }
     for (const std::string& warning : atlas.warnings) {
         notice(flags.quiet, "warning: " + warning);
         scene.warnings.push_back(warning);

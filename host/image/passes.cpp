@@ -52,7 +52,7 @@ cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams&
                               const cl::Buffer& points, const cl::Buffer& lights,
                               const cl::Buffer& negative, const cl::Buffer& irradiance,
                               const WaitList& wait) const {
-    need_stride(gather_, "stride", params.stride, range.first + range.count);
+    need_stride(gather_, "stride", params.stride, end_of(range));
     need(gather_, "point_count", point_count, sizeof(std::uint32_t));
     need(gather_, "points", points, point_bytes(gather_.storage, params.stride));
     need(gather_, "lights", lights, params.light_count * sizeof(IndirectLight));
@@ -143,7 +143,7 @@ cl::Event ImagePasses::combine(const cl::CommandQueue& queue, const CombineParam
 
 cl::Event ImagePasses::environment(const cl::CommandQueue& queue, const EnvironmentParams& params,
                                    const View& view, const cl::Buffer& texels,
-                                   const cl::Buffer& ids, const cl::Buffer& radiance,
+                                   const cl::Buffer& planes, const cl::Buffer& radiance,
                                    const WaitList& wait) const {
     if (!environment_.kernel())
         throw Error(
@@ -156,10 +156,11 @@ cl::Event ImagePasses::environment(const cl::CommandQueue& queue, const Environm
     need_stride(environment_, "stride", params.stride, pixels);
     need(environment_, "texels", texels,
          plane_bytes(3, std::size_t{params.environment_width} * params.environment_height));
-    need(environment_, "ids", ids, plane_bytes(GBUFFER_ID_PLANES, params.stride));
+    need(environment_, "planes", planes,
+         gbuffer_bytes(environment_.storage, params.stride, GBUFFER_NORMAL + 3));
     need(environment_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
     return launch(environment_, queue, packets(environment_, pixels), wait, params, view, texels,
-                  ids, radiance);
+                  planes, radiance);
 }
 
 cl::Event ImagePasses::tonemap(const cl::CommandQueue& queue, const TonemapParams& params,

@@ -3,13 +3,13 @@
 
 #include <clgi/shared/halton.h>
 #include <algorithm>
+#include <array>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <numeric>
 #include <string>
 
-#include "lights/median_cut.hpp"
 #include "lights/replicate.hpp"
 #include "scene/luminance.hpp"
 
@@ -27,12 +27,15 @@ glm::vec3 across(const glm::vec3& n) {
     return glm::normalize(glm::cross(helper, n));
 }
 
+// Sources that stand for one another: what one of them does not send, others of its group may.
+enum Group : std::size_t { lamps, environment, surfaces, group_count };
+
 struct Source {
     Emitter emitter{};
     std::vector<View> views;
     double power = 0.0;
     double acceptance = 0.0;  // share of the sphere in a spot's cone
-    bool of_environment = false;
+    Group group = lamps;
 };
 
 View window(const glm::vec3& eye, const glm::vec3& right, const glm::vec3& up,
@@ -131,15 +134,9 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
 // Directional lights that stand for the environment.
 std::vector<Source> environment_lights(const DeviceScene& scene, const EmitterOptions& options) {
     std::vector<Source> out;
-    if (!scene.environment()) return out;
-    for (const EnvironmentLight& part :
-         median_cut(*scene.environment(), options.environment_lights)) {
-        Light light;
-        light.kind = Light::Kind::directional;
-        light.direction = glm::vec3(-part.toward);
-        light.intensity = glm::vec3(part.lux);
+    for (const Light& light : scene.environment_lights(options.environment_lights)) {
         out.push_back(directional(light, scene.frame(), options));
-        out.back().of_environment = true;
+        out.back().group = environment;
     }
     return out;
 }
@@ -184,6 +181,7 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
         e.area = static_cast<float>(share / (pi * lum));
         e.kind = EMITTER_AREA;
         source.power = share;
+        source.group = surfaces;
         source.views = hemicube(glm::vec3(e.position), t.normal, 0.5f * lift, options.face_size);
         out.push_back(source);
     }
@@ -208,6 +206,26 @@ std::vector<std::uint32_t> divide(const std::vector<Source>& sources, int lights
     for (std::size_t i = 0; given < static_cast<std::uint32_t>(lights); ++i, ++given)
         ++shares[rests[i % rests.size()].second];
     return shares;
+}
+
+// By what each group multiplies its indirect light, so that sources too weak for a light of their
+// own are not lost: the others of the group take over their power, and all other groups that of a
+// group without lights.
+std::array<double, group_count> taken_over(const std::vector<Source>& sources,
+                                           const std::vector<std::uint32_t>& shares) {
+    std::array<double, group_count> power{}, lit{}, out{};
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        power[sources[i].group] += sources[i].power;
+        if (shares[i] > 0) lit[sources[i].group] += sources[i].power;
+    }
+    double all = 0.0, sending = 0.0;
+    for (std::size_t g = 0; g < group_count; ++g) {
+        all += power[g];
+        if (lit[g] > 0.0) sending += power[g];
+    }
+    for (std::size_t g = 0; g < group_count; ++g)
+        out[g] = lit[g] > 0.0 ? power[g] / lit[g] * (all / sending) : 1.0;
+    return out;
 }
 
 // Halton candidates to try; 0 where nothing is rejected, or where too much would be.
@@ -248,23 +266,25 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     EmitterSet out;
     if (sources.empty()) return out;
     const std::vector<std::uint32_t> shares = divide(sources, options.lights);
+    const std::array<double, group_count> factor = taken_over(sources, shares);
     // All directions of the environment spread their lights over one disc together, and all samples
-    // of the emissive surfaces theirs over what they light.
-    std::uint32_t of_environment = 0, of_surfaces = 0;
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        if (sources[i].of_environment) of_environment += shares[i];
-        if (sources[i].emitter.kind == EMITTER_AREA) of_surfaces += shares[i];
-    }
+    // of the emissive surfaces theirs over what they light: points of one sequence, as each alone
+    // has too few.
+    std::array<std::uint32_t, group_count> lights_of{}, given{};
+    for (std::size_t i = 0; i < sources.size(); ++i) lights_of[sources[i].group] += shares[i];
     for (std::size_t i = 0; i < sources.size(); ++i) {
         Source& source = sources[i];
-        if (source.emitter.kind == EMITTER_DIRECTIONAL) {
-            const std::uint32_t sharing = source.of_environment ? of_environment : shares[i];
+        const bool alone = source.group == lamps;
+        const std::uint32_t sharing = alone ? shares[i] : lights_of[source.group];
+        if (source.emitter.kind == EMITTER_DIRECTIONAL)
             source.emitter.area =
                 source.emitter.measure * (1.0f / static_cast<float>(std::max(sharing, 1u)));
-        }
         if (source.emitter.kind == EMITTER_AREA)
             source.emitter.measure =
-                static_cast<float>(pi * shares[i] / static_cast<double>(std::max(of_surfaces, 1u)));
+                static_cast<float>(pi * shares[i] / static_cast<double>(std::max(sharing, 1u)));
+        source.emitter.first_index = 1 + (alone ? 0 : given[source.group]);
+        given[source.group] += shares[i];
+        source.emitter.taken_over = static_cast<float>(factor[source.group]);
         source.emitter.first_view = static_cast<std::uint32_t>(out.views.size());
         source.emitter.view_count = static_cast<std::uint32_t>(source.views.size());
         source.emitter.first_light = static_cast<std::uint32_t>(out.light_count);
@@ -284,7 +304,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         if (out.pixels > most_pixels)
             throw Error(
                 "emitters: the sources' views have more than 2^30 pixels; fewer "
-                "area_samples or smaller shadow_size and face_size needed");
+                "area_samples or environment_lights, or smaller shadow_size and face_size needed");
     }
     return out;
 }

@@ -34,7 +34,8 @@ struct Tally {
     std::uint32_t non_finite = 0;
 
     void add(const glm::vec3& sample) {
-        if (!std::isfinite(sample.x + sample.y + sample.z)) {
+        // Each channel: the sum of three bright ones may be infinite.
+        if (!std::isfinite(sample.x) || !std::isfinite(sample.y) || !std::isfinite(sample.z)) {
             ++non_finite;
             return;
         }

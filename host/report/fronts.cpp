@@ -45,6 +45,7 @@ SceneClass classify(const DeviceScene& scene) {
                                                                          : SceneClass::point;
         ++counts[static_cast<std::size_t>(kind)];
     }
+    if (scene.environment()) ++counts[static_cast<std::size_t>(SceneClass::directional)];
     return static_cast<SceneClass>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 

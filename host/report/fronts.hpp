@@ -8,7 +8,8 @@
 
 namespace clgi::report {
 
-// By the lamp with the most of the scene's lamps; emissive surfaces come before all.
+// By what most of the scene's lamps are; an environment is one directional lamp more, as it lights
+// by directions. Emissive surfaces come before all.
 enum class SceneClass { spot, directional, point, area };
 
 SceneClass classify(const DeviceScene& scene);

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <mutex>
 #include <string>
 
 #include "opencl/error_text.hpp"
 #include "scene/environment.hpp"
 #include "scene/locality.hpp"
 #include "scene/luminance.hpp"
+#include "scene/median_cut.hpp"
 #include "scene/texture_pool.hpp"
 
 namespace clgi {
@@ -129,6 +131,13 @@ Reflectance reflectance(float metallic, float roughness) {
     return out;
 }
 
+// Copies of a scene share it: environments do not change.
+struct DeviceScene::Cut {
+    std::mutex mutex;
+    int count = 0;
+    std::vector<Light> lights;
+};
+
 DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene) {
     validate(scene);
     frame_ = local_frame(scene);
@@ -214,9 +223,26 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     decode_ = upload("the sRGB table", srgb_decode_table());
     if (scene.environment) {
         environment_ = with_picture(*scene.environment);
+        cut_ = std::make_shared<Cut>();
         environment_texels_ = upload("environment texels", environment_->texels);
     }
     bytes_ = upload.bytes;
+}
+
+std::vector<Light> DeviceScene::environment_lights(int count) const {
+    if (!environment_) return {};
+    const std::lock_guard lock(cut_->mutex);
+    if (cut_->count == count) return cut_->lights;
+    std::vector<Light> lights;
+    for (const EnvironmentLight& part : median_cut(*environment_, count)) {
+        Light& light = lights.emplace_back();
+        light.kind = Light::Kind::directional;
+        light.direction = glm::vec3(-part.toward);
+        light.intensity = glm::vec3(part.lux);
+    }
+    cut_->lights = std::move(lights);
+    cut_->count = count;
+    return cut_->lights;
 }
 
 void DeviceScene::set_light(std::size_t index, const Light& light) {

@@ -65,7 +65,10 @@ UvTexels uv_texels(const Scene& scene, int uv_set, int size) {
         const glm::dvec2 low = glm::min(corner[0], glm::min(corner[1], corner[2]));
         const glm::dvec2 high = glm::max(corner[0], glm::max(corner[1], corner[2]));
         const double edge = 0.5 / size;
-        if (std::min(low.x, low.y) < -edge || std::max(high.x, high.y) > 1.0 + edge) ++out.outside;
+        if (std::min(low.x, low.y) < -edge || std::max(high.x, high.y) > 1.0 + edge) {
+            ++out.outside;
+            continue;
+        }
         const double sign = whole > 0.0 ? 1.0 : -1.0;  // charts may be mirrored
         const auto [left, right] = covered(low.x, high.x, size);
         const auto [top, bottom] = covered(low.y, high.y, size);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/export.hpp>
 #include <clgi/scene.hpp>
 #include <vector>
 
@@ -17,13 +18,14 @@ struct UvTexel {
 struct UvTexels {
     std::vector<UvTexel> texels;   // in rising order; of several triangles the first counts
     std::size_t overlapping = 0;   // texels whose centre several triangles cover
-    std::size_t outside = 0;       // triangles half a texel or more outside the unit square
+    std::size_t outside = 0;       // triangles half a texel or more outside the unit square; left
+                                   // out
     std::size_t without_area = 0;  // triangles without area in this UV set
 };
 
 // uv_set: 0 or 1. size: texels, side of the square; 1 to 16384. A centre on an edge that two
 // triangles share belongs to one of them. Throws Error for numbers out of range.
-UvTexels uv_texels(const Scene& scene, int uv_set, int size);
+CLGI_API UvTexels uv_texels(const Scene& scene, int uv_set, int size);
 
 // The surface at a texel's centre.
 struct UvPlace {
@@ -31,6 +33,6 @@ struct UvPlace {
     glm::dvec3 normal;     // unit, interpolated; `geometric` where it would face away from it
     glm::dvec3 geometric;  // unit, of the triangle; `normal` where the triangle has no area
 };
-UvPlace place_at(const Scene& scene, const UvTexel& texel);
+CLGI_API UvPlace place_at(const Scene& scene, const UvTexel& texel);
 
 }  // namespace clgi

@@ -1,10 +1,14 @@
 // What a Scene promises, and the questions that need only its arrays.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/error.hpp>
 #include <clgi/scene.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
+
+#include "scene/environment.hpp"
 
 namespace clgi {
 
@@ -214,6 +218,11 @@ void check_environment(const Environment& environment) {
     }
     const std::size_t texels =
         static_cast<std::size_t>(environment.width) * static_cast<std::size_t>(environment.height);
+    constexpr std::size_t most = (std::size_t{1} << 31) / 3;  // kernels count channels in ints
+    if (texels > most) {
+        fail("the environment is of " + size + " texels, at most " + std::to_string(most) +
+             " needed");
+    }
     if (environment.texels.size() != texels) {
         fail("the environment of " + size + " texels has " +
              std::to_string(environment.texels.size()));
@@ -232,6 +241,13 @@ void check_environment(const Environment& environment) {
                 fail(entry("environment texel", i) + " is negative or not finite");
             }
         }
+    }
+    // A quarter of the largest float: directions that stand for it add up, and exposure is the next
+    // power of two.
+    const glm::dvec3 fluence = environment_fluence(environment);
+    if (!(std::max({fluence.x, fluence.y, fluence.z}) <=
+          0.25 * double{std::numeric_limits<float>::max()})) {
+        fail("the environment is brighter than 8e37 lux over all directions");
     }
 }
 

@@ -8,6 +8,7 @@
 #include <clgi/export.hpp>
 #include <clgi/opencl.hpp>
 #include <clgi/scene.hpp>
+#include <memory>
 
 namespace clgi {
 
@@ -46,6 +47,9 @@ public:
     const std::vector<EmissiveTriangle>& emissive() const { return emissive_; }
     // With a picture of one texel where the scene's had none.
     const std::optional<Environment>& environment() const { return environment_; }
+    // At most `count` directional lights that stand for it [Debevec05], with all of its light. Cut
+    // at the first call; kept until another count is asked for. May be called by several threads.
+    std::vector<Light> environment_lights(int count) const;
     bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
     bool needs_textures() const {                  // some surface has a texture or an alpha mask
         return has_masks_ || (info_.flags & SCENE_HAS_TEXTURES) != 0;
@@ -75,6 +79,8 @@ private:
     std::vector<EmissiveTriangle> emissive_;
     std::vector<std::uint32_t> triangle_order_;
     std::optional<Environment> environment_;
+    struct Cut;
+    std::shared_ptr<Cut> cut_;
     bool has_lobes_ = false;
     bool has_masks_ = false;
     std::size_t bytes_ = 0;

@@ -5,21 +5,25 @@
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of those of its own pixels in which nothing is; the others stay
+//
+// Nothing is where no normal is, as image/combine has it: a G-buffer from elsewhere may have no ids.
 // SPDX-License-Identifier: MIT
-#include "clgi/shared/gbuffer.h"
+#include "planes.clh"
 #include "clgi/shared/image.h"
-#include "packet.clh"
 
 kernel void image_environment(
     const EnvironmentParams  params,
     const View               view,
     global const float*      restrict texels,    // [environment_height][environment_width][3]
-    global const int*        restrict ids,       // [GBUFFER_ID_PLANES][stride]
+    global const float*      restrict planes,    // [GBUFFER_PLANES][stride]
     global float*            restrict radiance)  // [RADIANCE_PLANES][stride] cd/m^2
 {
     uint pixel = (uint)get_global_id(0) * CLGI_WIDTH;
     if (pixel >= view.width * view.height) return;
-    intp nothing = packet_load(ids + GBUFFER_MATERIAL * params.stride + pixel) < 0;
+    floatp nx = row_load(gbuffer_row(planes, GBUFFER_NORMAL, params.stride), pixel);
+    floatp ny = row_load(gbuffer_row(planes, GBUFFER_NORMAL + 1, params.stride), pixel);
+    floatp nz = row_load(gbuffer_row(planes, GBUFFER_NORMAL + 2, params.stride), pixel);
+    intp nothing = !(packet_dot(nx, ny, nz, nx, ny, nz) > 0.0f);
     if (!packet_any(nothing)) return;
 
     // The ray through each pixel's centre; a packet may run on into the next rows.

@@ -36,11 +36,7 @@ kernel void lights_fetch(
     while (e + 1 < params.emitter_count && light >= emitters[e + 1].first_light) ++e;
     global const Emitter* emitter = emitters + e;
     uint rank = light - emitter->first_light;
-    // Samples of the emissive surfaces, and of the directions of an environment, go on along one
-    // sequence: each alone has too few.
-    int one_of_many = emitter->kind == EMITTER_AREA || emitter->kind == EMITTER_DIRECTIONAL;
-    uint index = one_of_many ? light + 1 : rank + 1;
-    if (emitter->kind == EMITTER_SPOT) index = accepted[light];
+    uint index = emitter->kind == EMITTER_SPOT ? accepted[light] : emitter->first_index + rank;
 
     IndirectLight out;
     out.position = (float4)(0.0f);
@@ -84,7 +80,8 @@ kernel void lights_fetch(
                 float radius2 = params.footprint * area / CLGI_PI;
                 out.position = (float4)(position, radius2);
                 out.normal = (float4)(normal, radius2 * radius2);
-                out.flux = (float4)(albedo * sample.flux * (falloff * params.scale), 1.0f);
+                float factor = falloff * params.scale * emitter->taken_over;
+                out.flux = (float4)(albedo * sample.flux * factor, 1.0f);
             }
         }
     }

@@ -56,10 +56,11 @@ public:
                       const cl::Buffer& radiance, const cl::Buffer& non_finite,
                       const WaitList& wait = {}) const;
 
-    // Pixels of the view in which nothing is -> radiance [RADIANCE_PLANES][stride]; texels:
-    // [environment_height][environment_width][3] float, times the factor in cd/m^2.
+    // Pixels of the view in which nothing is (no normal in planes) -> radiance
+    // [RADIANCE_PLANES][stride]; texels: [environment_height][environment_width][3] float, times
+    // the factor in cd/m^2.
     cl::Event environment(const cl::CommandQueue& queue, const EnvironmentParams& params,
-                          const View& view, const cl::Buffer& texels, const cl::Buffer& ids,
+                          const View& view, const cl::Buffer& texels, const cl::Buffer& planes,
                           const cl::Buffer& radiance, const WaitList& wait = {}) const;
 
     // preview: [width * height] uint, RGBA8.

@@ -29,6 +29,12 @@ typedef struct {
     uint view_count;
     uint first_light;  // its share of the indirect lights
     uint light_count;
+    uint first_index;  // of its points in their sequence, at least 1: all directions of an
+                       // environment go on along one, and all samples of the emissive surfaces
+    float taken_over;  // multiplies the flux of its indirect lights: sources too weak to have a
+                       // light leave theirs to the others; 1 where all have some
+    uint pad0_;
+    uint pad1_;
 } Emitter;
 
 // A point light with a cosine lobe, standing for a disc around it: the irradiance it gives is

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lights/median_cut.hpp"
+#include "scene/median_cut.hpp"
 
 #include <algorithm>
 #include <cmath>

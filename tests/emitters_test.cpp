@@ -1,0 +1,104 @@
+// Shares of the indirect lights: nothing is lost where there are fewer lights than sources; and
+// who goes along one sequence of points.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "lighting.hpp"
+#include "math_modes.hpp"
+#include "scene/luminance.hpp"
+#include "scenes.hpp"
+#include "skies.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+CLGI_IN_BOTH_MATHS(Shares);
+
+// Every kind of source: a lamp, a sun, a weak lamp, sixteen directions, sixteen samples.
+Scene scene_of_all() {
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 2.0);
+    Material glowing;
+    glowing.emission = glm::vec3(3.0f, 2.0f, 1.0f);
+    test::add_floor(scene, 0.5, 1.0, test::add_material(scene, glowing));
+    scene.lights = {test::spot_light({0, 2, 0}, {0, -1, 0}, 0.5),
+                    test::directional_light({0, -1, 0}), test::point_light({1, 1, 1}, 0.01f)};
+    scene.environment = test::gradient_sky();
+    return scene;
+}
+
+double power_of(const Emitter& emitter) {
+    const double intensity = luminance(glm::vec3(emitter.intensity));
+    // The samples' own flux; the others' measure is of what they light.
+    return emitter.kind == EMITTER_AREA ? intensity : intensity * double{emitter.measure};
+}
+
+TEST(Emitters, SendAllLightHoweverFewLightsThereAre) {
+    const DeviceScene scene = test::on_device(scene_of_all());
+    for (const int count : {1, 2, 5, 20, 100, 20000}) {
+        const EmitterSet set = make_emitters(scene, {.lights = count});
+        ASSERT_EQ(set.emitters.size(), 35u);
+        double all = 0.0, sent = 0.0;
+        std::size_t without = 0;
+        for (const Emitter& emitter : set.emitters) {
+            all += power_of(emitter);
+            if (emitter.light_count > 0) sent += power_of(emitter) * double{emitter.taken_over};
+            without += emitter.light_count == 0;
+        }
+        EXPECT_NEAR(sent, all, 1e-6 * all) << count;
+        EXPECT_EQ(set.light_count, static_cast<std::size_t>(count));
+        if (count < 35) {
+            EXPECT_GT(without, 0u) << count;
+        }
+        if (without > 0) continue;
+        for (const Emitter& emitter : set.emitters) EXPECT_EQ(emitter.taken_over, 1.0f);
+    }
+    for (const Emitter& emitter : make_emitters(scene, {.lights = 0}).emitters)
+        EXPECT_EQ(emitter.taken_over, 1.0f);  // nobody is there to take over
+}
+
+// A closed box reflects half of what two lamps send, by one light or by three.
+TEST_P(Shares, OfSourcesWithoutLightsAreSentByTheOthers) {
+    Scene world = test::plain_scene(glm::vec3(0.5f));
+    test::add_box(world, {-1, -1, -1}, {1, 1, 1}, -1);
+    world.lights = {test::point_light({0.1, 0, 0}, 10.0f), test::point_light({0, 0.2, 0}, 1.0f)};
+    const DeviceScene scene = test::on_device(world);
+    for (const int count : {1, 3, 200})
+        EXPECT_NEAR(test::total_flux(
+                        scene, test::place_lights(scene, {.lights = count}, GetParam()).lights),
+                    0.5 * 4 * pi * 11, 1e-5 * 0.5 * 4 * pi * 11)
+            << count;
+}
+
+TEST(Emitters, GoAlongOneSequenceWithinTheirGroup) {
+    const EmitterSet set = make_emitters(test::on_device(scene_of_all()), {.lights = 500});
+    std::uint32_t of_surfaces = 1, of_environment = 1;
+    for (std::size_t i = 0; i < set.emitters.size(); ++i) {
+        const Emitter& emitter = set.emitters[i];
+        if (i < 3) {
+            EXPECT_EQ(emitter.first_index, 1u) << i;  // lamps, the sun too
+            continue;
+        }
+        std::uint32_t& next = emitter.kind == EMITTER_AREA ? of_surfaces : of_environment;
+        EXPECT_EQ(emitter.first_index, next) << i;
+        next += emitter.light_count;
+    }
+    EXPECT_GT(of_surfaces, 16u);
+    EXPECT_GT(of_environment, 16u);
+}
+
+TEST(Emitters, OfAnEnvironmentAreCutAnewForAnotherCount) {
+    const DeviceScene scene = test::on_device(scene_of_all());
+    const std::vector<Light> four = scene.environment_lights(4);
+    EXPECT_EQ(four.size(), 4u);
+    EXPECT_EQ(scene.environment_lights(7).size(), 7u);
+    EXPECT_TRUE(scene.environment_lights(0).empty());
+    const std::vector<Light> again = scene.environment_lights(4);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(again[i].direction, four[i].direction);
+    EXPECT_TRUE(test::on_device(Scene()).environment_lights(4).empty());
+}
+
+}  // namespace
+}  // namespace clgi
