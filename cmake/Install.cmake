@@ -24,10 +24,14 @@ function(clgi_library target component)
         add_library(clgi::${component} ALIAS ${target})
         set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
     endif()
-    # What is public says so (clgi/export.hpp); nothing else leaves a shared library.
     set_target_properties(${target} PROPERTIES
-        VERSION ${PROJECT_VERSION} SOVERSION ${CLGI_SOVERSION}
-        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+        VERSION ${PROJECT_VERSION} SOVERSION ${CLGI_SOVERSION})
+    # What is public says so (clgi/export.hpp); nothing else leaves a shared library. Built with the
+    # tests it shows all of itself, as they call what is inside.
+    if(NOT CLGI_TESTS)
+        set_target_properties(${target} PROPERTIES
+            CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    endif()
 
     install(TARGETS ${target} EXPORT clgi-${component}
             RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime

@@ -3,7 +3,7 @@
 #
 #   ./samples/accuracy.sh [mesh.glb]     a mesh for the box; without, a generated one
 #
-# Writes out/accuracy/<scene>/index.html, plots and tables, for strict and for fast math.
+# Writes out/accuracy/<scene>/index.html, plots and tables.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
 
@@ -24,8 +24,7 @@ clgi=build/clgi
 for scene in box cornell; do
     "$clgi" sweep "$out/$scene.glb" -o "$out/$scene"
 done
-"$clgi" sweep "$out/box.glb" -o "$out/box-fast" --method second-order --math fast
 
 echo
 echo "commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown), $(date +%F)"
-echo "pages: $out/box/index.html $out/cornell/index.html $out/box-fast/index.html"
+echo "pages: $out/box/index.html $out/cornell/index.html"

@@ -4,6 +4,7 @@
 #include <clgi/io/gltf.hpp>
 #include <clgi/io/image.hpp>
 #include <cstdio>
+#include <exception>
 
 int main(int argc, char** argv) {
     try {
@@ -35,7 +36,7 @@ int main(int argc, char** argv) {
         }
         clgi::io::save_exr(image, "hello.exr", clgi::io::Storage::half);
         std::printf("hello.exr, by %s\n", clgi::describe(device).c_str());
-    } catch (const clgi::Error& error) {
+    } catch (const std::exception& error) {
         return std::fprintf(stderr, "hello_clgi: %s\n", error.what()), 1;
     }
 }

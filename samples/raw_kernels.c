@@ -1,6 +1,9 @@
 /* clgi's kernels without clgi: plain C99 and plain OpenCL on the installed .cl files alone.
 
-       raw_kernels share/clgi/kernels picture.pfm
+       raw_kernels share/clgi/kernels picture.pfm [DEVICE]
+
+   DEVICE counts the devices of all platforms from 0, as `clgi devices` lists them; the first one
+   is taken where none is named.
 
    Draws a room with a block in it into a G-buffer (clear, transform, raster, raster_large,
    resolve), lights every pixel by 64 small lights on the floor (gather) and writes irradiance as a
@@ -271,14 +274,22 @@ static void write_pfm(const char* path, const float* planes) {
     need(fclose(file) == 0, path);
 }
 
-static void open_any_device(void) {
+static void open_device(unsigned long index) {
     cl_platform_id platforms[16];
-    cl_uint count = 0;
+    cl_device_id devices[64];
+    cl_uint platform_count = 0;
     cl_int error = 0;
-    clGetPlatformIDs(16, platforms, &count);
-    for (cl_uint i = 0; i < count && i < 16 && !device; ++i)
-        clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, 1, &device, NULL);
-    need(device != NULL, "no OpenCL device");
+    clGetPlatformIDs(16, platforms, &platform_count);
+    for (cl_uint i = 0; i < platform_count && i < 16 && !device; ++i) {
+        cl_uint count = 0;
+        if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, 64, devices, &count) != CL_SUCCESS)
+            continue; /* a platform whose hardware is absent */
+        if (index < count && index < 64)
+            device = devices[index];
+        else
+            index -= count;
+    }
+    need(device != NULL, "no such OpenCL device");
     context = clCreateContext(NULL, 1, &device, NULL, NULL, &error);
     need(error == CL_SUCCESS, "no context");
     queue = clCreateCommandQueue(context, device, 0, &error);
@@ -286,9 +297,12 @@ static void open_any_device(void) {
 }
 
 int main(int argc, char** argv) {
-    need(argc == 3, "usage: raw_kernels FOLDER picture.pfm");
+    char* rest = "";
+    const unsigned long index = argc == 4 ? strtoul(argv[3], &rest, 10) : 0;
+    need((argc == 3 || argc == 4) && *rest == '\0',
+         "usage: raw_kernels FOLDER picture.pfm [DEVICE]");
     folder = argv[1];
-    open_any_device();
+    open_device(index);
     const float room[] = {-0.5f, -0.5f, -0.5f, 0.5f, 0.5f, 0.5f};
     const float block[] = {-0.25f, -0.5f, -0.25f, 0.125f, -0.0625f, 0.0f};
     add_box(0, room, room + 3, -1);

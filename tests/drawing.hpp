@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
 
 #include "device.hpp"
 
@@ -33,6 +35,24 @@ struct Drawing {
 
 inline std::uint32_t padded(std::size_t count) {
     return static_cast<std::uint32_t>((count + 15) / 16 * 16);
+}
+
+// [GBUFFER_PLANES][stride] as floats, whichever way they are stored.
+inline std::vector<float> read_planes(const GBuffer& from) {
+    if (from.storage == Storage::full)
+        return download<float>(from.planes, GBUFFER_PLANES * from.stride);
+    const auto rows = download<std::uint16_t>(from.planes, GBUFFER_HALF_ROWS * from.stride);
+    std::vector<float> out(GBUFFER_PLANES * from.stride);
+    for (int plane = 0; plane < GBUFFER_PLANES; ++plane)
+        for (std::size_t i = 0; i < from.stride; ++i) {
+            const std::uint16_t* row = rows.data() + HALF_ROW(plane) * from.stride;
+            float& value = out[plane * from.stride + i];
+            if (HALF_PLANE(plane))
+                value = glm::unpackHalf1x16(row[i]);
+            else
+                std::memcpy(&value, row + 2 * i, sizeof value);
+        }
+    return out;
 }
 
 inline RasterBuffers raster_buffers(const DeviceScene& scene, std::size_t pixels) {

@@ -148,6 +148,27 @@ TEST(Embedding, ABudgetIsKeptAndNamesTheOptionToLower) {
     EXPECT_NE(refusal(scene, options).find("sources.lights"), std::string::npos);
 }
 
+TEST(Embedding, ARefusedChangeLeavesTheSolverAsItWas) {
+    const Scene world = room();
+    const DeviceScene scene = test::on_device(world);
+    const cl::CommandQueue& queue = test::device().queue;
+    SecondOrderSolver solver(queue, scene, small());
+    const auto picture = [&] {
+        solver.render(world.cameras[0]).wait();
+        return test::read_frame(queue, scene, solver).radiance;
+    };
+    const auto before = picture();
+    SecondOrderOptions other = small();
+    other.sources.lights = 7;
+    other.memory_budget = 1000;
+    EXPECT_THROW(solver.reconfigure(other), DeviceError);
+    EXPECT_EQ(solver.options().sources.lights, small().sources.lights);
+    EXPECT_TRUE(test::same_bits(picture(), before));
+    other.memory_budget = 0;
+    solver.reconfigure(other);
+    EXPECT_FALSE(test::same_bits(picture(), before));
+}
+
 TEST(Embedding, ABufferLargerThanTheDeviceAllowsIsNamed) {
     const DeviceScene scene = test::on_device(room());
     SecondOrderOptions options = small();

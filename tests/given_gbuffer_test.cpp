@@ -4,6 +4,7 @@
 
 #include "frames.hpp"
 #include "scenes.hpp"
+#include "skies.hpp"
 
 namespace clgi {
 namespace {
@@ -129,6 +130,35 @@ TEST(GivenGBuffer, IsLitByTheSourcesOfTheSceneAlone) {
     }
 }
 
+// Normals say where something is. On the left a wall that shines green, on the right the sky.
+TEST(GivenGBuffer, HidesTheEnvironmentWithoutIds) {
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 1.0, -1.0);
+    scene.environment = test::even_sky({1, 2, 3});
+    const DeviceScene placed = test::on_device(scene);
+    SecondOrderOptions options = small();
+    options.indirect = false;
+    options.sources.environment_lights = 0;
+    SecondOrderSolver solver(test::device().queue, placed, options);
+    const std::uint32_t stride = solver.stride();
+    const std::size_t pixels = 65 * 47;
+    const auto is_wall = [](std::size_t p) { return p % 65 < 31; };
+    std::vector<float> planes(GBUFFER_PLANES * stride);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        if (!is_wall(p)) continue;
+        planes[(GBUFFER_NORMAL + 2) * stride + p] = 1.0f;
+        planes[(GBUFFER_GEOMETRIC + 2) * stride + p] = 1.0f;
+        planes[(GBUFFER_EMISSION + 1) * stride + p] = 1.0f;
+    }
+    const GBuffer given{test::upload(planes),
+                        test::upload(std::vector<cl_int>(GBUFFER_ID_PLANES * stride, -1)), stride};
+    solver.render(test::camera_at({0, 0, 2}, {0, 0, 0}), given).wait();
+    const auto radiance = test::vectors(test::device().queue, solver.radiance(), stride, pixels);
+    const glm::vec3 green(0.0f, static_cast<float>(placed.frame().exposure), 0.0f);
+    for (std::size_t p = 0; p < pixels; ++p)
+        ASSERT_EQ(radiance[p], is_wall(p) ? green : glm::vec3(1, 2, 3)) << p;
+}
+
 TEST(GivenGBuffer, WaitsForItsEvents) {
     const Scene scene = box();
     const DeviceScene placed = test::on_device(scene);
@@ -142,7 +172,15 @@ TEST(GivenGBuffer, WaitsForItsEvents) {
         cl::UserEvent gate(test::device().context);
         const cl::Event event = solver.render(scene.cameras[0], given, {gate});
         queue.flush();
-        EXPECT_NE(event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(), CL_COMPLETE);
+        // Work on buffers of its own shows that the device had the time to begin.
+        const cl::Buffer other = test::empty<float>(1 << 20);
+        test::device().queue.enqueueFillBuffer(other, 1.0f, 0, sizeof(float) << 20);
+        test::device().queue.finish();
+        ASSERT_FALSE(solver.events().empty());
+        EXPECT_GE(solver.events().front().event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(),
+                  CL_SUBMITTED)
+            << solver.events().front().name;
+        EXPECT_GE(event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(), CL_SUBMITTED);
         gate.setStatus(CL_COMPLETE);
         event.wait();
         EXPECT_EQ(event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(), CL_COMPLETE);

@@ -289,6 +289,26 @@ TEST_F(GlImport, WaitsForWhatItIsTold) {
     EXPECT_NE(test::download<float>(out.planes, 1)[0], -77.0f);
 }
 
+// What a conversion waits for may fail long after the call.
+TEST_F(GlImport, GoesOnAfterAConversionThatFailed) {
+    const Engine engine;
+    const cl::CommandQueue queue(test::device().context, test::device().device,
+                                 CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
+    const GBuffer lost = test::marked_gbuffer(width * height);
+    const GBuffer out = test::marked_gbuffer(width * height);
+    test::device().queue.finish();
+    gl::GBufferImport import(test::device().context, test::device().device, gl::Sharing());
+    cl::UserEvent gate(test::device().context);
+    const cl::Event event =
+        import.convert(queue, view_of_room(), room(), engine.textures(), lost, {gate});
+    gate.setStatus(CL_DEVICE_NOT_AVAILABLE);
+    EXPECT_THROW(event.wait(), cl::Error);
+    for (int i = 0; i < 2; ++i)
+        import.convert(queue, view_of_room(), room(), engine.textures(), out).wait();
+    EXPECT_NE(test::download<float>(out.planes, 1)[0], -77.0f);
+    EXPECT_EQ(import.non_finite(), 0u);
+}
+
 // No context is current on a new thread, whether there is OpenGL or not.
 TEST(GlContext, IsNeededAndSaidSo) {
     const auto refused = [](const std::function<void()>& call) {

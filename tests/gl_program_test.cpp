@@ -57,6 +57,21 @@ TEST_F(GlProgram, GivesThePictureOfTheOpenClRasteriser) {
     }
 }
 
+TEST_F(GlProgram, StoresHalvesAsTheOpenClRasteriserDoes) {
+    if (const std::string reason = missing(); !reason.empty()) GTEST_SKIP() << reason;
+    const std::string scene = make("cornell");
+    for (const std::string by : {"cl", "gl"}) {
+        const Outcome outcome =
+            run("render " + scene + " --size 160x120 --full --quiet --storage half --gbuffer " +
+                by + " -o " + file(by + ".exr").string());
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+    }
+    const auto report = compare("gl.exr", "cl.exr");
+    EXPECT_EQ(report.at("nonfinite_a"), 0.0);
+    EXPECT_LT(report.at("rel_rmse").get<double>(), 0.005);
+    EXPECT_NEAR(report.at("energy_ratio").get<double>(), 1.0, 1e-4);
+}
+
 TEST_F(GlProgram, FollowsCameraAndLightsAndSaysWhatItUsed) {
     if (const std::string reason = missing(); !reason.empty()) GTEST_SKIP() << reason;
     const std::string scene = make("cornell --light spot");

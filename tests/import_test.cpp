@@ -104,13 +104,15 @@ ImportBuffers buffers_of(const Picture& p) {
 Imported import(const Picture& picture, std::uint32_t flags, bool from_images = false,
                 const BuildOptions& build = {}) {
     static std::map<int, ImportPasses> built;
-    const int key = build.packet_width + 100 * (build.math == Math::fast);
+    const int key = build.packet_width + 100 * (build.math == Math::fast) +
+                    200 * (build.storage == Storage::half);
     const ImportPasses& passes =
         built.try_emplace(key, test::device().context, test::device().device, build).first->second;
     const View view = view_of(picture);
     const std::uint32_t stride = test::padded(picture.pixels());
     const GBuffer out{test::upload(std::vector<float>(GBUFFER_PLANES * stride, -77.0f)),
-                      test::upload(std::vector<cl_int>(GBUFFER_ID_PLANES * stride, -77)), stride};
+                      test::upload(std::vector<cl_int>(GBUFFER_ID_PLANES * stride, -77)), stride,
+                      build.storage};
     const cl::Buffer count = test::upload(std::vector<cl_uint>{5});
     ImportParams params = import_params(room(), stride);
     params.flags = flags;
@@ -122,7 +124,7 @@ Imported import(const Picture& picture, std::uint32_t flags, bool from_images = 
     Imported result;
     result.planes.view = view;
     result.planes.stride = stride;
-    result.planes.planes = test::download<float>(out.planes, GBUFFER_PLANES * stride);
+    result.planes.planes = test::read_planes(out);
     result.planes.ids = test::download<std::int32_t>(out.ids, GBUFFER_ID_PLANES * stride);
     result.non_finite = test::download<cl_uint>(count, 1)[0] - 5;
     return result;
@@ -261,6 +263,26 @@ TEST(Import, GivesTheSameBitsFromImagesAndBuffersAtEveryWidth) {
         }
 }
 
+TEST(Import, StoresTheSamePlanesRoundedToHalves) {
+    const Picture picture = wall(33, 9);
+    const Imported full = import(picture, everything);
+    for (const int width : {1, 4})
+        for (const bool from_images : {false, true}) {
+            const Imported half = import(picture, everything, from_images,
+                                         {.storage = Storage::half, .packet_width = width});
+            EXPECT_EQ(half.non_finite, 0u);
+            for (std::size_t p = 0; p < picture.pixels(); ++p)
+                ASSERT_EQ(half.planes.ids[p], full.planes.ids[p]) << p;
+            for (int plane = 0; plane < GBUFFER_PLANES; ++plane)
+                for (std::size_t p = 0; p < picture.pixels(); ++p) {
+                    const float value = full.planes.planes[plane * full.planes.stride + p];
+                    const float step = HALF_PLANE(plane) ? std::abs(value) / 2048.0f : 0.0f;
+                    ASSERT_NEAR(half.planes.planes[plane * half.planes.stride + p], value, step)
+                        << plane << " " << p;
+                }
+        }
+}
+
 TEST(Import, WorksOnOnePixel) {
     const Imported got = import(wall(1, 1), everything);
     expect_near(got.planes.at(GBUFFER_POSITION, 0), {-1.5f, 0, 0}, "position");
@@ -339,6 +361,7 @@ TEST(Import, RefusesWhatDoesNotFit) {
     refused(whole, {test::empty<cl_uchar>(1023), out.ids, 16}, "planes holds 1023 bytes, 1024");
     refused(whole, {out.planes, test::empty<cl_uchar>(127), 16}, "ids holds 127 bytes, 128");
     refused(whole, {out.planes, out.ids, 32}, "stride is 32, 16 needed");
+    refused(whole, {out.planes, out.ids, 16, Storage::half}, "storage is half, full needed");
     params.normal_format = 3;
     refused(whole, out, "normal_format is 3");
     params.normal_format = 0;

@@ -59,6 +59,14 @@ protected:
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     }
 
+    // Of the program itself: drivers and their compilers write to stderr as well.
+    static int own_lines(const std::string& text) {
+        std::istringstream in(text);
+        int count = 0;
+        for (std::string line; std::getline(in, line);) count += line.rfind("clgi:", 0) == 0;
+        return count;
+    }
+
 private:
     fs::path folder_;
 };

@@ -110,6 +110,19 @@ TEST(Replicate, ReportsTheStandardErrorOfItsMean) {
     EXPECT_NEAR(found.error, wanted / std::sqrt(count), 1e-4 * wanted);
 }
 
+TEST(Replicate, IsCancelledBetweenTwoAndLeavesTheSolverAsItWas) {
+    const Scene scene = cornell({.lamp = Lamp::spot});
+    const DeviceScene device = test::on_device(scene);
+    SecondOrderSolver solver(test::device().queue, device, options_for(50, 0));
+    solver.set_replicate(9);
+    int asked = 0;
+    EXPECT_THROW(report::replicate(test::device().queue, solver, scene.cameras[0], 100,
+                                   [&] { return ++asked < 3; }),
+                 report::Cancelled);
+    EXPECT_EQ(asked, 3);
+    EXPECT_EQ(solver.options().sources.replicate, 9u);
+}
+
 // Lights close to what they light spoil the low-discrepancy rate pixel by pixel: about N^-1/2
 // stays.
 TEST(Replicate, ErrsLessThanHalfWithSixteenTimesTheLights) {

@@ -25,11 +25,13 @@ std::vector<cl_context_properties> GlFrames::properties(const cl::Device& device
     return gl::sharing_properties(device);
 }
 
-void GlFrames::open(const cl::CommandQueue& queue, const DeviceScene& scene) {
+void GlFrames::open(const cl::CommandQueue& queue, const DeviceScene& scene,
+                    const BuildOptions& build) {
     state_->queue = queue;
     state_->scene = &scene;
     state_->renderer.emplace(queue, scene);
-    state_->import.emplace(queue.getInfo<CL_QUEUE_CONTEXT>(), queue.getInfo<CL_QUEUE_DEVICE>());
+    state_->import.emplace(queue.getInfo<CL_QUEUE_CONTEXT>(), queue.getInfo<CL_QUEUE_DEVICE>(),
+                           build);
 }
 
 cl::Event GlFrames::render(SecondOrderSolver& solver, const Camera& camera) {

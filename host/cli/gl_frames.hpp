@@ -22,8 +22,8 @@ public:
     // What an OpenCL context must be made with to share textures; empty where the device cannot.
     std::vector<cl_context_properties> properties(const cl::Device& device) const;
 
-    // Takes the scene over to OpenGL. The queue keeps its order.
-    void open(const cl::CommandQueue& queue, const DeviceScene& scene);
+    // Takes the scene over to OpenGL. The queue keeps its order; `build` is the solver's.
+    void open(const cl::CommandQueue& queue, const DeviceScene& scene, const BuildOptions& build);
 
     // Enqueues a frame: the view is drawn, brought into the solver's G-buffer and lit.
     cl::Event render(SecondOrderSolver& solver, const Camera& camera);

@@ -129,7 +129,7 @@ void run_render(RenderFlags flags) {
     const auto build_start = std::chrono::steady_clock::now();
     DeviceScene device_scene(session.context, session.device, scene);
     SecondOrderSolver solver(session.queue, device_scene, flags.options);
-    if (gl) gl->open(session.queue, device_scene);
+    if (gl) gl->open(session.queue, device_scene, solver.options().build);
     RenderRecord record;
     record.build_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - build_start)
@@ -144,10 +144,11 @@ void run_render(RenderFlags flags) {
     } else if (!solver.run(camera, [&](double done) { return bar(done); })) {
         throw Interrupted();
     }
+    const auto go_on = [] { return !interrupted(); };
     if (asked) {
         try {
-            record.ask = AskRecord{wish, report::ask(session.queue, device_scene, solver, camera,
-                                                     wish, [] { return !interrupted(); })};
+            record.ask = AskRecord{
+                wish, report::ask(session.queue, device_scene, solver, camera, wish, go_on)};
         } catch (const report::Cancelled&) {
             throw Interrupted();
         }
@@ -170,7 +171,12 @@ void run_render(RenderFlags flags) {
     }
     record.status = solver.status();
     if (flags.replicates > 1) {
-        record.replicates = report::replicate(session.queue, solver, camera, flags.replicates);
+        try {
+            record.replicates =
+                report::replicate(session.queue, solver, camera, flags.replicates, go_on);
+        } catch (const report::Cancelled&) {
+            throw Interrupted();
+        }
         save_picture(record.replicates->mean, flags.picture);
     } else {
         save_picture(report::radiance_picture(session.queue, solver), flags.picture);

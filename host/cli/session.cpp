@@ -80,7 +80,10 @@ void notice(bool quiet, const std::string& text) {
 }
 
 void catch_interrupts() {
-    std::signal(SIGINT, [](int) { interrupt_flag = true; });
+    std::signal(SIGINT, [](int) {
+        interrupt_flag = true;
+        std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the program at once
+    });
 }
 
 bool interrupted() { return interrupt_flag; }

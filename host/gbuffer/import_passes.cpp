@@ -12,6 +12,8 @@ std::size_t pixels_of(const View& view) {
     return static_cast<std::size_t>(view.width) * view.height;
 }
 
+const char* name_of(Storage storage) { return storage == Storage::half ? "half" : "full"; }
+
 void need_target(const PassKernel& pass, const View& view, const ImportParams& params,
                  const GBuffer& out, const cl::Buffer& non_finite) {
     if (!(params.flags & (IMPORT_POSITION | IMPORT_DEPTH)))
@@ -22,6 +24,9 @@ void need_target(const PassKernel& pass, const View& view, const ImportParams& p
     if (out.stride != params.stride)
         throw Error(pass.name + ": the G-buffer's stride is " + std::to_string(out.stride) + ", " +
                     std::to_string(params.stride) + " needed");
+    if (out.storage != pass.storage)
+        throw Error(pass.name + ": the G-buffer's storage is " + name_of(out.storage) + ", " +
+                    name_of(pass.storage) + " needed, that of the pass's BuildOptions");
     need(pass, "planes", out.planes, gbuffer_bytes(pass.storage, params.stride));
     need(pass, "ids", out.ids, sizeof(std::int32_t) * GBUFFER_ID_PLANES * params.stride);
     need(pass, "non_finite", non_finite, sizeof(std::uint32_t));

@@ -36,16 +36,18 @@ private:
 }  // namespace
 
 Readback::~Readback() {
-    try {
-        const PackState kept;
-        settle();
-    } catch (const std::exception&) {
-        // Whatever the queue could not do, it no longer reads the pixel buffers.
-    }
+    const PackState kept;
+    settle();
 }
 
 void Readback::settle() {
-    if (!users_.empty()) cl::Event::waitForEvents(users_);
+    for (const cl::Event& user : users_) {
+        try {
+            user.wait();
+        } catch (const cl::Error&) {
+            // It failed, of which its own event tells, and no longer reads the pixel buffers.
+        }
+    }
     users_.clear();
     for (Slot& slot : slots_) {
         if (!slot.mapped) continue;

@@ -18,12 +18,13 @@ public:
     Readback& operator=(const Readback&) = delete;
 
     // Reads all textures; `copied` are the events after which the buffers hold them. Pixel buffers
-    // stay mapped while OpenCL reads them, until the next call or the destructor, which wait.
+    // stay mapped while OpenCL reads them, until the next call or the destructor, which wait for
+    // it to end, well or not.
     ImportBuffers read(const cl::CommandQueue& queue, Channels& channels, const View& view,
                        WaitList& copied);
 
     // The kernel that reads the buffers.
-    void set_reader(const cl::Event& event) { users_.assign(1, event); }
+    void set_reader(const cl::Event& event) { users_.push_back(event); }
 
 private:
     struct Slot {

@@ -63,6 +63,7 @@ public:
 
     void make_targets(GLsizei width, GLsizei height) {
         width_ = height_ = 0;
+        textures = GBufferTextures();  // no names of textures that are gone, should this throw
         // Texture unit 0 serves; bind() puts the scene's texture back.
         glActiveTexture(GL_TEXTURE0);
         visible_frame = make_framebuffer();
@@ -91,7 +92,6 @@ public:
         need_complete("a G-buffer");
         width_ = width;
         height_ = height;
-        textures = GBufferTextures();
         textures.position = attribute[0].name();
         textures.normal = attribute[1].name();
         textures.geometric = attribute[2].name();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <clgi/device_scene.hpp>
 #include <clgi/error.hpp>
 #include <clgi/pass.hpp>
@@ -61,7 +62,12 @@ cl::Event launch(const PassKernel& pass, const cl::CommandQueue& queue, const Ra
 // Throws unless a buffer holds at least `needed` bytes.
 inline void need(const PassKernel& pass, const char* argument, const cl::Buffer& buffer,
                  std::size_t needed) {
-    const std::size_t held = buffer() ? buffer.getInfo<CL_MEM_SIZE>() : 0;
+    std::size_t held = 0;
+    try {
+        if (buffer()) held = buffer.getInfo<CL_MEM_SIZE>();
+    } catch (const cl::Error& error) {
+        throw Error(pass.name + ": " + argument + " is no buffer: " + error_text(error.err()));
+    }
     if (held < needed)
         throw Error(pass.name + ": " + argument + " holds " + std::to_string(held) + " bytes, " +
                     std::to_string(needed) + " needed");
@@ -69,6 +75,11 @@ inline void need(const PassKernel& pass, const char* argument, const cl::Buffer&
 
 inline std::size_t packets(const PassKernel& pass, std::size_t items) {
     return (items + pass.packet_width - 1) / pass.packet_width;
+}
+
+// Where a range ends; no sum of two numbers wraps around to a small one.
+inline std::size_t end_of(const Range& range) {
+    return std::max(range.first + range.count, std::max(range.first, range.count));
 }
 
 // The same for a range of points, which must begin with a packet of any width.

@@ -33,7 +33,7 @@ constexpr int converged_lights = 50000;
 // at the settings found. With both wishes the target comes first as long as the budget allows.
 // `go_on` is asked between frames; throws Cancelled when it says no.
 struct Cancelled : std::runtime_error {
-    Cancelled() : std::runtime_error("probe cancelled") {}
+    Cancelled() : std::runtime_error("cancelled") {}
 };
 Answer ask(const cl::CommandQueue& queue, const DeviceScene& scene, SecondOrderSolver& solver,
            const Camera& camera, const Wish& wish, const std::function<bool()>& go_on = nullptr);

@@ -11,13 +11,17 @@
 namespace clgi::report {
 
 Replicates replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver, const Camera& camera,
-                     int count) {
+                     int count, const std::function<bool()>& go_on) {
     if (count < 2) throw Error("replicates: at least 2 needed");
     const std::uint32_t before = solver.options().sources.replicate;
     std::vector<double> sums[3], luminance, square;
     Replicates out;
     out.count = count;
     for (int k = 1; k <= count; ++k) {
+        if (go_on && !go_on()) {
+            solver.set_replicate(before);
+            throw Cancelled();
+        }
         solver.set_replicate(static_cast<std::uint32_t>(k));
         solver.render(camera);
         out.mean = radiance_picture(queue, solver);

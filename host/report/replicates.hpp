@@ -4,6 +4,9 @@
 
 #include <clgi/io/image.hpp>
 #include <clgi/solvers/second_order.hpp>
+#include <functional>
+
+#include "report/ask.hpp"
 
 namespace clgi::report {
 
@@ -16,8 +19,9 @@ struct Replicates {
     double single_error = 0.0;
 };
 
-// Renders replicates 1 to count, at least 2, and leaves the solver at the one it had.
+// Renders replicates 1 to count, at least 2, and leaves the solver at the one it had. `go_on` is
+// asked before each; throws Cancelled when it says no.
 Replicates replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver, const Camera& camera,
-                     int count);
+                     int count, const std::function<bool()>& go_on = nullptr);
 
 }  // namespace clgi::report

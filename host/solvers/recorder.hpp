@@ -16,24 +16,19 @@ public:
     // wait: what the first pass must wait for besides the frame still on the queue. end: the
     // event of the last pass on the queue, kept up to date pass by pass, so that a frame that
     // fails half-way leaves behind what the next one must wait for.
-    Recorder(const cl::CommandQueue& queue, const WaitList& wait, WaitList& end,
-             std::vector<PassEvent>& events, const Progress& progress)
-        : in_order_(
-              !(queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)),
-          before_(wait),
-          end_(end),
-          events_(events),
-          progress_(progress) {
+    Recorder(const WaitList& wait, WaitList& end, std::vector<PassEvent>& events,
+             const Progress& progress)
+        : before_(wait), end_(end), events_(events), progress_(progress) {
         events_.clear();
     }
 
-    // enqueue(wait) puts one pass on the queue. On a queue in order what is on it need not be
-    // waited for.
+    // enqueue(wait) puts one pass on the queue. On a queue in order too it waits by name for what
+    // was there before, since only then must the failure of one end all that follow.
     template <typename Enqueue>
     void operator()(const char* name, std::size_t items, Enqueue&& enqueue) {
         if (cancelled_) return;
         WaitList wait = before_;
-        if (!in_order_) wait.insert(wait.end(), end_.begin(), end_.end());
+        wait.insert(wait.end(), end_.begin(), end_.end());
         cl::Event event = std::forward<Enqueue>(enqueue)(wait);
         before_.clear();
         end_.assign(1, event);
@@ -64,7 +59,6 @@ public:
     cl::Event last() const { return end_.empty() ? cl::Event() : end_.front(); }
 
 private:
-    bool in_order_;
     bool cancelled_ = false;
     WaitList before_;
     WaitList& end_;

@@ -58,31 +58,34 @@ SecondOrderSolver::SecondOrderSolver(const cl::CommandQueue& queue, const Device
         helpers_.push_back(
             {helper, ImagePasses(context_of(helper), device_of(helper), options_.build), {}});
     }
-    allocate();
+    allocate(options_, make_emitters(scene_, options_.sources));
 }
 
 void SecondOrderSolver::reconfigure(const SecondOrderOptions& options) {
     const SecondOrderOptions next = checked(options, scene_);
     if (next.build != options_.build)
         throw Error("second-order: other build options need another solver");
-    options_ = next;
-    allocate();
+    allocate(next, make_emitters(scene_, next.sources));
 }
 
 // Waiting for what has failed would fail again.
 void SecondOrderSolver::forget_failed_frame() {
-    if (!frame_end_.empty() && frame_end_.front().getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() < 0)
-        frame_end_.clear();
+    const auto failed = [](const cl::Event& event) {
+        return event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() < 0;
+    };
+    frame_end_.erase(std::remove_if(frame_end_.begin(), frame_end_.end(), failed),
+                     frame_end_.end());
 }
 
 void SecondOrderSolver::lights_changed() {
     forget_failed_frame();
-    const EmitterSet before = set_;
-    set_ = make_emitters(scene_, options_.sources);
-    const bool same_shape =
-        set_.pixels == before.pixels && set_.light_count == before.light_count &&
-        set_.emitters.size() == before.emitters.size() && set_.candidates == before.candidates;
-    if (!same_shape) return allocate();
+    EmitterSet next = make_emitters(scene_, options_.sources);
+    const bool same_shape = usable_ && next.pixels == set_.pixels &&
+                            next.light_count == set_.light_count &&
+                            next.emitters.size() == set_.emitters.size() &&
+                            next.candidates == set_.candidates;
+    if (!same_shape) return allocate(options_, std::move(next));
+    set_ = std::move(next);
     if (set_.emitters.empty()) return;
     on_device("the sources cannot be written", [&] {
         queue_.enqueueWriteBuffer(sources_.emitters, CL_TRUE, 0,
@@ -250,7 +253,7 @@ void SecondOrderSolver::fill_background(Recorder& record, const View& view) {
                                    static_cast<std::uint32_t>(environment.height), stride_,
                                    static_cast<float>(turns - std::floor(turns))};
     record("image.environment", pixel_count(options_), [&](const WaitList& wait) {
-        return image_.environment(queue_, params, view, scene_.environment_texels(), seen_.ids,
+        return image_.environment(queue_, params, view, scene_.environment_texels(), seen_.planes,
                                   radiance_, wait);
     });
 }
@@ -276,6 +279,10 @@ void SecondOrderSolver::check_given(const GBuffer& given) const {
     if (given.stride != stride_)
         throw Error("second-order: the G-buffer's stride is " + std::to_string(given.stride) +
                     ", " + std::to_string(stride_) + " needed");
+    if (given.storage != options_.build.storage)
+        throw Error(std::string("second-order: the G-buffer's planes are ") +
+                    (given.storage == Storage::half ? "half" : "full") +
+                    " storage, the solver's own (BuildOptions::storage) needed");
     const auto holds = [](const char* what, const cl::Buffer& buffer, std::size_t needed) {
         const std::size_t held = buffer() ? buffer.getInfo<CL_MEM_SIZE>() : 0;
         if (held < needed)
@@ -289,12 +296,15 @@ void SecondOrderSolver::check_given(const GBuffer& given) const {
 cl::Event SecondOrderSolver::frame(const Camera& camera, const GBuffer* given,
                                    const WaitList& wait, const Progress& progress,
                                    bool& cancelled) {
+    if (!usable_)
+        throw DeviceError(
+            "second-order: the last change of options found no memory; reconfigure it first");
     if (given) check_given(*given);
     seen_ = given ? *given : drawn_;
     const View view = make_view(camera, scene_.frame(), options_.width, options_.height);
     forget_failed_frame();
     fills_.clear();
-    Recorder record(queue_, wait, frame_end_, events_, progress);
+    Recorder record(wait, frame_end_, events_, progress);
     const bool empty = scene_.info().triangle_count == 0;
     const bool dark = set_.emitters.empty() && !(scene_.info().flags & SCENE_HAS_EMISSION);
     const bool background = options_.direct && scene_.environment();
@@ -336,12 +346,15 @@ bool SecondOrderSolver::run(const Camera& camera, const Progress& progress) {
 
 Interval SecondOrderSolver::interval() const {
     WaitList all = fills_;
-    for (const PassEvent& pass : events_) all.push_back(pass.event);
+    // Helpers' clocks are their own; what they did lies between two of this queue's commands.
+    for (const PassEvent& pass : events_)
+        if (pass.event.getInfo<CL_EVENT_COMMAND_QUEUE>()() == queue_()) all.push_back(pass.event);
     return clgi::interval(all);
 }
 
 FrameStatus SecondOrderSolver::status() const {
     FrameStatus out;
+    if (!usable_) return out;
     const auto read = [&](const cl::Buffer& buffer) {
         std::uint32_t word = 0;
         on_device("the frame's status cannot be read", [&] {

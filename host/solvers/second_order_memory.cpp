@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "opencl/error_text.hpp"
+#include "solvers/ranges.hpp"
 #include "solvers/second_order_sizes.hpp"
 
 namespace clgi {
@@ -198,11 +199,8 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     Estimate out;
     out.bytes = sum(needs(sizes(scene, options, set), std::max<std::size_t>(devices, 1) - 1));
 
-    // Cycles of one compute unit, as measured on a CPU with packets of 8: a packet of points and a
-    // light 16, a triangle drawn 90, a packet of pixels resolved, interpolated and combined 900.
-    const double lanes = packet_width(device) > 1 ? packet_width(device) : 32.0;
-    const double hertz = 1e6 * device.getInfo<CL_DEVICE_MAX_CLOCK_FREQUENCY>() *
-                         device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    // In pairs of a point and a light, as measured on a CPU with packets of 8: a triangle drawn is
+    // worth 45 of them, a pixel resolved, interpolated and combined 56.
     const double pixels = static_cast<double>(pixel_count(options));
     // The low-resolution points, and one pixel in eight again in full.
     const double step = options.low_resolution_step;
@@ -211,24 +209,26 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
         options.indirect ? static_cast<double>(set.light_count) + options.negative_lights : 0.0;
     const double triangles = static_cast<double>(scene.info().triangle_count) *
                              static_cast<double>(set.views.size() + 1);
-    const double cycles =
-        16.0 * points / lanes * lights + 90.0 * triangles * 8.0 / lanes + 900.0 * pixels / lanes;
-    out.milliseconds = 1e3 * cycles / hertz;
+    const double pairs = points * lights + 45.0 * triangles + 56.0 * pixels;
+    out.milliseconds = 1e3 * pairs / pairs_per_second(device);
     return out;
 }
 
-void SecondOrderSolver::allocate() {
-    stride_ = padded(pixel_count(options_));
-    low_stride_ = padded(low_pixel_count(options_));
-    set_ = make_emitters(scene_, options_.sources);
-    indirect_ = options_.indirect && set_.light_count > 0;
-    refine_ = indirect_ && refines(options_);
-    const Sizes size = sizes(scene_, options_, set_);
+void SecondOrderSolver::allocate(const SecondOrderOptions& options, EmitterSet set) {
+    const Sizes size = sizes(scene_, options, set);
     const cl::Context context = queue_.getInfo<CL_QUEUE_CONTEXT>();
     const std::vector<Need> all = needs(size, helpers_.size());
-    check_room(all, options_, queue_.getInfo<CL_QUEUE_DEVICE>(), scene_.bytes());
+    check_room(all, options, queue_.getInfo<CL_QUEUE_DEVICE>(), scene_.bytes());
     for (const Helper& helper : helpers_)
-        check_room(all, options_, helper.queue.getInfo<CL_QUEUE_DEVICE>(), scene_.bytes());
+        check_room(all, options, helper.queue.getInfo<CL_QUEUE_DEVICE>(), scene_.bytes());
+    // What is refused up to here leaves everything as it was.
+    usable_ = false;
+    options_ = options;
+    set_ = std::move(set);
+    stride_ = padded(pixel_count(options_));
+    low_stride_ = padded(low_pixel_count(options_));
+    indirect_ = options_.indirect && set_.light_count > 0;
+    refine_ = indirect_ && refines(options_);
     bytes_ = 0;
     const auto buffer = [&](std::size_t bytes) {
         bytes = std::max(bytes, least);
@@ -265,7 +265,7 @@ void SecondOrderSolver::allocate() {
     sources_.pixels = set_.pixels;
     sources_.emitters = filled(set_.emitters.data(), size.emitters);
     sources_.views = filled(set_.views.data(), size.views);
-    drawn_ = {buffer(size.planes), buffer(size.ids), stride_};
+    drawn_ = {buffer(size.planes), buffer(size.ids), stride_, options_.build.storage};
     seen_ = drawn_;
     radiance_ = buffer(size.radiance);
     non_finite_ = word(0);
@@ -285,6 +285,7 @@ void SecondOrderSolver::allocate() {
     listed_points_ = buffer(size.listed_points);
     listed_irradiance_ = buffer(size.listed_irradiance);
     for (Helper& helper : helpers_) helper.irradiance = buffer(size.helper);
+    usable_ = true;
 }
 
 }  // namespace clgi

@@ -31,7 +31,9 @@ struct EmitterSet {
 
 // One emitter a lamp, `area_samples` more for the emissive triangles (stratified by power) and
 // `environment_lights` for the environment (median cut [Debevec05]), each with its views and its
-// share of the indirect lights. Lamps without power are left out.
+// share of the indirect lights. Lamps without power are left out. Sources too weak for an indirect
+// light of their own leave their indirect light to the others: lamps to lamps, directions to
+// directions, samples to samples; a group without any light to all. Power is by luminance.
 //
 // A spot of more than 60 degrees from its axis is seen through a cube, like a point light.
 // Where more than 2^22 candidates would have to be tried (300 lights below a degree), the cone is

@@ -75,7 +75,9 @@ kernel void image_combine(
         if (params.effects & COMBINE_SPECULAR) {
             float lanes[4][CLGI_WIDTH];
             for (int k = 0; k < CLGI_WIDTH; ++k) {
-                int material = ids[GBUFFER_MATERIAL * stride + pixel + k];
+                // Past the last pixel another renderer may have left anything.
+                int material = pixel + k < params.width * params.height
+                                   ? ids[GBUFFER_MATERIAL * stride + pixel + k] : -1;
                 float4 r = material < 0 ? (float4)(0.0f) : materials[material].reflectance;
                 lanes[0][k] = r.x > 0.0f ? 1.0f / r.x : 0.0f;
                 lanes[1][k] = r.y;

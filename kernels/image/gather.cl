@@ -25,7 +25,7 @@ kernel void image_gather(
     global float*                restrict irradiance)   // [IRRADIANCE_PLANES][stride] lux, exposed
 {
     uint point = (uint)get_global_id(0) * CLGI_WIDTH;
-    if (point >= point_count[0]) return;
+    if (point >= min(point_count[0], params.stride)) return;
 
     uint stride = params.stride;
     floatp px = row_load(gbuffer_row(points, 0, stride), point);

@@ -65,8 +65,7 @@ std::vector<clgi::IndirectLight> lights_on_the_floor() {
     return lights;
 }
 
-std::vector<float> irradiance() {
-    const cl::Device device = clgi::choose_device();
+std::vector<float> irradiance(const cl::Device& device) {
     const cl::Context context(device);
     const cl::CommandQueue queue(context, device);
     const auto buffer = [&](std::size_t bytes) {
@@ -107,6 +106,14 @@ std::vector<float> irradiance() {
     return values;
 }
 
+// The place of a device among all, which is how raw_kernels is told.
+std::size_t index_of(const cl::Device& device) {
+    const std::vector<cl::Device> all = clgi::all_devices();
+    std::size_t index = 0;
+    while (index < all.size() && all[index]() != device()) ++index;
+    return index;
+}
+
 int write_pfm(const char* path, const std::vector<float>& planes) {
     std::FILE* file = std::fopen(path, "wb");
     if (!file) return std::fprintf(stderr, "same_bits: %s cannot be written\n", path), 1;
@@ -123,10 +130,12 @@ int write_pfm(const char* path, const std::vector<float>& planes) {
 int main(int argc, char** argv) {
     if (argc != 2) return std::fprintf(stderr, "usage: same_bits PICTURE.pfm\n"), 1;
     try {
-        const std::vector<float> planes = irradiance();
+        const cl::Device device = clgi::choose_device();
+        const std::vector<float> planes = irradiance(device);
         double sum = 0.0;
         for (const float value : planes) sum += value;
-        std::printf("mean irradiance %g\n", sum / static_cast<double>(planes.size()));
+        std::printf("mean irradiance %g on device %zu\n", sum / static_cast<double>(planes.size()),
+                    index_of(device));
         return sum > 0.0 ? write_pfm(argv[1], planes) : 1;  // black would equal black
     } catch (const std::exception& error) {
         return std::fprintf(stderr, "same_bits: %s\n", error.what()), 1;

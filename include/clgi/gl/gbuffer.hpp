@@ -30,7 +30,8 @@ struct GBufferTextures {
 // all its functions, the destructor too. OpenGL state is left as it was found.
 class CLGI_API GBufferImport {
 public:
-    // Builds the kernels and chooses the way, with find_sharing or as given.
+    // Builds the kernels and chooses the way, with find_sharing or as given. G-buffers to convert
+    // into have the storage of `options`, a solver's that of its own options.
     // Throws Error when no OpenGL context is current.
     GBufferImport(const cl::Context& context, const cl::Device& device,
                   const BuildOptions& options = {});

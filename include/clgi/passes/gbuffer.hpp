@@ -28,11 +28,13 @@ inline std::size_t raster_runs(std::size_t triangles) {
     return (triangles + RASTER_BATCH - 1) / RASTER_BATCH;
 }
 
-// One picture's planes, wherever they come from: `resolve`, or another renderer (passes/import.hpp).
+// One picture's planes, wherever they come from: `resolve`, or another renderer
+// (passes/import.hpp).
 struct GBuffer {
-    cl::Buffer planes;         // [GBUFFER_PLANES][stride], see clgi/shared/planes.h
-    cl::Buffer ids;            // [GBUFFER_ID_PLANES][stride] int
-    std::uint32_t stride = 0;  // values between planes
+    cl::Buffer planes;                // [GBUFFER_PLANES][stride], see clgi/shared/planes.h
+    cl::Buffer ids;                   // [GBUFFER_ID_PLANES][stride] int
+    std::uint32_t stride = 0;         // values between planes
+    Storage storage = Storage::full;  // how the planes are stored
 };
 
 // Low-resolution points along a side of `size` pixels, one for every `step`.

@@ -75,18 +75,22 @@ public:
                       const SecondOrderOptions& options = {},
                       const std::vector<cl::CommandQueue>& helpers = {});
 
+    SecondOrderSolver(const SecondOrderSolver&) = delete;
+    SecondOrderSolver& operator=(const SecondOrderSolver&) = delete;
+
     // Reads the scene's lights again, after DeviceScene::set_light.
     void lights_changed();
 
     // Other options with the same kernels. Throws Error for options out of range, and for build
-    // options that are not those of the constructor.
+    // options that are not those of the constructor; DeviceError as the constructor does. What is
+    // refused before anything is allocated leaves the solver as it was.
     void reconfigure(const SecondOrderOptions& options);
 
     // Another randomised shift of all low-discrepancy points (EmitterOptions::replicate).
     void set_replicate(std::uint32_t replicate);
 
     // Enqueues a whole frame that begins after `wait`; the event completes when all of it has.
-    // Where nothing can be lit no kernel runs.
+    // Where nothing can be lit, and no environment seen, no kernel runs.
     cl::Event render(const Camera& camera, const WaitList& wait = {});
 
     // The same, with what the camera sees given instead of drawn: planes of the solver's stride and
@@ -97,7 +101,7 @@ public:
     cl::Event render(const Camera& camera, const GBuffer& given, const WaitList& wait = {});
 
     // render(camera), waiting after each part to report. False when progress cancelled. Parts that look
-    // at very many lights are dispatches of about 100 ms at most.
+    // at very many lights are dispatches of about 100 ms at most; drawing and combining are one each.
     bool run(const Camera& camera, const Progress& progress);
 
     // Passes of the last frame, for profiling.
@@ -141,7 +145,7 @@ private:
         const cl::Buffer &count, &points, &irradiance;
         double from, to;  // share of the frame done before and after
     };
-    void allocate();
+    void allocate(const SecondOrderOptions& options, EmitterSet set);
     void forget_failed_frame();
     std::vector<double> speeds() const;
     void draw_view(Recorder& record, const View& view, const cl::Buffer& visibility);
@@ -173,6 +177,7 @@ private:
     std::size_t bytes_ = 0;
     std::uint32_t stride_ = 0;
     std::uint32_t low_stride_ = 0;
+    bool usable_ = false;    // all buffers are there
     bool refine_ = false;    // low resolution and discontinuity test
     bool indirect_ = false;  // there is a source and something to light
 
