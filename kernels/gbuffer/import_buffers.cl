@@ -34,19 +34,12 @@ kernel void gbuffer_import_buffers(
 
     ImportTexels texels;
     for (uint k = 0; k < CLGI_WIDTH; ++k) {
-        int inside = pixel + k < pixels;
-        int2 at = import_texel(&view, params.flags, min(pixel + k, pixels - 1));
+        import_nothing(&texels, k);
+        if (pixel + k >= pixels) continue;
+        int2 at = import_texel(&view, params.flags, pixel + k);
         uint index = (uint)at.y * view.width + (uint)at.x;
-        float4 none = (float4)(0.0f);
-        texels.position[k] = none;
-        texels.geometric[k] = none;
-        texels.emission[k] = none;
-        texels.depth[k] = 0.0f;
-        texels.material[k] = -1;
-        texels.triangle[k] = -1;
-        texels.normal[k] = inside ? import_fetch(normal, params.normal_format, index) : none;
-        texels.albedo[k] = inside ? import_fetch(albedo, params.albedo_format, index) : none;
-        if (!inside) continue;
+        texels.normal[k] = import_fetch(normal, params.normal_format, index);
+        texels.albedo[k] = import_fetch(albedo, params.albedo_format, index);
         if (params.flags & IMPORT_POSITION) texels.position[k] = vload4(index, position);
         if (params.flags & IMPORT_GEOMETRIC)
             texels.geometric[k] = import_fetch(geometric, params.geometric_format, index);

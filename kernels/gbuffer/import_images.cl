@@ -30,18 +30,11 @@ kernel void gbuffer_import_images(
 
     ImportTexels texels;
     for (uint k = 0; k < CLGI_WIDTH; ++k) {
-        int inside = pixel + k < pixels;
-        int2 at = import_texel(&view, params.flags, min(pixel + k, pixels - 1));
-        float4 none = (float4)(0.0f);
-        texels.position[k] = none;
-        texels.geometric[k] = none;
-        texels.emission[k] = none;
-        texels.depth[k] = 0.0f;
-        texels.material[k] = -1;
-        texels.triangle[k] = -1;
-        texels.normal[k] = inside ? read_imagef(normal, texel, at) : none;
-        texels.albedo[k] = inside ? read_imagef(albedo, texel, at) : none;
-        if (!inside) continue;
+        import_nothing(&texels, k);
+        if (pixel + k >= pixels) continue;
+        int2 at = import_texel(&view, params.flags, pixel + k);
+        texels.normal[k] = read_imagef(normal, texel, at);
+        texels.albedo[k] = read_imagef(albedo, texel, at);
         if (params.flags & IMPORT_POSITION) texels.position[k] = read_imagef(position, texel, at);
         if (params.flags & IMPORT_GEOMETRIC)
             texels.geometric[k] = read_imagef(geometric, texel, at);

@@ -9,6 +9,7 @@
 // SPDX-License-Identifier: MIT
 #include "gbuffer/surface.clh"
 #include "gbuffer/visibility.clh"
+#include "gbuffer/window.clh"
 #include "planes.clh"
 
 static void store3(floatp x, floatp y, floatp z, global float* planes, int plane, uint stride,
@@ -63,19 +64,9 @@ kernel void gbuffer_resolve(
         }
     }
 
-    // Pixel coordinates; a packet may run on into the next rows.
-    uint row = pixel / view.width;
-    intp column = (int)(pixel - row * view.width) + packet_lanes;
-    intp line = (intp)((int)row);
-    for (intp past = column >= (int)view.width; packet_any(past);
-         past = column >= (int)view.width) {
-        column = packet_select(column, column - (int)view.width, past);
-        line = packet_select(line, line + 1, past);
-    }
-    floatp x = (packet_float(column) + 0.5f) * (2.0f / (float)view.width) - 1.0f;
-    floatp y = 1.0f - (packet_float(line) + 0.5f) * (2.0f / (float)view.height);
-    Surface surface = gbuffer_surface(&view, x * view.right.w + view.window.x,
-                                      y * view.up.w + view.window.y, triangle, &scene, info.flags);
+    floatp x, y;
+    gbuffer_window(&view, pixel, &x, &y);
+    Surface surface = gbuffer_surface(&view, x, y, triangle, &scene, info.flags);
 
     uint stride = params.stride;
     store3(surface.x, surface.y, surface.z, planes, GBUFFER_POSITION, stride, pixel);

@@ -8,6 +8,7 @@
 //
 // Nothing is where no normal is, as image/combine has it: a G-buffer from elsewhere may have no ids.
 // SPDX-License-Identifier: MIT
+#include "gbuffer/window.clh"
 #include "planes.clh"
 #include "clgi/shared/image.h"
 
@@ -26,19 +27,8 @@ kernel void image_environment(
     intp nothing = !(packet_dot(nx, ny, nz, nx, ny, nz) > 0.0f);
     if (!packet_any(nothing)) return;
 
-    // The ray through each pixel's centre; a packet may run on into the next rows.
-    uint row = pixel / view.width;
-    intp column = (int)(pixel - row * view.width) + packet_lanes;
-    intp line = (intp)((int)row);
-    for (intp past = column >= (int)view.width; packet_any(past);
-         past = column >= (int)view.width) {
-        column = packet_select(column, column - (int)view.width, past);
-        line = packet_select(line, line + 1, past);
-    }
-    floatp right = ((packet_float(column) + 0.5f) * (2.0f / (float)view.width) - 1.0f) *
-                       view.right.w + view.window.x;
-    floatp up = (1.0f - (packet_float(line) + 0.5f) * (2.0f / (float)view.height)) *
-                    view.up.w + view.window.y;
+    floatp right, up;
+    gbuffer_window(&view, pixel, &right, &up);
     if (view.eye.w != 0.0f) right = up = packet_zero;  // orthographic: all rays are parallel
     floatp x = fma(right, packet_splat(view.right.x), up * view.up.x) + view.forward.x;
     floatp y = fma(right, packet_splat(view.right.y), up * view.up.y) + view.forward.y;
