@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "honest_errors.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -251,23 +252,8 @@ TEST(Reference, ErrsByTheRootOfItsSamplesAndSaysSo) {
     test::add_quad(scene, {glm::dvec3(0, 0, 1), {0, 1, 1}, {1, 1, 1}, {1, 0, 1}},
                    add_glowing(scene, 1.0f));
     const double wanted = pi * 0.1385316060;
-    const std::vector<Place> places(4000, {{0, 0, 0}, {0, 0, 1}});
     const PathTracer tracer(scene);
-    double before = 0.0;
-    for (const int samples : {16, 64, 256}) {
-        const Irradiance found = tracer.irradiance(places, options_for("direct", samples));
-        double square = 0.0, said = 0.0;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            square += std::pow(double{found.values[i].x} - wanted, 2);
-            said += std::pow(double{found.error[i]}, 2);
-        }
-        // 4,000 deviates fix a standard deviation to 1.1 %; 5 of those.
-        EXPECT_NEAR(std::sqrt(said / square), 1.0, 0.055) << samples;
-        if (before > 0.0) {
-            EXPECT_NEAR(std::sqrt(before / square), 2.0, 0.16) << samples;
-        }
-        before = square;
-    }
+    test::expect_honest_errors(tracer, {{0, 0, 0}, {0, 0, 1}}, wanted);
 }
 
 TEST(Reference, IsTheSamePictureOnAnyNumberOfThreads) {
