@@ -21,7 +21,7 @@ typedef struct {
 } View;
 typedef struct { cl_uint triangle_count, stage, small_size, pad; } RasterParams;
 typedef struct { cl_uint stride, write, pad0, pad1; } ResolveParams;
-typedef struct { cl_uint vertex_count, triangle_count, flags, pad; } SceneInfo;
+typedef struct { cl_uint vertex_count, triangle_count, flags, cluster_count; } SceneInfo;
 typedef struct { cl_uint stride, light_count, negative_count, pad; } GatherParams;
 typedef struct { cl_float4 position, normal, flux; } IndirectLight;
 typedef struct {

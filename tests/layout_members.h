@@ -74,5 +74,6 @@
     MEMBER(MaterialRecord, emission_v)                                                          \
     SIZE(TextureRecord) MEMBER(TextureRecord, first_texel) MEMBER(TextureRecord, width)         \
     MEMBER(TextureRecord, height) MEMBER(TextureRecord, flags)                                  \
+    SIZE(Cluster) MEMBER(Cluster, low) MEMBER(Cluster, high)                                    \
     SIZE(SceneInfo) MEMBER(SceneInfo, vertex_count) MEMBER(SceneInfo, triangle_count)           \
-    MEMBER(SceneInfo, flags) MEMBER(SceneInfo, pad_)
+    MEMBER(SceneInfo, flags) MEMBER(SceneInfo, cluster_count)

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "opencl/error_text.hpp"
+#include "scene/clusters.hpp"
 #include "scene/environment.hpp"
 #include "scene/locality.hpp"
 #include "scene/luminance.hpp"
@@ -82,7 +83,8 @@ public:
 
     // A buffer is never empty: kernels take all of them, also those a scene has no use for.
     template <typename T>
-    cl::Buffer operator()(const char* what, std::vector<T> values) {
+    cl::Buffer operator()(const char* what, std::vector<T> values,
+                          cl_mem_flags access = CL_MEM_READ_ONLY) {
         if (values.empty()) values.resize(1);
         const std::size_t size = values.size() * sizeof(T);
         if (size > most_)
@@ -90,8 +92,7 @@ public:
                               " bytes in one buffer, the device allows " + std::to_string(most_));
         bytes += size;
         try {
-            return cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, size,
-                              values.data());
+            return cl::Buffer(context_, access | CL_MEM_COPY_HOST_PTR, size, values.data());
         } catch (const cl::Error& error) {
             throw DeviceError(std::string("scene: no room for ") + what + " (" +
                               std::to_string(size) + " bytes): " + error_text(error.err()));
@@ -113,10 +114,6 @@ std::vector<glm::vec4> arranged(const std::vector<glm::vec4>& values,
     for (const std::uint32_t index : order) out.push_back(values[index]);
     return out;
 }
-
-struct Word4 {
-    std::uint32_t x, y, z, w;
-};
 
 }  // namespace
 
@@ -173,7 +170,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
             emission_means[m] *= mean_color(scene.textures[material.emission_texture.texture]);
     }
 
-    std::vector<Word4> triangles;
+    std::vector<glm::uvec4> triangles;
     triangles.reserve(scene.triangles.size());
     for (const std::uint32_t index : order.triangles) {
         const SceneTriangle& triangle = scene.triangles[index];
@@ -183,7 +180,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         if (material.alpha_mode == AlphaMode::mask) word |= TRIANGLE_MASKED;
         std::uint32_t corner[3];
         for (int k = 0; k < 3; ++k) corner[k] = order.renumbered[triangle.vertex[k]];
-        triangles.push_back({corner[0], corner[1], corner[2], word});
+        triangles.emplace_back(corner[0], corner[1], corner[2], word);
 
         const glm::vec3 radiance = emission_means[triangle.material];
         if (!(luminance(radiance) > 0.0f)) continue;
@@ -206,6 +203,8 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     TexturePool pool = make_texture_pool(scene.textures);
     info_.vertex_count = static_cast<std::uint32_t>(positions.size());
     info_.triangle_count = static_cast<std::uint32_t>(triangles.size());
+    std::vector<Cluster> clusters = make_clusters(triangles, positions);
+    info_.cluster_count = static_cast<std::uint32_t>(clusters.size());
     if (!scene.uvs.empty()) info_.flags |= SCENE_HAS_UVS;
     if (!scene.colors.empty()) info_.flags |= SCENE_HAS_COLORS;
     if (!scene.textures.empty()) info_.flags |= SCENE_HAS_TEXTURES;
@@ -213,10 +212,12 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
 
     Uploader upload(context, device);
     triangles_ = upload("triangles", std::move(triangles));
-    positions_ = upload("positions", positions);
-    normals_ = upload("normals", std::move(normals));
+    // What SceneMover writes.
+    positions_ = upload("positions", positions, CL_MEM_READ_WRITE);
+    normals_ = upload("normals", std::move(normals), CL_MEM_READ_WRITE);
     uvs_ = upload("texture coordinates", uvs);
     colors_ = upload("vertex colors", colors);
+    clusters_ = upload("clusters", std::move(clusters), CL_MEM_READ_WRITE);
     materials_ = upload("materials", std::move(materials));
     textures_ = upload("texture records", std::move(pool.records));
     texels_ = upload("texels", std::move(pool.texels));

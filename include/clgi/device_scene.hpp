@@ -69,6 +69,8 @@ public:
     const cl::Buffer& triangles() const { return triangles_; }
     const cl::Buffer& positions() const { return positions_; }
     const cl::Buffer& materials() const { return materials_; }
+    // [info().cluster_count] Cluster: boxes around runs of triangles, to pass over many at once.
+    const cl::Buffer& clusters() const { return clusters_; }
     // [height][width][3] float of the environment's picture, before its factor.
     const cl::Buffer& environment_texels() const { return environment_texels_; }
 
@@ -85,7 +87,7 @@ private:
     bool has_masks_ = false;
     std::size_t bytes_ = 0;
     cl::Buffer triangles_, positions_, normals_, uvs_, colors_, materials_, textures_, texels_,
-        decode_, environment_texels_;
+        decode_, environment_texels_, clusters_;
 };
 
 // The reflectance that a material stands for (docs/materials.md).

@@ -50,11 +50,19 @@ enum {
 
 enum { SCENE_HAS_UVS = 1, SCENE_HAS_COLORS = 2, SCENE_HAS_TEXTURES = 4, SCENE_HAS_EMISSION = 8 };
 
+// Consecutive triangles of the device's order, which follows space, and the box around them.
+enum { CLUSTER_TRIANGLES = 64 };  // the last cluster may have fewer
+
+typedef struct {
+    float4 low;   // xyz, local frame; w: 0
+    float4 high;  // xyz, local frame; w: 0
+} Cluster;
+
 typedef struct {
     uint vertex_count;
     uint triangle_count;
-    uint flags;  // SCENE_HAS_...
-    uint pad_;
+    uint flags;          // SCENE_HAS_...
+    uint cluster_count;  // triangle_count / CLUSTER_TRIANGLES, rounded up
 } SceneInfo;
 
 CLGI_SHARED_END
