@@ -75,5 +75,9 @@
     SIZE(TextureRecord) MEMBER(TextureRecord, first_texel) MEMBER(TextureRecord, width)         \
     MEMBER(TextureRecord, height) MEMBER(TextureRecord, flags)                                  \
     SIZE(Cluster) MEMBER(Cluster, low) MEMBER(Cluster, high)                                    \
+    SIZE(MoveParams) MEMBER(MoveParams, first) MEMBER(MoveParams, count)                        \
+    MEMBER(MoveParams, vertex_count) MEMBER(MoveParams, flags) MEMBER(MoveParams, exponent)     \
+    MEMBER(MoveParams, pad0_) MEMBER(MoveParams, pad1_) MEMBER(MoveParams, pad2_)               \
+    MEMBER(MoveParams, given_from) MEMBER(MoveParams, frame_origin)                             \
     SIZE(SceneInfo) MEMBER(SceneInfo, vertex_count) MEMBER(SceneInfo, triangle_count)           \
     MEMBER(SceneInfo, flags) MEMBER(SceneInfo, cluster_count)

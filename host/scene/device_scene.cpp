@@ -6,10 +6,12 @@
 #include <cmath>
 #include <mutex>
 #include <string>
+#include <tuple>
 
 #include "opencl/error_text.hpp"
 #include "scene/clusters.hpp"
 #include "scene/environment.hpp"
+#include "scene/local_frame.hpp"
 #include "scene/locality.hpp"
 #include "scene/luminance.hpp"
 #include "scene/median_cut.hpp"
@@ -17,44 +19,6 @@
 
 namespace clgi {
 namespace {
-
-SceneFrame local_frame(const Scene& scene) {
-    SceneFrame frame;
-    if (scene.triangles.empty()) return frame;
-    const Bounds box = bounds(scene);
-    frame.origin = 0.5 * (box.low + box.high);
-    const double radius = 0.5 * glm::length(box.high - box.low);
-    if (radius > 0.0) {
-        int exponent = 0;
-        std::frexp(radius, &exponent);
-        frame.scale = std::ldexp(1.0, -exponent);
-    }
-    frame.radius = static_cast<float>(std::max(radius * frame.scale, 1e-6));
-    return frame;
-}
-
-// The power of two that brings the brightest source near 1 in local units.
-double common_exposure(const Scene& scene, const SceneFrame& frame) {
-    double brightest = 0.0;
-    for (const Light& light : scene.lights) {
-        const double strongest =
-            std::max({light.intensity.x, light.intensity.y, light.intensity.z});
-        const bool directional = light.kind == Light::Kind::directional;
-        brightest =
-            std::max(brightest, strongest * (directional ? 1.0 : frame.scale * frame.scale));
-    }
-    for (const Material& material : scene.materials)
-        brightest = std::max({brightest, double{material.emission.x}, double{material.emission.y},
-                              double{material.emission.z}});
-    if (scene.environment) {
-        const glm::dvec3 fluence = environment_fluence(*scene.environment);
-        brightest = std::max({brightest, fluence.x, fluence.y, fluence.z});
-    }
-    if (!(brightest > 0.0)) return 1.0;
-    int exponent = 0;
-    std::frexp(brightest, &exponent);
-    return std::ldexp(1.0, exponent);
-}
 
 MaterialRecord record_of(const Material& material, double exposure) {
     MaterialRecord out{};
@@ -137,7 +101,7 @@ struct DeviceScene::Cut {
 
 DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene) {
     validate(scene);
-    frame_ = local_frame(scene);
+    if (!scene.triangles.empty()) frame_ = local_frame(bounds(scene));
     frame_.exposure = common_exposure(scene, frame_);
     lights_ = scene.lights;
 
@@ -147,6 +111,8 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         local.emplace_back(frame_.to_local(position), 0.0f);
     const SpatialOrder order = spatial_order(local, scene.triangles);
     triangle_order_ = order.triangles;
+    vertex_order_ = order.vertices;
+    file_vertex_count_ = scene.positions.size();
     const std::vector<glm::vec4> positions = arranged(local, order.vertices);
     const std::vector<glm::vec4> uvs = arranged(scene.uvs, order.vertices);
     const std::vector<glm::vec4> colors = arranged(scene.colors, order.vertices);
@@ -184,21 +150,14 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
 
         const glm::vec3 radiance = emission_means[triangle.material];
         if (!(luminance(radiance) > 0.0f)) continue;
-        EmissiveTriangle source;
-        for (int k = 0; k < 3; ++k) source.corner[k] = glm::vec3(positions[corner[k]]);
-        const glm::vec3 normal =
-            glm::cross(source.corner[1] - source.corner[0], source.corner[2] - source.corner[0]);
-        const float twice_area = glm::length(normal);
-        if (!(twice_area > 0.0f)) continue;
-        source.normal = normal / twice_area;
-        source.area = 0.5f * twice_area;
-        source.radiance = radiance;
-        emissive_.push_back(source);
-        if (material.double_sided) {
-            source.normal = -source.normal;
-            emissive_.push_back(source);
-        }
+        Glowing& glowing = glowing_.emplace_back();
+        glowing.triangle = index;
+        glowing.vertex = glm::uvec3(corner[0], corner[1], corner[2]);
+        for (int k = 0; k < 3; ++k) glowing.corner[k] = glm::vec3(positions[corner[k]]);
+        glowing.radiance = radiance;
+        glowing.double_sided = material.double_sided;
     }
+    list_emissive();
 
     TexturePool pool = make_texture_pool(scene.textures);
     info_.vertex_count = static_cast<std::uint32_t>(positions.size());
@@ -228,6 +187,33 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         environment_texels_ = upload("environment texels", environment_->texels);
     }
     bytes_ = upload.bytes;
+}
+
+// In the order in which the triangles of a scene loaded like this would lie on the device, so that
+// moved ones are sampled as loaded ones are.
+void DeviceScene::list_emissive() {
+    std::vector<std::pair<std::uint32_t, const Glowing*>> order;
+    for (const Glowing& g : glowing_)
+        order.emplace_back(place_on_curve(g.corner[0], g.corner[1], g.corner[2]), &g);
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.first, a.second->triangle) < std::tie(b.first, b.second->triangle);
+    });
+    emissive_.clear();
+    for (const auto& [place, glowing] : order) {
+        EmissiveTriangle source;
+        std::copy(glowing->corner, glowing->corner + 3, source.corner);
+        const glm::vec3 normal =
+            glm::cross(source.corner[1] - source.corner[0], source.corner[2] - source.corner[0]);
+        const float twice_area = glm::length(normal);
+        if (!(twice_area > 0.0f)) continue;
+        source.normal = normal / twice_area;
+        source.area = 0.5f * twice_area;
+        source.radiance = glowing->radiance;
+        emissive_.push_back(source);
+        if (!glowing->double_sided) continue;
+        source.normal = -source.normal;
+        emissive_.push_back(source);
+    }
 }
 
 std::vector<Light> DeviceScene::environment_lights(int count) const {

@@ -15,5 +15,6 @@
 #include <clgi/passes/scene.hpp>
 #include <clgi/procedural.hpp>
 #include <clgi/scene.hpp>
+#include <clgi/scene_mover.hpp>
 #include <clgi/slice.hpp>
 #include <clgi/solvers/second_order.hpp>

@@ -35,6 +35,8 @@ struct EmissiveTriangle {
     glm::vec3 radiance = glm::vec3(0.0f);  // exposed
 };
 
+// Copies share their buffers; SceneMover moves the geometry of all of them, but lists what emits
+// for one.
 class CLGI_API DeviceScene {
 public:
     // Validates and uploads; the scene itself is not needed afterwards.
@@ -59,6 +61,11 @@ public:
     // Triangles lie on the device in an order that follows space. [triangle_count] the scene's
     // index of each; triangle indices in G-buffers are those of the device.
     const std::vector<std::uint32_t>& triangle_order() const { return triangle_order_; }
+    // The same of vertices: [vertex_count] the scene's index of each. Vertices that no triangle uses
+    // are not on the device.
+    const std::vector<std::uint32_t>& vertex_order() const { return vertex_order_; }
+    // Vertices of the scene, those included that are not on the device.
+    std::size_t file_vertex_count() const { return file_vertex_count_; }
 
     // Replaces a light, for scenes that move; the exposure stays as it was.
     // Throws Error when there is no such light.
@@ -68,6 +75,7 @@ public:
     std::array<const cl::Buffer*, 9> kernel_arguments() const;
     const cl::Buffer& triangles() const { return triangles_; }
     const cl::Buffer& positions() const { return positions_; }
+    const cl::Buffer& normals() const { return normals_; }
     const cl::Buffer& materials() const { return materials_; }
     // [info().cluster_count] Cluster: boxes around runs of triangles, to pass over many at once.
     const cl::Buffer& clusters() const { return clusters_; }
@@ -75,11 +83,25 @@ public:
     const cl::Buffer& environment_texels() const { return environment_texels_; }
 
 private:
+    friend class SceneMover;
+
+    // What emissive_ is made from, one for each triangle of an emissive material.
+    struct Glowing {
+        std::uint32_t triangle;  // of the scene
+        glm::uvec3 vertex;       // of the device
+        glm::vec3 corner[3];
+        glm::vec3 radiance;
+        bool double_sided;
+    };
+    void list_emissive();
+
     SceneFrame frame_;
     SceneInfo info_{};
     std::vector<Light> lights_;
+    std::vector<Glowing> glowing_;
     std::vector<EmissiveTriangle> emissive_;
-    std::vector<std::uint32_t> triangle_order_;
+    std::vector<std::uint32_t> triangle_order_, vertex_order_;
+    std::size_t file_vertex_count_ = 0;
     std::optional<Environment> environment_;
     struct Cut;
     std::shared_ptr<Cut> cut_;

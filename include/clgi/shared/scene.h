@@ -65,6 +65,30 @@ typedef struct {
     uint cluster_count;  // triangle_count / CLUSTER_TRIANGLES, rounded up
 } SceneInfo;
 
+// Vertices that take a new place. Doubles are two words each, the lower one first.
+typedef struct {
+    uint first;         // of the vertices given, as the scene's file counts them
+    uint count;
+    uint vertex_count;  // on the device
+    uint flags;         // MOVE_...
+    int exponent;       // local units per metre: 2^exponent
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+    uint given_from[8];   // x, y, z: the world point that given positions are relative to; -0 adds
+                          // nothing, to a -0 either
+    uint frame_origin[8];  // x, y, z of the local frame's origin
+} MoveParams;
+
+enum { MOVE_NORMALS = 1 };
+
+// What a move counts, words of its status buffer.
+enum {
+    MOVE_NOT_FINITE = 0,  // vertices that stayed where they were
+    MOVE_FARTHEST = 1,    // bits of the largest squared distance from the local origin, a float
+    MOVE_STATUS_WORDS = 2
+};
+
 CLGI_SHARED_END
 
 #endif
