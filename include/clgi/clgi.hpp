@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/adjacency.hpp>
 #include <clgi/device.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/emitters.hpp>
