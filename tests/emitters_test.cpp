@@ -72,6 +72,45 @@ TEST_P(Shares, OfSourcesWithoutLightsAreSentByTheOthers) {
             << count;
 }
 
+// Lumen of a spot of 1 cd, by the fall-off as KHR_lights_punctual states it, ring by ring.
+double cone_flux(double inner, double outer) {
+    constexpr int rings = 100000;
+    double sum = 0.0;
+    for (int i = 0; i < rings; ++i) {
+        const double angle = outer * (i + 0.5) / rings;
+        const double linear =
+            (std::cos(angle) - std::cos(outer)) / std::max(std::cos(inner) - std::cos(outer), 1e-9);
+        const double share = std::clamp(linear, 0.0, 1.0);
+        sum += 2.0 * pi * std::sin(angle) * share * share;
+    }
+    return sum * outer / rings;
+}
+
+TEST(Emitters, ShareLightsByTheFluxOfTheirCones) {
+    constexpr int count = 1 << 20;
+    const struct {
+        double inner, outer;
+        float candela;
+    } spots[] = {{0.0, 0.7, 3.0f}, {0.6999, 0.7, 1.0f}, {0.3, 1.4, 0.5f}, {0.0, 0.02, 900.0f}};
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 2.0);
+    double total = 0.0;
+    for (const auto& spot : spots) {
+        Light light = test::spot_light({0, 2, 0}, {0, -1, 0}, spot.outer, spot.candela);
+        light.inner_angle = static_cast<float>(spot.inner);
+        scene.lights.push_back(light);
+        total += double{spot.candela} * cone_flux(spot.inner, spot.outer);
+    }
+    const EmitterSet set = make_emitters(test::on_device(scene), {.lights = count});
+    ASSERT_EQ(set.emitters.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double wanted =
+            count * double{spots[i].candela} * cone_flux(spots[i].inner, spots[i].outer) / total;
+        // One light of rounding, and the float angles' own.
+        EXPECT_NEAR(set.emitters[i].light_count, wanted, 2.0 + 1e-5 * wanted) << i;
+    }
+}
+
 TEST(Emitters, GoAlongOneSequenceWithinTheirGroup) {
     const EmitterSet set = make_emitters(test::on_device(scene_of_all()), {.lights = 500});
     std::uint32_t of_surfaces = 1, of_environment = 1;

@@ -98,7 +98,10 @@ Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterO
     // sin^2 of half the angle keeps what 1 - cos loses for narrow cones.
     out.acceptance = std::pow(std::sin(0.5 * outer), 2);
     e.measure = static_cast<float>(4.0 * pi * out.acceptance);
-    out.power = luminance(intensity) * e.measure;
+    // Between inner and outer angle the intensity falls as the square of a linear function of the
+    // cosine, whose mean is a third.
+    const double full = std::pow(std::sin(0.5 * inner), 2);
+    out.power = luminance(intensity) * 4.0 * pi * (full + (out.acceptance - full) / 3.0);
     if (spot && outer <= widest_single_view) {
         const float extent = static_cast<float>(std::tan(outer));
         out.views = {window(eye, right, glm::cross(right, axis), axis, extent, extent, near,
