@@ -16,6 +16,7 @@
 #include "scene/luminance.hpp"
 #include "scene/median_cut.hpp"
 #include "scene/texture_pool.hpp"
+#include "scene/validate.hpp"
 
 namespace clgi {
 namespace {
@@ -236,15 +237,7 @@ void DeviceScene::set_light(std::size_t index, const Light& light) {
     if (index >= lights_.size())
         throw Error("scene: light " + std::to_string(index) + " was to be set, there are " +
                     std::to_string(lights_.size()));
-    const float length = glm::length(light.direction);
-    const bool finite = glm::all(glm::lessThan(glm::abs(light.position), glm::dvec3(1e18))) &&
-                        glm::all(glm::lessThanEqual(light.intensity, glm::vec3(3e38f))) &&
-                        glm::all(glm::greaterThanEqual(light.intensity, glm::vec3(0.0f)));
-    if (!finite || !(std::abs(length - 1.0f) < 1e-3f))
-        throw Error("scene: light " + std::to_string(index) +
-                    " was to be set with a direction of length " + std::to_string(length) +
-                    " or numbers out of range; a unit direction, positions within 1e18 m and "
-                    "intensities of at least 0 needed");
+    validate_light(light, index);
     lights_[index] = light;
 }
 

@@ -32,7 +32,7 @@ struct EmissiveTriangle {
     glm::vec3 corner[3];
     glm::vec3 normal;                      // unit, the side that emits
     float area = 0.0f;                     // local units squared
-    glm::vec3 radiance = glm::vec3(0.0f);  // exposed
+    glm::vec3 radiance = glm::vec3(0.0f);  // exposed; mean over the triangle's texels
 };
 
 // Copies share their buffers; SceneMover moves the geometry of all of them, but lists what emits
@@ -61,14 +61,15 @@ public:
     // Triangles lie on the device in an order that follows space. [triangle_count] the scene's
     // index of each; triangle indices in G-buffers are those of the device.
     const std::vector<std::uint32_t>& triangle_order() const { return triangle_order_; }
-    // The same of vertices: [vertex_count] the scene's index of each. Vertices that no triangle uses
+    // The same for vertices: [vertex_count] the scene's index of each. Vertices without a triangle
     // are not on the device.
     const std::vector<std::uint32_t>& vertex_order() const { return vertex_order_; }
     // Vertices of the scene, those included that are not on the device.
     std::size_t file_vertex_count() const { return file_vertex_count_; }
 
     // Replaces a light, for scenes that move; the exposure stays as it was.
-    // Throws Error when there is no such light.
+    // Throws Error when there is no such light, InputError for one that validate() refuses; the
+    // old one stays.
     void set_light(std::size_t index, const Light& light);
 
     // In the order of SCENE_ARGUMENTS in kernels/scene/buffers.clh.
