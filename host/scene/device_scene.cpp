@@ -10,6 +10,7 @@
 
 #include "opencl/error_text.hpp"
 #include "scene/clusters.hpp"
+#include "scene/emission.hpp"
 #include "scene/environment.hpp"
 #include "scene/local_frame.hpp"
 #include "scene/locality.hpp"
@@ -129,13 +130,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         has_lobes_ = has_lobes_ || shares.coat + shares.lobe > 1e-4f;
         has_masks_ = has_masks_ || material.alpha_mode == AlphaMode::mask;
     }
-    std::vector<glm::vec3> emission_means(scene.materials.size());
-    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        const Material& material = scene.materials[m];
-        emission_means[m] = glm::vec3(glm::dvec3(material.emission) / frame_.exposure);
-        if (emits && material.emission_texture.texture >= 0)
-            emission_means[m] *= mean_color(scene.textures[material.emission_texture.texture]);
-    }
+    const EmissionMeans emission(scene);
 
     std::vector<glm::uvec4> triangles;
     triangles.reserve(scene.triangles.size());
@@ -149,7 +144,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         for (int k = 0; k < 3; ++k) corner[k] = order.renumbered[triangle.vertex[k]];
         triangles.emplace_back(corner[0], corner[1], corner[2], word);
 
-        const glm::vec3 radiance = emission_means[triangle.material];
+        const glm::vec3 radiance(emission(triangle) / frame_.exposure);
         if (!(luminance(radiance) > 0.0f)) continue;
         Glowing& glowing = glowing_.emplace_back();
         glowing.triangle = index;
