@@ -153,8 +153,8 @@ TEST(Adjacency, WeldsChains) {
     for (const std::array<int, 5>& order :
          {std::array<int, 5>{0, 1, 2, 3, 4}, {4, 0, 2, 1, 3}, {0, 4, 3, 1, 2}}) {
         std::vector<glm::dvec3> positions;
-        for (const int i : order) positions.emplace_back(1.0 + 1.5 * i * 0x1p-23, 0, 0);
-        positions.emplace_back(-1.0, 0, 0);
+        for (const int i : order) positions.emplace_back(1.25 + 1.5 * i * 0x1p-23, 0, 0);
+        positions.emplace_back(-1.25, 0, 0);
         const Adjacency a = adjacency(positions, {});
         EXPECT_EQ(a.welded_count, 2u);
         EXPECT_EQ(a.welded, (std::vector<std::uint32_t>{0, 0, 0, 0, 0, 1}));
