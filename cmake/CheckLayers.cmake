@@ -36,7 +36,7 @@ endmacro()
 
 # ---- what the library is made of --------------------------------------------------------------
 set(library "")
-foreach(room IN ITEMS opencl scene gbuffer lights image vpl atlas antiradiance transfer plan solvers)
+foreach(room IN ITEMS opencl parallel scene gbuffer lights image vpl atlas antiradiance transfer plan solvers)
     list(APPEND library "${SOURCE_DIR}/host/${room}/*.?pp")
 endforeach()
 set(public "${SOURCE_DIR}/include/clgi/*.hpp" "${SOURCE_DIR}/include/clgi/*.h")
@@ -72,14 +72,15 @@ list(FILTER below EXCLUDE REGEX "/solvers/|clgi/clgi\\.hpp$")
 forbid("solvers/|^clgi/clgi\\.hpp" "passes know no solver" ${below})
 
 # ---- rooms ------------------------------------------------------------------------------------
-set(upstream_scene "")
-set(upstream_gbuffer scene)
-set(upstream_lights gbuffer scene)
+set(upstream_parallel "")
+set(upstream_scene parallel)
+set(upstream_gbuffer parallel scene)
+set(upstream_lights parallel gbuffer scene)
 foreach(transport IN ITEMS image vpl antiradiance transfer)
-    set(upstream_${transport} gbuffer lights scene)
+    set(upstream_${transport} parallel gbuffer lights scene)
 endforeach()
-set(upstream_atlas vpl gbuffer lights scene)
-set(rooms scene gbuffer lights image vpl atlas antiradiance transfer)
+set(upstream_atlas parallel vpl gbuffer lights scene)
+set(rooms parallel scene gbuffer lights image vpl atlas antiradiance transfer)
 
 # check_room(path room): path, a file of room, includes its own room and those upstream only.
 macro(check_room path room)

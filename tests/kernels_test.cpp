@@ -49,7 +49,7 @@ bool has_atomics64() {
                "cl_khr_int64_extended_atomics") != std::string::npos;
 }
 
-TEST(Kernels, AreAllThere) { EXPECT_EQ(kernel_files().size(), 20u); }
+TEST(Kernels, AreAllThere) { EXPECT_EQ(kernel_files().size(), 34u); }
 
 TEST(Kernels, BuildWithoutMacros) { expect_content("-Werror"); }
 

@@ -3,6 +3,7 @@
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/image.h"
 #include "clgi/shared/lights.h"
+#include "clgi/shared/parallel.h"
 #include "clgi/shared/scene.h"
 #include "layout_members.h"
 

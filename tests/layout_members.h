@@ -75,4 +75,13 @@
     SIZE(TextureRecord) MEMBER(TextureRecord, first_texel) MEMBER(TextureRecord, width)         \
     MEMBER(TextureRecord, height) MEMBER(TextureRecord, flags)                                  \
     SIZE(SceneInfo) MEMBER(SceneInfo, vertex_count) MEMBER(SceneInfo, triangle_count)           \
-    MEMBER(SceneInfo, flags) MEMBER(SceneInfo, pad_)
+    MEMBER(SceneInfo, flags) MEMBER(SceneInfo, pad_)                                            \
+    SIZE(ArgMax) MEMBER(ArgMax, value) MEMBER(ArgMax, index) MEMBER(ArgMax, nans)               \
+    MEMBER(ArgMax, pad_)                                                                        \
+    SIZE(ItemBounds) MEMBER(ItemBounds, lower) MEMBER(ItemBounds, upper)                        \
+    MEMBER(ItemBounds, nans) MEMBER(ItemBounds, pad0_) MEMBER(ItemBounds, pad1_)                \
+    MEMBER(ItemBounds, pad2_)                                                                   \
+    SIZE(PickParams) MEMBER(PickParams, most) MEMBER(PickParams, planes)                        \
+    MEMBER(PickParams, stride) MEMBER(PickParams, out_stride)                                   \
+    SIZE(DigitParams) MEMBER(DigitParams, most) MEMBER(DigitParams, tiles)                      \
+    MEMBER(DigitParams, shift) MEMBER(DigitParams, bits)

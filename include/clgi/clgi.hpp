@@ -12,6 +12,7 @@
 #include <clgi/passes/image.hpp>
 #include <clgi/passes/import.hpp>
 #include <clgi/passes/lights.hpp>
+#include <clgi/passes/parallel.hpp>
 #include <clgi/procedural.hpp>
 #include <clgi/scene.hpp>
 #include <clgi/slice.hpp>
