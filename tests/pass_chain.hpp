@@ -35,6 +35,7 @@ public:
           gbuffer_(context, device),
           lights_(context, device),
           image_(context, device),
+          parallel_(context, device, {}, {false, false, false, false}),
           view_(make_view(cornell().cameras[0], scene_.frame(), width, height)),
           set_(make_emitters(scene_, {.lights = 40, .shadow_size = 32})) {
         add_gbuffer("source", set_.views[0]);
@@ -226,9 +227,15 @@ private:
         steps.push_back({"image.count", {flags, counts}, [=, this](auto& queue, auto& wait) {
                              return image_.count(queue, pixels, at("flags"), at("counts"), wait);
                          }});
+        steps.push_back({"parallel.offsets",
+                         {{"sums", "counts", counts.needed}},
+                         [=, this](auto& queue, auto& wait) {
+                             return parallel_.offsets(queue, (pixels + 511) / 512, at("counts"),
+                                                      cl::Buffer(), wait);
+                         }});
         steps.push_back({"image.compact",
                          {flags,
-                          counts,
+                          {"offsets", "counts", counts.needed},
                           points,
                           listed,
                           {"points", "listed_points", planes(POINT_PLANES)},
@@ -280,6 +287,7 @@ private:
     GBufferPasses gbuffer_;
     LightPasses lights_;
     ImagePasses image_;
+    ParallelPasses parallel_;
     View view_;
     EmitterSet set_;
     std::map<std::string, std::size_t> bytes_;

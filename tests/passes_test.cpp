@@ -42,7 +42,7 @@ TEST(Passes, MakeAFrameTogether) {
     const PassChain chain = make_chain();
     std::set<std::string> passes;
     for (const PassStep& step : chain.steps) passes.insert(step.pass);
-    EXPECT_EQ(passes.size(), 17u);  // all of them
+    EXPECT_EQ(passes.size(), 18u);  // all of them
     chain.enqueue(test::device().queue, {}).back().wait();
     const auto preview =
         test::download<cl_uint>(chain.buffers.at("preview"), PassChain::width * PassChain::height);

@@ -71,19 +71,19 @@ cl::Event ImagePasses::count(const cl::CommandQueue& queue, std::uint32_t pixels
 }
 
 cl::Event ImagePasses::compact(const cl::CommandQueue& queue, const RefineParams& params,
-                               const cl::Buffer& flags, const cl::Buffer& counts,
+                               const cl::Buffer& flags, const cl::Buffer& offsets,
                                const cl::Buffer& planes, const cl::Buffer& listed,
                                const cl::Buffer& points, const cl::Buffer& point_count,
                                const WaitList& wait) const {
     const std::size_t pixels = pixels_of(params);
     need_stride(compact_, "stride", params.stride, pixels);
     need(compact_, "flags", flags, pixels);
-    need(compact_, "counts", counts, blocks(pixels) * sizeof(std::uint32_t));
+    need(compact_, "offsets", offsets, blocks(pixels) * sizeof(std::uint32_t));
     need(compact_, "planes", planes, point_bytes(compact_.storage, params.stride));
     need(compact_, "listed", listed, plane_bytes(1, params.stride));
     need(compact_, "points", points, point_bytes(compact_.storage, params.stride));
     need(compact_, "point_count", point_count, sizeof(std::uint32_t));
-    return launch(compact_, queue, blocks(pixels), wait, params, flags, counts, planes, listed,
+    return launch(compact_, queue, blocks(pixels), wait, params, flags, offsets, planes, listed,
                   points, point_count);
 }
 

@@ -51,7 +51,8 @@ SecondOrderSolver::SecondOrderSolver(const cl::CommandQueue& queue, const Device
       options_(checked(options, scene)),
       gbuffer_(context_of(queue), device_of(queue), options_.build),
       light_passes_(context_of(queue), device_of(queue), options_.build),
-      image_(context_of(queue), device_of(queue), options_.build) {
+      image_(context_of(queue), device_of(queue), options_.build),
+      parallel_(context_of(queue), device_of(queue), options_.build, {false, false, false, false}) {
     for (const cl::CommandQueue& helper : helpers) {
         if (context_of(helper)() != context_of(queue)())
             throw Error("second-order: a helper's queue is of another context, the same needed");
@@ -211,6 +212,10 @@ void SecondOrderSolver::light_points(Recorder& record, const View& view) {
     if (std::isinf(options_.discontinuity_threshold)) return;
     record("image.count", pixels, [&](const WaitList& wait) {
         return image_.count(queue_, width * height, flags_, counts_, wait);
+    });
+    const auto blocks = static_cast<std::uint32_t>((pixels + COMPACT_BLOCK - 1) / COMPACT_BLOCK);
+    record("parallel.offsets", blocks, [&](const WaitList& wait) {
+        return parallel_.offsets(queue_, blocks, counts_, cl::Buffer(), wait);
     });
     record("image.compact", pixels, [&](const WaitList& wait) {
         return image_.compact(queue_, params, flags_, counts_, seen_.planes, listed_,

@@ -25,14 +25,15 @@ public:
                      const cl::Buffer& lights, const cl::Buffer& negative,
                      const cl::Buffer& irradiance, const WaitList& wait = {}) const;
 
-    // counts: [pixels / COMPACT_BLOCK, rounded up] uint.
+    // counts: [pixels / COMPACT_BLOCK, rounded up] uint. ParallelPasses::offsets makes of them the
+    // offsets that compact takes.
     cl::Event count(const cl::CommandQueue& queue, std::uint32_t pixels, const cl::Buffer& flags,
                     const cl::Buffer& counts, const WaitList& wait = {}) const;
 
     // Flagged pixels in a row: listed [stride] uint, points [POINT_PLANES][stride], point_count
     // [1].
     cl::Event compact(const cl::CommandQueue& queue, const RefineParams& params,
-                      const cl::Buffer& flags, const cl::Buffer& counts, const cl::Buffer& planes,
+                      const cl::Buffer& flags, const cl::Buffer& offsets, const cl::Buffer& planes,
                       const cl::Buffer& listed, const cl::Buffer& points,
                       const cl::Buffer& point_count, const WaitList& wait = {}) const;
 

@@ -9,6 +9,7 @@
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
 #include <clgi/passes/lights.hpp>
+#include <clgi/passes/parallel.hpp>
 #include <functional>
 #include <limits>
 #include <string>
@@ -169,6 +170,7 @@ private:
     GBufferPasses gbuffer_;
     LightPasses light_passes_;
     ImagePasses image_;
+    ParallelPasses parallel_;  // offsets alone
     std::vector<Helper> helpers_;
     EmitterSet set_;
     std::vector<PassEvent> events_;
