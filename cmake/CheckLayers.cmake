@@ -53,6 +53,9 @@ forbid("^(clgi/)?(io|cli|report|reference|gl)/" "the library knows no files, pro
 forbid("tiny_gltf|^stb_|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/"
        "the library stands on OpenCL and GLM alone" ${public} ${library})
 
+forbid("tiny_gltf" "glTF is io's business" "${SOURCE_DIR}/host/cli/*" "${SOURCE_DIR}/host/report/*"
+       "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/host/gl/*")
+
 # OpenGL: the library below it, OpenGL itself through epoxy alone, and nobody but the program above.
 set(gl "${SOURCE_DIR}/host/gl/*.?pp" "${SOURCE_DIR}/include/clgi/gl/*.hpp")
 forbid("^(clgi/)?(io|cli|report|reference)/|^clgi/reference\\.hpp|^(OpenEXR|nlohmann|CLI|fmt)/|^png\\.h"
