@@ -19,7 +19,10 @@ class Guard {
 public:
     Guard(json& root, const Rule& rule) : root_(root), rule_(rule) {}
 
-    void run() { visit(root_, rule_.path); }
+    void run() {
+        if (rule_.kind == Kind::index && !counts_locally()) count_entries(root_, rule_.among);
+        visit(root_, rule_.path);
+    }
 
 private:
     struct Step {
@@ -61,7 +64,9 @@ private:
     void visit_items(json& array, std::string_view rest) {
         expect_list(array, max_entries);
         for (std::size_t i = 0; i < array.size(); ++i) {
-            if (steps_.size() == 1) entry_ = &array[i];
+            if (steps_.size() == 1 && counts_locally()) {
+                count_entries(array[i], rule_.among.substr(1));
+            }
             step({{}, i}, array[i], rest);
         }
     }
@@ -114,17 +119,20 @@ private:
         if (rule_.limit != 0 && number > rule_.limit) fail("is " + std::to_string(number));
     }
 
-    void expect_index(json& value) const {
-        const bool local = rule_.among[0] == '.';
-        const std::string_view name = rule_.among.substr(local ? 1 : 0);
+    bool counts_locally() const { return rule_.among.starts_with('.'); }
+
+    // Of the array that the rule's indices count; the holder is the root or an entry of its arrays.
+    void count_entries(const json& holder, std::string_view name) {
         const json::json_pointer array(name == "lights" ? "/extensions/KHR_lights_punctual/lights"
                                                         : "/" + std::string(name));
-        const json& holder = local ? *entry_ : root_;
-        const std::size_t entries = holder.contains(array) ? holder.at(array).size() : 0;
+        entries_ = holder.contains(array) ? holder.at(array).size() : 0;
+    }
+
+    void expect_index(json& value) const {
         const std::uint64_t index = whole(value);
-        if (index >= entries) {
-            fail("is " + std::to_string(index) + ", there are " + std::to_string(entries) + " " +
-                 std::string(name));
+        if (index >= entries_) {
+            fail("is " + std::to_string(index) + ", there are " + std::to_string(entries_) + " " +
+                 std::string(rule_.among.substr(counts_locally() ? 1 : 0)));
         }
     }
 
@@ -172,7 +180,7 @@ private:
 
     json& root_;
     const Rule& rule_;
-    json* entry_ = nullptr;  // of the array at the root that the path goes through
+    std::size_t entries_ = 0;  // that there are to an index
     std::vector<Step> steps_;
 };
 
