@@ -15,10 +15,18 @@ namespace clgi::cli {
 using nlohmann::ordered_json;
 
 void add_ask_flags(CLI::App& command, AskFlags& flags) {
-    CLI::Option* error = command.add_option("--target-error", flags.target_error,
-                                            "Error to the converged picture: 2% or 0.02");
-    CLI::Option* time =
-        command.add_option("--time-budget", flags.time_budget, "Frame time to meet: 33ms or 0.5s");
+    CLI::Option* error =
+        command
+            .add_option("--target-error", flags.target_error,
+                        "Find the settings for this error against the converged picture: 2% or "
+                        "0.02")
+            ->type_name("E")
+            ->default_str("none");
+    CLI::Option* time = command
+                            .add_option("--time-budget", flags.time_budget,
+                                        "Find the settings for this frame time: 33ms or 0.5s")
+                            ->type_name("T")
+                            ->default_str("none");
     for (const char* setting : {"--vpls", "--negative-vpls", "--low-res", "--low-res-step"})
         for (CLI::Option* asked : {error, time}) asked->excludes(command.get_option(setting));
 }

@@ -108,16 +108,19 @@ void run_bench(const BenchFlags& flags) {
 }  // namespace
 
 void add_bench(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bench", "Run a paper's table again");
+    CLI::App* command = app.add_subcommand("bench", "Repeat a table of a paper");
     const auto flags = std::make_shared<BenchFlags>();
     command
         ->add_option("table", flags->table,
-                     "cochran1, cochran2, or layer: passes against kernels by hand")
+                     "layer: passes against the same kernels enqueued by hand")
         ->required()
+        ->type_name("TABLE")
         ->check(CLI::IsMember({"cochran1", "cochran2", "layer"}));
-    command->add_option("--mesh", flags->mesh,
-                        "Mesh in the box, such as the Stanford bunny; default: a generated one");
-    command->add_option("--repeats", flags->repeats, "Frames measured of each row")
+    command->add_option("--mesh", flags->mesh, "Mesh in the box, such as the Stanford bunny")
+        ->type_name("FILE")
+        ->default_str("a generated solid");
+    command->add_option("--repeats", flags->repeats, "Frames measured for each row")
+        ->type_name("N")
         ->check(CLI::Range(1, 10000));
     command->add_flag("--json", flags->json, "Print JSON");
     add_device_flags(*command, flags->device);

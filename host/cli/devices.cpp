@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/session.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -66,9 +67,10 @@ void run_devices(const std::string& choice) {
 }  // namespace
 
 void add_devices(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("devices", "List OpenCL devices; * is taken");
+    CLI::App* command =
+        app.add_subcommand("devices", "List the OpenCL devices; * marks the chosen one");
     const auto choice = std::make_shared<std::string>();
-    command->add_option("--device", *choice, "platform:CPU|GPU:name-or-index");
+    add_device_option(*command, *choice);
     command->callback([choice] { run_devices(*choice); });
 }
 

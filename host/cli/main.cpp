@@ -12,6 +12,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/session.hpp"
 #include "cli/version.hpp"
 #include "opencl/error_text.hpp"
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
         CLI::App app("Global illumination on any OpenCL device.", "clgi");
         app.set_version_flag("--version", "clgi " CLGI_VERSION);
         app.require_subcommand(1);
+        clgi::cli::set_help(app);
         clgi::cli::add_devices(app);
         clgi::cli::add_scene(app);
         clgi::cli::add_render(app);

@@ -16,7 +16,8 @@ struct PictureFlags {
     std::optional<float> exposure;  // stops, 0: radiance 1 is white; none: from the picture
     std::string size;               // WIDTHxHEIGHT; empty: the default
 };
-void add_picture_flags(CLI::App& command, PictureFlags& flags);
+// width, height: the default size.
+void add_picture_flags(CLI::App& command, PictureFlags& flags, int width, int height);
 
 // "640x480", each side from 1 to `most`; empty: both stay as they are. Throws Error, begun with the
 // command's name.

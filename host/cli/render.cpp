@@ -238,51 +238,69 @@ void add_render(CLI::App& app) {
     command->add_option("scene", flags->scene, ".gltf or .glb file")
         ->required()
         ->type_name("SCENE");
-    add_picture_flags(*command, flags->picture);
-    command->add_option("--method", flags->method, "auto, second-order or direct")
-        ->check(CLI::IsMember({"auto", "second-order", "direct"}));
-    command->add_option("--scene", flags->scene_index, "Which scene of the file");
-    command->add_option("--camera", flags->camera, "Which camera of the scene")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--vpls", options.sources.lights, "Indirect lights")
-        ->check(CLI::Range(0, 1 << 20));
-    command->add_option("--negative-vpls", options.negative_lights, "Negative indirect lights")
-        ->check(CLI::Range(0, 1 << 20));
-    command->add_option("--low-res", flags->low_res, "off, or the discontinuity threshold");
+    add_picture_flags(*command, flags->picture, options.width, options.height);
     command
-        ->add_option("--low-res-step", flags->options.low_resolution_step,
-                     "pixels from one low-resolution point to the next")
+        ->add_option("--method", flags->method, "auto is second-order; direct: no indirect light")
+        ->type_name("METHOD")
+        ->check(CLI::IsMember({"auto", "second-order", "direct"}));
+    add_place_options(*command, flags->scene_index, flags->camera);
+    command->add_option("--vpls", options.sources.lights, "Indirect lights (VPLs) of all lights")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1 << 20));
+    command->add_option("--negative-vpls", options.negative_lights, "Negative lights; 0: none")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1 << 20));
+    command
+        ->add_option("--low-res", flags->low_res,
+                     "Discontinuity threshold; off or 0: every pixel is gathered, inf: none")
+        ->type_name("off|T")
+        ->default_str(fmt::format("{}", options.discontinuity_threshold));
+    command
+        ->add_option("--low-res-step", options.low_resolution_step,
+                     "Pixels between low-resolution points")
+        ->type_name("N")
         ->check(CLI::IsMember({2, 4}));
     command
         ->add_option("--shadow-size", options.sources.shadow_size,
-                     "Pixels of a spot's or directional light's image")
+                     "Pixels per side of the shadow map of a spot or directional light")
+        ->type_name("N")
         ->check(CLI::Range(1, 8192));
     command
         ->add_option("--face-size", options.sources.face_size,
-                     "Pixels of a cube face, for point and area lights")
+                     "Pixels per side of a cube or hemicube face, for point and area lights")
+        ->type_name("N")
         ->check(CLI::Range(1, 4096));
     command
         ->add_option("--area-samples", options.sources.area_samples,
-                     "Points that stand for all emissive surfaces")
+                     "Sample points on all emissive surfaces together")
+        ->type_name("N")
         ->check(CLI::Range(0, 4096));
     add_environment_flags(*command, flags->environment);
     command
         ->add_option("--environment-lights", options.sources.environment_lights,
-                     "Directions that stand for the environment")
+                     "Directional lights that approximate the environment")
+        ->type_name("N")
         ->check(CLI::Range(0, 4096));
-    command->add_option("--gbuffer", flags->gbuffer, "What draws the camera's view: cl or gl")
+    command->add_option("--gbuffer", flags->gbuffer, "What rasterises the camera's view")
+        ->type_name("WHAT")
         ->check(CLI::IsMember({"cl", "gl"}));
     add_ask_flags(*command, flags->ask);
-    command->add_flag("--no-direct", flags->no_direct, "Leave direct light out of the picture");
-    command->add_option("--frames", flags->frames, "Frames to render and time; the last is kept")
+    command->add_flag("--no-direct", flags->no_direct,
+                      "Leave out direct light, emission and the environment");
+    command->add_option("--frames", flags->frames, "Pictures to render and time; the last is kept")
+        ->type_name("N")
         ->check(CLI::Range(1, 1000000));
     command
         ->add_option("--replicates", flags->replicates,
-                     "Randomised shifts to take the mean of, and the standard error from")
+                     "Render N randomised replicates, keep the mean and its standard error")
+        ->type_name("N")
+        ->default_str("none")
         ->check(CLI::Range(2, 100000));
-    command->add_flag("--orbit", flags->orbit, "Move the camera round the scene over the frames");
+    command->add_flag("--orbit", flags->orbit, "Turn the camera around the scene over the frames");
     command->add_flag("--spin-light", flags->spin_light, "Turn the lights over the frames");
-    command->add_option("--stats", flags->stats, "JSON file of times and settings");
+    command->add_option("--stats", flags->stats, "JSON file with times and settings")
+        ->type_name("FILE")
+        ->default_str("none");
     add_device_flags(*command, flags->device);
     command->callback([flags] { run_render(*flags); });
 }

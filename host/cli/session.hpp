@@ -22,6 +22,11 @@ struct DeviceFlags {
     bool quiet = false;
 };
 void add_device_flags(CLI::App& command, DeviceFlags& flags);
+void add_device_option(CLI::App& command, std::string& choice);  // --device alone
+void add_quiet_flag(CLI::App& command, bool& quiet);             // --quiet alone
+
+// --scene and --camera of commands that read a glTF file.
+void add_place_options(CLI::App& command, int& scene, int& camera);
 
 struct Session {
     cl::Device device;
