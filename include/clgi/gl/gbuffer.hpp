@@ -54,6 +54,12 @@ public:
                       const GBufferTextures& textures, const GBuffer& out,
                       const WaitList& wait = {});
 
+    // Releases the OpenCL images that zero copy keeps of the textures of the last conversion.
+    // convert() reuses them for textures of the same name, size and format. Call this if a texture
+    // was deleted, or its storage specified anew, and another one of the same name, size and format
+    // follows: OpenGL does not tell the two apart. Not needed for any other change.
+    void forget_textures();
+
     // Of the last conversion; before the first, what is intended.
     bool zero_copy() const;
     const std::string& path() const;  // "zero copy: ...", "copied: ..."
