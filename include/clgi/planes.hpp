@@ -1,4 +1,4 @@
-// How many bytes planes of pixels take. Layout: clgi/shared/planes.h.
+// Sizes of planes of pixels in bytes. Layout: clgi/shared/planes.h.
 // SPDX-License-Identifier: MIT
 #pragma once
 

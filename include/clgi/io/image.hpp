@@ -1,4 +1,4 @@
-// Pictures in and out: OpenEXR, PNG, Radiance HDR. Files appear whole or not at all.
+// Reading and writing pictures: OpenEXR, PNG, Radiance HDR. No partial file is ever left.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -32,7 +32,7 @@ struct LoadReport {
     std::size_t non_finite = 0;  // samples that were NaN or infinite, now 0 or the largest float
 };
 
-// Reads .exr (scanline or tiled, first part) or .hdr (told apart by content). Non-finite samples
+// Reads .exr (scanline or tiled, first part) or .hdr (recognised by content). Non-finite samples
 // are replaced and counted in report. Throws InputError: "file: what is wrong".
 CLGI_API Image load_image(const std::filesystem::path& path, LoadReport* report = nullptr);
 

@@ -1,7 +1,7 @@
-// A G-buffer from what another renderer drew, one method a kernel. Layouts: clgi/shared/gbuffer.h.
+// A G-buffer from another renderer's images, one method per kernel. Layouts: shared/gbuffer.h.
 //
 // Every method checks sizes, enqueues one kernel on the caller's queue and returns its event. It
-// allocates nothing and never waits. Throws Error for what is too small or out of range.
+// allocates nothing and never waits. Throws Error for sizes too small and values out of range.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace clgi {
 
-// Texels as images of the view's size. Those that ImportParams::flags leave out may be empty.
+// Texels as images of the view's size. Images that ImportParams::flags does not name may be empty.
 struct ImportImages {
     cl::Image2D position;  // xyz, metres
     cl::Image2D normal;    // xyz, any length
@@ -47,7 +47,7 @@ public:
     ImportPasses(const cl::Context& context, const cl::Device& device,
                  const BuildOptions& options = {});
 
-    // The pixels that were not finite are added to non_finite [1] uint.
+    // Adds the number of pixels that are not finite to non_finite [1] uint.
     cl::Event buffers(const cl::CommandQueue& queue, const View& view, const ImportParams& params,
                       const ImportBuffers& texels, const GBuffer& out, const cl::Buffer& non_finite,
                       const WaitList& wait = {}) const;
