@@ -94,10 +94,11 @@ std::string ask_warning(const AskRecord& record) {
     const report::Answer& answer = record.answer;
     std::string text;
     if (record.wish.target_error && !answer.target_met)
-        text = fmt::format("warning: the error asked for, {:.3g} %, is not reached{}: {:.3g} % is",
-                           100.0 * *record.wish.target_error,
-                           record.wish.budget_ms ? " within the time budget" : "",
-                           100.0 * *answer.estimated_error);
+        text = fmt::format(
+            "warning: the target error of {:.3g} % is not reached{}; the error is {:.3g} %",
+            100.0 * *record.wish.target_error,
+            record.wish.budget_ms ? " within the time budget" : "",
+            100.0 * *answer.estimated_error);
     if (!record.wish.budget_ms) return text;
     const auto add = [&](const std::string& more) {
         text += text.empty() ? "warning: " + more : "; " + more;
@@ -105,11 +106,11 @@ std::string ask_warning(const AskRecord& record) {
     if (!answer.budget_met)
         add(fmt::format("{} {:.1f} ms, more than the budget of {:.4g} ms",
                         answer.settings.lights == report::fewest_lights
-                            ? "the cheapest settings take"
-                            : "the times of this machine vary: the settings found took",
+                            ? "even the cheapest settings take"
+                            : "times on this machine vary: the chosen settings took",
                         *answer.promised_ms, *record.wish.budget_ms));
     else if (answer.settings.lights == report::most_lights)
-        add(fmt::format("{} lights are the most there are; the budget is not used up",
+        add(fmt::format("the largest number of lights, {}, does not use up the budget",
                         report::most_lights));
     return text;
 }

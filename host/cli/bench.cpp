@@ -1,4 +1,4 @@
-// clgi bench TABLE: a paper's table, or the cost of the library, on this device.
+// clgi bench TABLE: repeats a table of a paper, or measures the cost of the library.
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// clgi devices: what there is to run on, and which one would be taken.
+// clgi devices: all OpenCL devices, and the one that a command would use.
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ bool has(const cl::Device& device, const char* extension) {
     return device.getInfo<CL_DEVICE_EXTENSIONS>().find(extension) != std::string::npos;
 }
 
-// A platform whose hardware is absent says so by an error.
+// A platform without hardware reports an error.
 std::vector<cl::Device> devices_of(const cl::Platform& platform) {
     std::vector<cl::Device> out;
     try {

@@ -40,7 +40,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
         if (command->get_name() == argv[1]) return;
         known += (known.empty() ? "" : ", ") + command->get_name();
     }
-    throw clgi::Error(fmt::format("there is no command '{}', known are {}", argv[1], known));
+    throw clgi::Error(fmt::format("unknown command '{}'; known commands are {}", argv[1], known));
 }
 
 int parse_and_run(CLI::App& app, int argc, char** argv) {

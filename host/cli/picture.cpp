@@ -40,7 +40,7 @@ void parse_size(const std::string& command, const std::string& text, int most, i
 
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height) {
     if (flags.exr.empty() && flags.png.empty())
-        throw Error(command + ": nothing to write, -o FILE.exr or --png FILE.png needed");
+        throw Error(command + ": no output is given, -o FILE.exr or --png FILE.png needed");
     parse_size(command, flags.size, 16384, width, height);
 }
 

@@ -35,7 +35,7 @@ struct ReferenceFlags {
     bool quiet = false;
 };
 
-// What there is to tell about a picture or an atlas.
+// The result for a picture or an atlas.
 struct Outcome {
     io::Image image;
     std::size_t texels = 0;  // that were lit; 0: a picture

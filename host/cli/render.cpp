@@ -104,12 +104,10 @@ void run_render(RenderFlags flags) {
     const bool asked = wish.budget_ms || wish.target_error;
     if (asked && flags.method == "direct")
         throw Error(
-            "render: --method direct has no settings to find, neither for --target-error "
-            "nor for --time-budget");
-    if (flags.gbuffer == "gl" && (asked || flags.replicates > 1))
-        throw Error(
-            "render: --gbuffer gl goes with neither --replicates nor --target-error nor "
+            "render: --method direct has no settings to find; it excludes --target-error and "
             "--time-budget");
+    if (flags.gbuffer == "gl" && (asked || flags.replicates > 1))
+        throw Error("render: --gbuffer gl excludes --replicates, --target-error and --time-budget");
     flags.options.direct = !flags.no_direct;
     flags.options.indirect = flags.method != "direct";
     flags.options.build = build_of(flags.device);
@@ -137,7 +135,7 @@ void run_render(RenderFlags flags) {
 
     catch_interrupts();
     const auto bar = progress_bar("render", flags.device.quiet);
-    // The first frame also compiles what the driver left for later: it warms up and is not timed.
+    // The first picture warms up and is not timed: some drivers compile on the first launch.
     if (gl) {
         gl->render(solver, camera).wait();
         if (!bar(1.0)) throw Interrupted();
@@ -183,15 +181,18 @@ void run_render(RenderFlags flags) {
     }
 
     if (record.status.non_finite > 0)
-        notice(false, fmt::format("warning: {} packets of pixels were not finite and were mended",
-                                  record.status.non_finite));
+        notice(
+            false,
+            fmt::format(
+                "warning: {} packets of pixels had numbers that were not finite and were replaced",
+                record.status.non_finite));
     if (gl) {
         record.gl_renderer = gl->renderer();
         record.gl_path = gl->path();
         notice(flags.device.quiet, fmt::format("OpenGL {}; {}", gl->renderer(), gl->path()));
         if (const std::uint32_t texels = gl->non_finite())
             notice(false, fmt::format("warning: {} texels of the G-buffer were not finite and "
-                                      "were taken for background",
+                                      "became background",
                                       texels));
     }
     const report::Spread times = report::spread(record.frame_ms);

@@ -55,7 +55,7 @@ void take_lamp(Options& options, const SceneFlags& flags) {
         const auto found = lamps.find(*flags.light);
         if (found == lamps.end()) {
             throw Error(
-                fmt::format("scene: --light is '{}', needs spot, area or point", *flags.light));
+                fmt::format("scene: --light is '{}', spot, area or point needed", *flags.light));
         }
         options.lamp = found->second;
     }
@@ -111,10 +111,10 @@ const SceneKind& find_kind(const std::string& name) {
     for (const SceneKind& kind : scene_kinds()) {
         if (kind.name == name) return kind;
     }
-    throw Error(fmt::format("scene: there is no scene '{}', known are {}", name, known_names()));
+    throw Error(fmt::format("scene: unknown scene '{}'; known scenes are {}", name, known_names()));
 }
 
-// A flag that would be ignored is more likely a slip than a wish.
+// A flag that would be ignored is probably a mistake.
 void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
     static const std::vector<std::string> all = {"--mesh", "--light", "--albedo", "--subdivisions",
                                                  "--cone", "--rooms", "--door"};
@@ -122,7 +122,7 @@ void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
         const bool known =
             std::find(kind.flags.begin(), kind.flags.end(), flag) != kind.flags.end();
         if (!known && command.count(flag) > 0) {
-            throw Error(fmt::format("scene: {} means nothing to the scene {}", flag, kind.name));
+            throw Error(fmt::format("scene: {} does not apply to the scene {}", flag, kind.name));
         }
     }
 }

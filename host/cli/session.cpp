@@ -88,7 +88,7 @@ Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlag
     for (const std::string& warning : scene.warnings) notice(quiet, "warning: " + warning);
     if (scene.cameras.empty()) {
         scene.cameras.push_back(default_camera(scene));
-        notice(quiet, "note: the scene has no camera; a default one is used");
+        notice(quiet, "note: the scene has no camera; a default camera is used");
     }
     add_environment(environment, scene, quiet);
     if (scene.lights.empty() && !has_emission(scene) && !scene.environment) {

@@ -1,4 +1,4 @@
-// What --stats writes.
+// The JSON of --stats.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -35,7 +35,7 @@ struct RenderRecord {
     std::vector<std::string> warnings;
 };
 
-// JSON, written aside and renamed. Throws InputError when it cannot be written.
+// Writes a temporary file and renames it. Throws InputError when it cannot be written.
 void save_stats(const RenderRecord& record, const std::filesystem::path& path);
 
 }  // namespace clgi::cli

@@ -1,4 +1,4 @@
-// Everything of the library proper; files are in clgi/io/.
+// All headers of clgi::clgi. Those of clgi::io, clgi::gl and clgi::reference are separate.
 // SPDX-License-Identifier: MIT
 #pragma once
 
