@@ -19,8 +19,8 @@ struct PictureFlags {
 // width, height: the default size.
 void add_picture_flags(CLI::App& command, PictureFlags& flags, int width, int height);
 
-// "640x480", each side from 1 to `most`; empty: both stay as they are. Throws Error that begins with
-// the command's name.
+// "640x480", each side from 1 to `most`; empty: both stay as they are. Throws Error that begins
+// with the command's name.
 void parse_size(const std::string& command, const std::string& text, int most, int& width,
                 int& height);
 

@@ -46,7 +46,8 @@ BuildOptions build_of(const DeviceFlags& flags);
 std::string build_flags(const DeviceFlags& flags);
 
 // Loads a glTF file, prints its warnings and adds the environment of the flags. Adds a camera and a
-// light if the file has none, and prints a note. lightmaps: keeps texture coordinates without textures.
+// light if the file has none, and prints a note. lightmaps: keeps texture coordinates without
+// textures.
 Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlags& environment,
                  bool quiet, bool lightmaps = false);
 
