@@ -3,7 +3,7 @@
 #
 #   tests/mutants/run.sh [options] [room ...]     all rooms where none is named
 #
-#   -n NUMBER  this mutant of the room alone; of one room
+#   -n NUMBER  this mutant alone, or these (3-9); of one room
 #   -c         only check that every mutant's text is found exactly once
 #   -b FOLDER  where to build; ./build-mutants where not named
 #
@@ -24,7 +24,7 @@ set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/../../cmake/setup.sh"
 
 folder=$clgi_root/build-mutants
-only=0
+only=""
 check=0
 while getopts "n:cb:" option; do
     case $option in
@@ -93,10 +93,14 @@ check_mutant() {
 }
 
 for room in "${rooms[@]}"; do read_room "$room"; done
-((only == 0 || ${#rooms[@]} == 1)) || fail "-n takes one room"
-((only <= ${#names[@]})) || fail "no mutant $only: ${rooms[0]} has ${#names[@]}"
 chosen=("${!names[@]}")
-((only == 0)) || chosen=($((only - 1)))
+if [[ -n $only ]]; then
+    ((${#rooms[@]} == 1)) || fail "-n takes one room"
+    first=${only%-*} last=${only#*-}
+    ((first >= 1 && first <= last && last <= ${#names[@]})) ||
+        fail "no mutants $only: ${rooms[0]} has ${#names[@]}"
+    mapfile -t chosen < <(seq $((first - 1)) $((last - 1)))
+fi
 for i in "${chosen[@]}"; do check_mutant "$i"; done
 ((!check)) || { echo "${#chosen[@]} mutants, each found once" && exit; }
 
@@ -123,7 +127,7 @@ run() { "${prefix[@]}" "$@"; }
 
 # build_target TARGET: its output is in $folder/build.log
 build_target() {
-    run cmake --build "$build" --parallel "$(nproc)" --target "$1" >"$folder/build.log" 2>&1
+    run cmake --build "$build" --parallel "$(nproc)" --target "$1" >"$folder/build.log" 2>&1 9>&-
 }
 
 # run_test "PROGRAM [FILTER]": its output is in $folder/test.log
@@ -134,6 +138,8 @@ run_test() {
         "--gtest_filter=$filter" >"$folder/test.log" 2>&1 </dev/null
 }
 
+exec 9>"$folder/lock"
+flock -n 9 || fail "another run works in $folder; -b takes another folder"
 synchronise
 generator=(-G Ninja)
 [[ -f $build/CMakeCache.txt ]] && generator=()
