@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lighting.hpp"
+#include "scenes.hpp"
 #include "shadow_reference.hpp"
 
 namespace clgi::test {
