@@ -24,9 +24,15 @@ struct PlacedLights {
     std::vector<IndirectLight> lights;  // [N] local frame
 };
 
+// What multiplies all flux, and all discs.
+struct FetchScale {
+    float flux = 1.0f, footprint = 1.0f;
+};
+
 inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions& options,
                                  const LightPasses& passes = light_passes(),
-                                 const GBufferPasses& drawn_by = gbuffer_passes()) {
+                                 const GBufferPasses& drawn_by = gbuffer_passes(),
+                                 const FetchScale& scale = {}) {
     const cl::CommandQueue& queue = device().queue;
     PlacedLights out;
     out.set = make_emitters(scene, options);
@@ -46,7 +52,8 @@ inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions&
     }
     const cl::Buffer lights = empty<IndirectLight>(out.set.light_count);
     const FetchParams params{static_cast<cl_uint>(out.set.light_count),
-                             static_cast<cl_uint>(out.set.emitters.size()), 1.0f, 1.0f};
+                             static_cast<cl_uint>(out.set.emitters.size()), scale.flux,
+                             scale.footprint};
     passes.fetch(queue, params, scene, sources, accepted, lights);
     out.accepted = download<cl_uint>(accepted, out.set.light_count);
     out.lights = download<IndirectLight>(lights, out.set.light_count);
