@@ -32,6 +32,12 @@ Shading oblique_shading(const std::vector<int>& sources, cl_uint effects, int pi
     Shading out;
     out.emitters = set.emitters;
     out.views = set.views;
+    for (const Emitter& e : set.emitters)
+        if (e.view_count == 1) {  // off the axis, though the library's own are not
+            View& view = out.views[e.first_view];
+            view.window.x = 0.2f * view.right.w;
+            view.window.y = -0.1f * view.up.w;
+        }
     out.materials = scene.materials;
     out.view = make_view(test::oblique_camera(), placed.frame(), 40, 30);
     out.params.exposure = 1.0f;
@@ -150,6 +156,34 @@ TEST(Combine, KnowsTheBordersOfACone) {
         }
 }
 
+// So thin that the cosines of its edge and its axis are neighbouring floats.
+TEST(Combine, FillsTheThinnestHardCone) {
+    Scene scene = test::oblique_room();
+    scene.lights = {test::spot_light({0, 0.25, 0}, {0, -1, 0}, 0.0003)};
+    const DeviceScene placed = test::on_device(scene);
+    const EmitterSet set = make_emitters(placed, {.lights = 1, .shadow_size = 8});
+    Shading in = oblique_shading({spot}, COMBINE_DIRECT, 0);
+    in.emitters = set.emitters;
+    in.emitters[0].position = {0, 0.25f, 0, 0};  // its axis goes through the pixels exactly
+    in.views = set.views;
+    in.views[0].eye = in.emitters[0].position;
+    in.visibility.assign(set.pixels, ~std::uint64_t{0});
+    for (int i = 0; i < 3; ++i) {
+        test::ShadedPixel pixel;
+        pixel.position = {0, -0.25f * static_cast<float>(i), 0};
+        pixel.normal = pixel.geometric = {0.6f, 0.8f, 0};
+        pixel.base = {0.3f, 0.8f, 0.5f};
+        in.pixels.push_back(pixel);
+    }
+    const auto radiance = test::combine(in).radiance;
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double wanted = double{in.pixels[i].base[c]} / std::numbers::pi * 0.8 *
+                                  double{in.emitters[0].intensity[c]} / std::pow(0.25 * (i + 1), 2);
+            EXPECT_NEAR(radiance[i][c], wanted, 1e-6 * wanted) << i;
+        }
+}
+
 TEST(Combine, AddsAllSourcesAndTakesEachEffectAlone) {
     const std::vector<int> all = {spot, point, sun, wide_spot, lamp};
     for (cl_uint effects = 0; effects < 16; ++effects) {
@@ -175,6 +209,62 @@ TEST(Combine, EndsAtTheRange) {
             in.emitters[0].range = range;
             expect_truth(in, "range " + std::to_string(range));
         }
+}
+
+// A flat receiver that faces the sun has no slope and asks for no texels: what is left of the bias
+// is float spacing.
+TEST(Combine, DoesNotShadowAReceiverByItsOwnRounding) {
+    Shading in = oblique_shading({sun}, COMBINE_DIRECT);
+    in.params.texel_bias = 0.0f;
+    for (test::ShadedPixel& pixel : in.pixels)
+        pixel.normal = pixel.geometric = -glm::vec3(in.emitters[0].axis);
+    Random random(37);
+    block(in, 0.0, random);  // at the receiver itself
+    EXPECT_GT(expect_truth(in, "own depth").first, 500);
+}
+
+// Places that lie on the border of two faces, whichever way they are rounded: one of the faces
+// counts, the first that sees them.
+TEST(Combine, HasNoGapBetweenFaces) {
+    Shading in = oblique_shading({lamp}, COMBINE_DIRECT, 0);
+    in.emitters.resize(1);
+    const Emitter& e = in.emitters[0];
+    const View& front = in.views[e.first_view];
+    Random random(43);
+    for (int i = 0; i < 3000; ++i) {
+        glm::dvec2 at(random(-1, 1), i % 2 ? 1.0 : -1.0);
+        if (i % 4 < 2) std::swap(at.x, at.y);
+        const glm::dvec3 direction = glm::dvec3(front.forward) + at.x * glm::dvec3(front.right) +
+                                     at.y * glm::dvec3(front.up);
+        test::ShadedPixel pixel;
+        pixel.position = glm::dvec3(e.position) + random(0.1, 0.9) * direction;
+        pixel.normal = pixel.geometric = glm::normalize(glm::vec3(-direction));
+        pixel.base = {0.3f, 0.8f, 0.5f};
+        in.pixels.push_back(pixel);
+    }
+    const auto open = test::combine(in).radiance;
+    const std::size_t front_end = std::size_t{front.width} * front.height;
+    const auto fill = [&](bool front_blocked, bool sides_blocked) {
+        for (std::size_t i = 0; i < in.visibility.size(); ++i)
+            in.visibility[i] = (i < front_end ? front_blocked : sides_blocked)
+                                   ? test::word_of(1e6f, 0)
+                                   : ~std::uint64_t{0};
+        return test::combine(in).radiance;
+    };
+    const auto none = fill(true, true), front_only = fill(true, false), sides = fill(false, true);
+    for (std::size_t i = 0; i < in.pixels.size(); ++i) {
+        EXPECT_GT(open[i].x, 0.0f);
+        EXPECT_EQ(none[i], glm::vec3(0)) << i;
+        EXPECT_EQ(front_only[i], glm::vec3(0)) << i;
+        EXPECT_EQ(sides[i], open[i]) << i;
+    }
+}
+
+TEST(Combine, NeverGivesLessThanNothing) {
+    Shading in = oblique_shading({sun}, COMBINE_DIRECT | COMBINE_EMISSION | COMBINE_INDIRECT);
+    for (test::ShadedPixel& pixel : in.pixels) pixel.emission = {-7.0f, 1.0f, -3.0f};
+    for (const glm::vec3& radiance : test::combine(in).radiance)
+        for (int c = 0; c < 3; ++c) EXPECT_GE(radiance[c], 0.0f);
 }
 
 // At the source itself the direction is lost: neither light nor an infinity.

@@ -75,6 +75,16 @@ TEST(Compact, ListsWhatIsFlaggedInOrderAndPutsItBack) {
                                                                      : -1.0f)
                         << "plane " << plane << ", point " << i;
 
+            // Only what is listed is lit.
+            const cl::Buffer light = test::upload(std::vector<IndirectLight>(1));
+            const cl::Buffer lit =
+                test::upload(std::vector<float>(IRRADIANCE_PLANES * stride, 7.0f));
+            passes.gather(queue, {static_cast<cl_uint>(stride), 1, 0, 0}, pixels, count, points,
+                          light, light, lit);
+            const auto irradiances = test::download<float>(lit, IRRADIANCE_PLANES * stride);
+            for (std::size_t i = 0; i < irradiances.size(); ++i)
+                EXPECT_EQ(irradiances[i], i % stride < whole ? 0.0f : 7.0f) << i;
+
             std::vector<float> refined(IRRADIANCE_PLANES * stride), before = refined;
             for (std::size_t i = 0; i < refined.size(); ++i) {
                 refined[i] = 1000.25f + static_cast<float>(i);

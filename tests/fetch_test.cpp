@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "emitter_reference.hpp"
 #include "oblique.hpp"
 
@@ -141,16 +143,25 @@ TEST_P(Fetch, FollowsEachSampleToItsSurface) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Fetch, testing::Range(0, 6));
 
-// Each source has a part of the list; a lamp too weak for a light leaves its power to the others.
+// Each source has a part of the list; directions of an environment and samples of an emissive
+// surface share what one light stands for.
 TEST(Fetch, KeepsSourcesApart) {
     Scene world = test::oblique_scene();
-    Light weak = test::oblique_point();
-    weak.intensity *= 1e-4f;
-    world.lights.insert(world.lights.begin() + 1, weak);
     world.lights.pop_back();  // the thin one lights a single place
-    const EmitterOptions options{.lights = 700, .shadow_size = 512, .area_samples = 4};
-    const EmitterSet set = make_emitters(test::on_device(world), options);
-    EXPECT_GT(set.emitters[0].taken_over, 1.0f);
+    world.environment = Environment{};
+    world.environment->factor = {0.2f, 0.4f, 0.3f};
+    expect_truth(world,
+                 {.lights = 900, .shadow_size = 512, .area_samples = 4, .environment_lights = 5},
+                 1.0f, 1.0f);
+}
+
+// Lamps too weak for a light leave their power to the others.
+TEST(Fetch, HandsOverTheLightOfWeakSources) {
+    Scene world = test::oblique_room();
+    world.lights.assign(6, test::oblique_point());
+    for (std::size_t l = 1; l < 6; ++l) world.lights[l].intensity *= 0.01f;
+    const EmitterOptions options{.lights = 40, .face_size = 256};
+    EXPECT_GT(make_emitters(test::on_device(world), options).emitters[0].taken_over, 1.01f);
     expect_truth(world, options, 1.0f, 1.0f);
 }
 
@@ -179,6 +190,24 @@ TEST(Fetch, BoundsTheDiscOfGrazingLight) {
     }
 }
 
+// Where the cone holds fewer candidates than lights, the list ends in zeros: index 0 is no sample.
+TEST(Fetch, LeavesOutCandidatesThatWereNotFound) {
+    Scene world = test::oblique_room();
+    world.lights = {test::spot_light({0.1, 0.1, 0.2}, {0.05f, -0.1f, -1}, 0.8)};
+    const DeviceScene scene = test::on_device(world);
+    const EmitterSet set = make_emitters(scene, {.lights = 20, .shadow_size = 64});
+    const RasterBuffers buffers = test::raster_buffers(scene, set.pixels);
+    for (const View& view : set.views)
+        test::draw_visibility(test::gbuffer_passes(), scene, view, buffers);
+    const cl::Buffer lights = test::empty<IndirectLight>(20);
+    test::light_passes().fetch(
+        test::device().queue, {20, 1, 1.0f, 1.0f}, scene,
+        {test::upload(set.emitters), test::upload(set.views), buffers.visibility},
+        test::upload(std::vector<cl_uint>(20)), lights);
+    const auto found = test::download<IndirectLight>(lights, 20);
+    for (const IndirectLight& light : found) EXPECT_EQ(light.flux, glm::vec4(0));
+}
+
 std::vector<bool> in_cone(const Emitter& e, cl_uint candidates, std::vector<bool>* sure) {
     std::vector<bool> out;
     for (cl_uint index = 1; index <= candidates; ++index) {
@@ -205,9 +234,10 @@ TEST(Accept, TakesTheFirstCandidatesInsideTheCone) {
         emitters[2].first_light = emitters[1].first_light + emitters[1].light_count;
         const cl_uint all = emitters[2].first_light + emitters[2].light_count;
         const cl::Buffer device_emitters = test::upload(emitters);
-        const cl::Buffer accepted = test::upload(std::vector<cl_uint>(all, 77u));
-        std::vector<cl_uint> wanted;
-        for (cl_uint e = 0; e < 3; ++e) {
+        // Longer than needed, and filled from its end: what is written past a part would stay.
+        std::vector<cl_uint> wanted(all + 64, 77u);
+        const cl::Buffer accepted = test::upload(wanted);
+        for (const cl_uint e : {2u, 1u, 0u}) {
             const AcceptParams params{e, candidates, all, 0};
             const cl::Buffer mask = test::empty<cl_uint>(candidates / 32);
             test::light_passes().accept_mask(test::device().queue, params, device_emitters, mask);
@@ -218,12 +248,13 @@ TEST(Accept, TakesTheFirstCandidatesInsideTheCone) {
             const std::vector<bool> inside = in_cone(emitters[e], candidates, &sure);
             for (cl_uint k = 0; k < candidates; ++k)
                 EXPECT_TRUE(!sure[k] || (words[k / 32] >> k % 32 & 1) == inside[k]) << k;
+            cl_uint* part = &wanted[emitters[e].first_light];
             cl_uint taken = 0;
             for (cl_uint k = 0; k < candidates && taken < emitters[e].light_count; ++k)
-                if (words[k / 32] >> k % 32 & 1) wanted.push_back(k + 1), ++taken;
-            wanted.resize(emitters[e].first_light + emitters[e].light_count, 0u);
+                if (words[k / 32] >> k % 32 & 1) part[taken++] = k + 1;
+            std::fill(part + taken, part + emitters[e].light_count, 0u);
         }
-        EXPECT_EQ(test::download<cl_uint>(accepted, all), wanted) << candidates;
+        EXPECT_EQ(test::download<cl_uint>(accepted, all + 64), wanted) << candidates;
     }
 }
 

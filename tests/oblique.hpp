@@ -26,7 +26,7 @@ inline Scene oblique_room() {
     Random random(2007);
     Scene scene;
     // Dull, half metal, rough metal, smooth plastic.
-    const float metallic[] = {0.0f, 0.6f, 1.0f, 0.1f}, roughness[] = {1.0f, 0.5f, 0.7f, 0.35f};
+    const float metallic[] = {0.0f, 0.6f, 1.0f, 0.0f}, roughness[] = {1.0f, 0.5f, 0.7f, 0.35f};
     for (int m = 0; m < 4; ++m) {
         Material material;
         material.base_color = glm::vec4(random_colour(random, 0.3, 0.95), 1.0f);

@@ -48,7 +48,8 @@ inline Combined combine(const Shading& in, const ImagePasses& passes = image_pas
     const std::uint32_t count = static_cast<std::uint32_t>(in.pixels.size());
     const std::uint32_t stride = padded(count);
     std::vector<float> planes(GBUFFER_PLANES * stride), irradiance(IRRADIANCE_PLANES * stride);
-    std::vector<cl_int> ids(GBUFFER_ID_PLANES * stride, -1);
+    // Past the last pixel another renderer may have left anything.
+    std::vector<cl_int> ids(GBUFFER_ID_PLANES * stride, 0x3fffffff);
     for (std::uint32_t i = 0; i < count; ++i) {
         const ShadedPixel& pixel = in.pixels[i];
         const auto put = [&](int plane, const glm::vec3& value) {
