@@ -87,6 +87,7 @@ inline View looking(Looking how, const DeviceScene& placed, int width, int heigh
     if (how == Looking::orthographic || how == Looking::orthographic_aside) {
         camera.kind = Camera::Kind::orthographic;
         camera.half_height = 0.8f;
+        camera.near = 0.3f;
     }
     View view = make_view(camera, placed.frame(), width, height);
     if (how == Looking::aside || how == Looking::orthographic_aside) {

@@ -64,7 +64,15 @@ TEST_P(Visibility, ProjectsCornersToTheNearest256thOfAPixel) {
 // A plane's closeness at the centre, off by what corners moved by half a 256th of a pixel each way
 // change of it, and never beyond its corners'.
 TEST_P(Visibility, HoldsTheClosenessOfPixelCentres) {
-    const Scene scene = test::patchwork(90, 82, false);
+    Scene scene = test::patchwork(90, 82, false);
+    Random random(86);
+    for (int t = 0; t < 4000; ++t) {  // a few pixels each: these are drawn at once
+        const glm::dvec3 at(test::random_vec3(random, -0.8, 0.8));
+        glm::dvec3 corner[3];
+        for (glm::dvec3& c : corner) c = at + glm::dvec3(test::random_vec3(random, -0.03, 0.03));
+        test::add_triangle(scene, corner[0], corner[1], corner[2], random.integer(0, 11));
+    }
+    scene.colors.clear();
     const DeviceScene placed = test::on_device(scene);
     const Drawing drawing = test::draw(placed, looking(GetParam(), placed, 211, 157));
     const View& view = drawing.view;
@@ -95,6 +103,54 @@ TEST_P(Visibility, HoldsTheClosenessOfPixelCentres) {
     }
     EXPECT_GT(checked, 5000u);
     EXPECT_LT(worst, 1.0);
+}
+
+// Before the near plane there is nothing, though it lies in front of the eye; what crosses the
+// plane begins there.
+TEST(Visibility, BeginsAtTheNearPlane) {
+    for (const auto kind : {Camera::Kind::perspective, Camera::Kind::orthographic}) {
+        Scene scene = test::plain_scene();
+        scene.materials[0].double_sided = true;
+        // All of it between eye and plane; behind it a sheet from 0.5 m to 8 m that rises.
+        test::add_quad(scene,
+                       {glm::dvec3(-3, -3, -0.6), {3, -3, -0.6}, {3, 3, -0.6}, {-3, 3, -0.6}});
+        test::add_quad(scene,
+                       {glm::dvec3(-3, -0.2, -0.5), {3, -0.2, -0.5}, {3, 2, -8}, {-3, 2, -8}});
+        Camera camera = test::camera_at({0, 0, 0}, {0, 0, -1}, 1.2f);
+        camera.kind = kind;
+        camera.half_height = 1.0f;
+        camera.near = 1.0f;
+        const Drawing drawing = test::draw(scene, camera, 33, 64);
+        std::size_t seen = 0, before = 0;
+        for (std::size_t p = 0; p < drawing.pixels(); ++p) {
+            const int triangle = drawing.triangle(p);
+            EXPECT_TRUE(triangle < 0 || triangle >= 2) << p;
+            seen += triangle >= 0;
+            before += triangle >= 0 && drawing.depth(p) < drawing.view.forward.w * 0.99f;
+        }
+        EXPECT_GT(seen, 300u);
+        EXPECT_EQ(before, 0u);
+    }
+}
+
+// Far beyond the guard band in one direction alone.
+TEST(Visibility, CutsWhatIsTallOrWide) {
+    for (const bool tall : {false, true}) {
+        Scene scene = test::plain_scene();
+        const double w = tall ? 0.5 : 1e6, h = tall ? 1e6 : 0.5;
+        test::add_quad(scene, {glm::dvec3(-w, -h, -5), {w, -h, -5}, {w, h, -5}, {-w, h, -5}});
+        Camera camera = test::camera_at({0, 0, 0}, {0, 0, -1}, 1.0f);
+        camera.near = 0.1f;
+        const Drawing drawing = test::draw(scene, camera, 64, 64);
+        const double edge = 0.5 / 5 / std::tan(0.5) * 32;  // pixels from the middle
+        for (int i = 0; i < 64; ++i) {
+            const double away = std::abs(i + 0.5 - 32);
+            if (std::abs(away - edge) < 0.1) continue;
+            for (const int j : {0, 20, 63})
+                EXPECT_EQ(drawing.triangle(tall ? 64 * j + i : 64 * i + j) >= 0, away < edge)
+                    << i << ", " << j << (tall ? " tall" : " wide");
+        }
+    }
 }
 
 // A sheet of few large or many small triangles with a mask; alpha is factor times vertex alpha.
