@@ -290,6 +290,9 @@ TEST(Raster, StaysInsideItsView) {
     const auto words = test::download<std::uint64_t>(buffers.visibility, all);
     for (std::size_t p = 0; p < all; ++p)
         EXPECT_EQ(words[p] == canary, p < 19 || p >= 19 + pixels) << p;
+    view.first_pixel = 0;
+    const Drawing first = test::draw(placed, view);
+    for (std::size_t p = 0; p < pixels; ++p) EXPECT_EQ(words[19 + p], first.visibility[p]) << p;
 }
 
 }  // namespace
