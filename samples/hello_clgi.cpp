@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
                                     plane.size() * sizeof(float), plane.data(), &wait);
             image.channels.push_back({std::string(1, "RGB"[c]), plane});
         }
-        clgi::io::save_exr(image, "hello.exr", clgi::io::Storage::half);
+        clgi::io::save_exr(image, "hello.exr", clgi::io::PixelType::half);
         std::printf("hello.exr, by %s\n", clgi::describe(device).c_str());
     } catch (const std::exception& error) {
         return std::fprintf(stderr, "hello_clgi: %s\n", error.what()), 1;

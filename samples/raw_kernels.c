@@ -5,9 +5,8 @@
    DEVICE counts the devices of all platforms from 0, as `clgi devices` lists them; the first one
    is taken where none is named.
 
-   Draws a room with a block in it into a G-buffer (clear, transform, raster, raster_large,
-   resolve), lights every pixel by 64 small lights on the floor (gather) and writes irradiance as a
-   float picture. Structs and argument lists are those that the files themselves state.
+   Draws a room with a block in it into a G-buffer (raster_views, resolve), lights every pixel by
+   64 VPLs on the floor (gather) and writes irradiance as a float picture. Structs and argument lists are those that the files themselves state.
    SPDX-License-Identifier: MIT */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
@@ -19,11 +18,13 @@ typedef struct {
     cl_float4 eye, right, up, forward, window;
     cl_uint width, height, first_pixel, flags;
 } View;
-typedef struct { cl_uint triangle_count, stage, small_size, pad; } RasterParams;
+typedef struct {
+    cl_uint triangle_count, stage, small_size, first_view, capacity, late_capacity, cull, flags;
+} RasterParams;
 typedef struct { cl_uint stride, write, pad0, pad1; } ResolveParams;
-typedef struct { cl_uint vertex_count, triangle_count, flags, pad; } SceneInfo;
-typedef struct { cl_uint stride, light_count, negative_count, pad; } GatherParams;
-typedef struct { cl_float4 position, normal, flux; } IndirectLight;
+typedef struct { cl_uint vertex_count, triangle_count, flags, cluster_count; } SceneInfo;
+typedef struct { cl_uint stride, vpl_count, negative_count, pad; } GatherParams;
+typedef struct { cl_float4 position, normal, flux; } Vpl;
 typedef struct {
     cl_float4 base_color, emission, reflectance;
     cl_int base_texture, base_uv_set, emission_texture, emission_uv_set;
@@ -31,11 +32,9 @@ typedef struct {
 } MaterialRecord;
 
 enum { width = 160, height = 120, pixels = width * height, stride = pixels };
-enum { boxes = 2, vertex_count = 24 * boxes, triangle_count = 12 * boxes, light_count = 64 };
+enum { boxes = 2, vertex_count = 24 * boxes, triangle_count = 12 * boxes, vpl_count = 64 };
 enum { gbuffer_planes = 16, id_planes = 2, point_planes = 6, irradiance_planes = 3 };
-enum { screen_vertex_bytes = 16, raster_polygon_bytes = 128, raster_run_bytes = 32 };
-enum { raster_tile = 32, raster_batch = 4 };
-enum { raster_depth = 1, raster_identity = 2 };
+enum { small_triangle = 12 }; /* pixels */
 
 static cl_context context;
 static cl_device_id device;
@@ -159,9 +158,9 @@ static View view_into_the_room(void) {
 }
 
 /* The floor as 8x8 discs that shine up, redder to the right. */
-static void place_lights(IndirectLight* lights) {
-    memset(lights, 0, light_count * sizeof *lights);
-    for (int l = 0; l < light_count; ++l) {
+static void place_lights(Vpl* lights) {
+    memset(lights, 0, vpl_count * sizeof *lights);
+    for (int l = 0; l < vpl_count; ++l) {
         lights[l].position.s[0] = ((float)(l % 8) - 3.5f) / 8.0f;
         lights[l].position.s[1] = -0.5f;
         lights[l].position.s[2] = ((float)(l / 8) - 3.5f) / 8.0f;
@@ -188,44 +187,21 @@ static cl_mem draw(const View* view) {
     const cl_mem scene[] = {buffer(sizeof triangles, triangles), buffer(sizeof positions, positions),
                             buffer(sizeof normals, normals), empty, empty,
                             buffer(sizeof white, &white), empty, empty, empty};
-    const cl_mem vertices = buffer((size_t)vertex_count * screen_vertex_bytes, NULL);
-    const cl_mem polygons = buffer((size_t)triangle_count * raster_polygon_bytes, NULL);
-    const cl_mem runs = buffer((size_t)triangle_count * raster_run_bytes, NULL);
-    const cl_mem run_count = buffer(sizeof(cl_uint), NULL);
+    const cl_mem views = buffer(sizeof *view, view);
     const cl_mem visibility = buffer((size_t)pixels * sizeof(cl_ulong), NULL);
     const cl_mem planes = buffer((size_t)gbuffer_planes * stride * sizeof(cl_float), NULL);
     const cl_mem ids = buffer((size_t)id_planes * stride * sizeof(cl_int), NULL);
 
-    const cl_mem cleared[] = {visibility, run_count};
-    cl_kernel kernel = load("gbuffer", "clear");
-    set_buffers(kernel, set_values(kernel, 0, sizeof *view, view), 2, cleared);
-    run(kernel, (pixels + 7) / 8);
-
-    const cl_uint count = vertex_count;
-    const cl_mem transformed[] = {scene[1], vertices};
-    kernel = load("gbuffer", "transform");
-    cl_uint next = set_values(kernel, 0, sizeof *view, view);
-    set_buffers(kernel, set_values(kernel, next, sizeof count, &count), 2, transformed);
-    run(kernel, vertex_count);
-
-    /* Without 64-bit atomics first the nearest depth, then who is there. */
-    const cl_mem drawn[] = {scene[0], vertices, scene[1], visibility, polygons, runs, run_count};
-    for (cl_uint stage = raster_depth; stage <= raster_identity; ++stage) {
-        const RasterParams params = {triangle_count, stage, 12, 0};
-        kernel = load("gbuffer", "raster");
-        next = set_values(kernel, 0, sizeof *view, view);
-        set_buffers(kernel, set_values(kernel, next, sizeof params, &params), 7, drawn);
-        run(kernel, (triangle_count + raster_batch - 1) / raster_batch);
-    }
-    const cl_uint scene_flags = 0;
-    const cl_mem listed[] = {polygons, runs, run_count};
-    kernel = load("gbuffer", "raster_large");
-    next = set_values(kernel, 0, sizeof *view, view);
-    next = set_values(kernel, next, sizeof scene_flags, &scene_flags);
-    next = set_buffers(kernel, next, 3, listed);
+    /* One work-item draws the whole view; clusters are not looked at where cull is 0. */
+    const RasterParams params = {triangle_count, 0, small_triangle, 0, 0, 0, 0, 0};
+    const cl_uint count = 1;
+    const cl_mem seen[] = {views, empty};
+    cl_kernel kernel = load("gbuffer", "raster_views");
+    cl_uint next = set_values(kernel, 0, sizeof params, &params);
+    next = set_values(kernel, next, sizeof count, &count);
+    next = set_buffers(kernel, next, 2, seen);
     set_buffers(kernel, set_buffers(kernel, next, 9, scene), 1, &visibility);
-    run(kernel, (size_t)((width + raster_tile - 1) / raster_tile) *
-                    ((height + raster_tile - 1) / raster_tile));
+    run(kernel, 1);
 
     const ResolveParams resolve = {stride, 0, 0, 0};
     const SceneInfo info = {vertex_count, triangle_count, 0, 0};
@@ -237,17 +213,16 @@ static cl_mem draw(const View* view) {
     set_buffers(kernel, set_buffers(kernel, next, 9, scene), 3, resolved);
     run(kernel, pixels);
 
-    const cl_mem done[] = {scene[0], scene[1], scene[2],  scene[5],   empty, vertices,
-                           polygons, runs,     run_count, visibility, ids};
+    const cl_mem done[] = {scene[0], scene[1], scene[2], scene[5], empty, views, visibility, ids};
     for (size_t i = 0; i < sizeof done / sizeof *done; ++i) clReleaseMemObject(done[i]);
     return planes;
 }
 
 /* The first six planes are points with normals: what gather lights. */
 static void gather(cl_mem points, float* irradiance) {
-    IndirectLight lights[light_count];
+    Vpl lights[vpl_count];
     place_lights(lights);
-    const GatherParams params = {stride, light_count, 0, 0};
+    const GatherParams params = {stride, vpl_count, 0, 0};
     const cl_uint count = pixels;
     const size_t bytes = (size_t)irradiance_planes * stride * sizeof(cl_float);
     const cl_mem arguments[] = {buffer(sizeof count, &count), points,

@@ -40,8 +40,8 @@ Scene discs(double blocker) {
 }
 
 // On the source, which sends out 1 lumen a square metre everywhere.
-std::vector<IndirectLight> source_lights(const SceneFrame& frame) {
-    std::vector<IndirectLight> lights;
+std::vector<Vpl> source_lights(const SceneFrame& frame) {
+    std::vector<Vpl> lights;
     const float flux = static_cast<float>(pi / (rings * rings) * frame.scale * frame.scale);
     for (int ring = 0; ring < rings; ++ring)
         for (int k = 0; k < rings; ++k) {
@@ -89,8 +89,8 @@ double negative_limit(double blocker) {
     return sum;
 }
 
-std::vector<IndirectLight> negative_lights(const DeviceScene& scene, const Camera& camera,
-                                           const std::vector<IndirectLight>& lights, Math math) {
+std::vector<Vpl> negative_vpls(const DeviceScene& scene, const Camera& camera,
+                                           const std::vector<Vpl>& lights, Math math) {
     const View view = make_view(camera, scene.frame(), 128, 128);
     const test::Drawing drawing = test::draw(scene, view, test::gbuffer_passes(math));
     const NegativeParams params{static_cast<cl_uint>(lights.size()),
@@ -101,10 +101,10 @@ std::vector<IndirectLight> negative_lights(const DeviceScene& scene, const Camer
                                 0,
                                 0,
                                 0};
-    const cl::Buffer out = test::empty<IndirectLight>(samples);
+    const cl::Buffer out = test::empty<Vpl>(samples);
     const cl::Buffer planes = test::upload(drawing.planes), sources = test::upload(lights);
     test::light_passes(math).negative(test::device().queue, params, view, planes, sources, out);
-    return test::download<IndirectLight>(out, samples);
+    return test::download<Vpl>(out, samples);
 }
 
 CLGI_IN_BOTH_MATHS(BlockerDisc);
@@ -140,7 +140,7 @@ TEST_P(BlockerDisc, IsTakenAwayAsFarAsACosineLobeCan) {
         camera.half_height = static_cast<float>(border * blocker);
         for (const Camera::Kind kind : {Camera::Kind::perspective, Camera::Kind::orthographic}) {
             camera.kind = kind;
-            const auto negative = negative_lights(scene, camera, lights, GetParam());
+            const auto negative = negative_vpls(scene, camera, lights, GetParam());
             const double less = test::gather({receiver}, lights, negative, image)[0].x;
             // Of so many points that many lie on the disc, were they random; Halton points must
             // do better than one standard deviation of those.
@@ -162,8 +162,8 @@ TEST_P(BlockerDisc, IsTheOnlyOneThatHidesAnything) {
     camera.kind = Camera::Kind::orthographic;
     camera.half_height = 1.0f;
     int hiding = 0;
-    for (const IndirectLight& light :
-         negative_lights(scene, camera, source_lights(scene.frame()), GetParam())) {
+    for (const Vpl& light :
+         negative_vpls(scene, camera, source_lights(scene.frame()), GetParam())) {
         if (light.flux.x == 0.0f) continue;
         ++hiding;
         const glm::dvec3 at =

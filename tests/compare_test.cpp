@@ -33,7 +33,7 @@ protected:
     }
 
     std::string save(const std::string& name, const Image& image) const {
-        clgi::io::save_exr(image, at(name), clgi::io::Storage::full);
+        clgi::io::save_exr(image, at(name), clgi::io::PixelType::full);
         return at(name).string();
     }
 

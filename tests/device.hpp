@@ -3,7 +3,6 @@
 #pragma once
 
 #include <clgi/clgi.hpp>
-#include <map>
 #include <vector>
 
 namespace clgi::test {
@@ -26,18 +25,22 @@ inline const Device& device() {
     return shared;
 }
 
+// Kernels that all tests of a process share: each is built once for each kind of build.
+inline const Programs& programs() {
+    static const Programs shared(device().context, device().device);
+    return shared;
+}
+
 inline DeviceScene on_device(const Scene& scene) {
     return DeviceScene(device().context, device().device, scene);
 }
 
-// A room's passes as they are built by default, once a process and kind of math.
+// A room's passes as they are built by default, of each kind of math.
 template <typename Passes>
 const Passes& shared_passes(Math math) {
-    static std::map<Math, Passes> built;
-    const auto known = built.find(math);
-    if (known != built.end()) return known->second;
-    return built.try_emplace(math, device().context, device().device, BuildOptions{.math = math})
-        .first->second;
+    static const Passes strict(programs(), BuildOptions{.math = Math::strict});
+    static const Passes fast(programs(), BuildOptions{.math = Math::fast});
+    return math == Math::fast ? fast : strict;
 }
 
 template <typename T>

@@ -7,8 +7,16 @@
 #include <glm/gtc/packing.hpp>
 
 #include "device.hpp"
+#include "kernel_text.hpp"
 
 namespace clgi::test {
+
+// A vertex as the rasteriser projects it.
+struct ScreenVertex {
+    std::int32_t x, y;  // 24.8 fixed point
+    float closeness;
+    std::uint32_t outside;  // VERTEX_...
+};
 
 struct Drawing {
     View view{};
@@ -55,27 +63,50 @@ inline std::vector<float> read_planes(const GBuffer& from) {
     return out;
 }
 
-inline RasterBuffers raster_buffers(const DeviceScene& scene, std::size_t pixels) {
-    return {empty<std::uint64_t>(pixels),
-            empty<ScreenVertex>(std::max(scene.info().vertex_count, 1u)),
-            empty<RasterPolygon>(std::max(scene.info().triangle_count, 1u)),
-            empty<RasterRun>(std::max<std::size_t>(raster_runs(scene.info().triangle_count), 1)),
-            empty<cl_uint>(1)};
+inline RasterBuffers raster_buffers(const DeviceScene& scene, std::size_t pixels,
+                                    Pixels kind = Pixels::visibility, std::uint32_t views = 1,
+                                    std::uint32_t capacity = 0) {
+    const std::size_t triangles = std::max(scene.info().triangle_count, 1u);
+    RasterBuffers out;
+    out.views = views;
+    out.capacity = capacity > 0 ? capacity : raster_capacity(triangles);
+    out.kind = kind;
+    out.pixels = empty<std::uint8_t>(std::max<std::size_t>(pixels, 1) * pixel_bytes(kind));
+    out.polygons = empty<RasterPolygon>(std::size_t{views} * out.capacity);
+    out.runs = empty<RasterRun>(std::size_t{views} * out.capacity);
+    out.late = empty<cl_uint>(views * raster_batches(triangles));
+    out.counts = empty<RasterCount>(views);
+    return out;
 }
 
-// Fills the view's part of buffers.visibility.
+// Fills the view's part of buffers.pixels, by lists of large triangles or (whole) one view a
+// work-item.
 inline void draw_visibility(const GBufferPasses& passes, const DeviceScene& scene, const View& view,
-                            const RasterBuffers& buffers) {
+                            const RasterBuffers& buffers, bool whole = false) {
     const cl::CommandQueue& queue = device().queue;
-    passes.clear(queue, view, buffers);
-    passes.transform(queue, view, scene, buffers);
-    if (passes.fused()) {
-        passes.raster(queue, view, scene, RASTER_FUSED, buffers);
-    } else {
-        passes.raster(queue, view, scene, RASTER_DEPTH, buffers);
-        passes.raster(queue, view, scene, RASTER_IDENTITY, buffers);
+    const cl::Buffer views = upload(std::vector<View>{view});
+    const ViewSpan span = span_of({view}, 0, 1);
+    if (whole) {
+        passes.raster_views(queue, span, views, scene, buffers.pixels, buffers.kind);
+        queue.finish();
+        return;
     }
-    passes.raster_large(queue, view, scene, buffers);
+    draw(queue, passes, scene, span, views, buffers);
+    queue.finish();
+}
+
+inline std::vector<ScreenVertex> project(const DeviceScene& scene, const View& view) {
+    static cl::Kernel kernel = [] {
+        cl::Program program(device().context, kernel_text("tests/project.cl"));
+        program.build(device().device, compiler_options(device().device, {.packet_width = 1}).c_str());
+        return cl::Kernel(program, "project");
+    }();
+    const cl::Buffer found = empty<ScreenVertex>(scene.info().vertex_count);
+    kernel.setArg(0, view);
+    kernel.setArg(1, scene.positions());
+    kernel.setArg(2, found);
+    device().queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(scene.info().vertex_count));
+    return download<ScreenVertex>(found, scene.info().vertex_count);
 }
 
 inline const GBufferPasses& gbuffer_passes(Math math = Math::strict) {
@@ -96,9 +127,9 @@ inline Drawing draw(const DeviceScene& scene, const View& view,
     queue.enqueueFillBuffer(ids, cl_int{0}, 0, GBUFFER_ID_PLANES * out.stride * sizeof(cl_int));
     draw_visibility(passes, scene, view, buffers);
     const ResolveParams params{out.stride, RESOLVE_ALL, 0, 0};
-    passes.resolve(queue, view, scene, params, buffers.visibility, planes, ids);
-    out.visibility = download<std::uint64_t>(buffers.visibility, pixels, view.first_pixel);
-    out.vertices = download<ScreenVertex>(buffers.vertices, scene.info().vertex_count);
+    passes.resolve(queue, view, scene, params, buffers.pixels, planes, ids);
+    out.visibility = download<std::uint64_t>(buffers.pixels, pixels, view.first_pixel);
+    if (scene.info().vertex_count > 0) out.vertices = project(scene, view);
     out.triangles = download<glm::uvec4>(scene.triangles(), scene.info().triangle_count);
     out.order = scene.triangle_order();
     out.planes = download<float>(planes, GBUFFER_PLANES * out.stride);

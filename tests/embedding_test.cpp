@@ -18,13 +18,13 @@ SecondOrderOptions small() {
     SecondOrderOptions options;
     options.width = 61;
     options.height = 43;
-    options.sources = {.lights = 120, .shadow_size = 64, .face_size = 32};
-    options.negative_lights = 40;
+    options.emitters = {.vpls = 120, .shadow_size = 64, .face_size = 32};
+    options.negative_vpls = 40;
     return options;
 }
 
 const Scene& room() {
-    static const Scene scene = cornell({.lamp = Lamp::spot});
+    static const Scene scene = cornell({.light = LightSource::spot});
     return scene;
 }
 
@@ -111,7 +111,7 @@ TEST(Embedding, TheEstimateIsWhatIsAllocated) {
         SecondOrderOptions options = small();
         if (variant == 1) options.low_resolution_step = 1;
         if (variant == 2) options.indirect = false;
-        if (variant == 3) options.negative_lights = 0;
+        if (variant == 3) options.negative_vpls = 0;
         if (variant == 4) options.width = 300;
         calls.clear();
         const SecondOrderSolver solver(test::device().queue, scene, options);
@@ -139,13 +139,13 @@ TEST(Embedding, ABudgetIsKeptAndNamesTheOptionToLower) {
     const std::string text = refusal(scene, options);
     EXPECT_EQ(calls.buffers, 0);
     EXPECT_NE(text.find("memory_budget allows"), std::string::npos) << text;
-    EXPECT_NE(text.find("width and height"), std::string::npos) << text;
-    options.sources.shadow_size = 2048;
-    EXPECT_NE(refusal(scene, options).find("sources.shadow_size"), std::string::npos);
+    EXPECT_NE(text.find("emitters.vpls"), std::string::npos) << text;
+    options.emitters.shadow_size = 2048;
+    EXPECT_NE(refusal(scene, options).find("emitters.shadow_size"), std::string::npos);
     options = small();
-    options.sources.lights = 1 << 20;
+    options.emitters.vpls = 1 << 20;
     options.memory_budget = 10 << 20;
-    EXPECT_NE(refusal(scene, options).find("sources.lights"), std::string::npos);
+    EXPECT_NE(refusal(scene, options).find("emitters.vpls"), std::string::npos);
 }
 
 TEST(Embedding, ARefusedChangeLeavesTheSolverAsItWas) {
@@ -159,10 +159,10 @@ TEST(Embedding, ARefusedChangeLeavesTheSolverAsItWas) {
     };
     const auto before = picture();
     SecondOrderOptions other = small();
-    other.sources.lights = 7;
+    other.emitters.vpls = 7;
     other.memory_budget = 1000;
     EXPECT_THROW(solver.reconfigure(other), DeviceError);
-    EXPECT_EQ(solver.options().sources.lights, small().sources.lights);
+    EXPECT_EQ(solver.options().emitters.vpls, small().emitters.vpls);
     EXPECT_TRUE(test::same_bits(picture(), before));
     other.memory_budget = 0;
     solver.reconfigure(other);
@@ -179,7 +179,8 @@ TEST(Embedding, ABufferLargerThanTheDeviceAllowsIsNamed) {
     calls.clear();
     const std::string text = refusal(scene, options);
     EXPECT_EQ(calls.buffers, 0);
-    EXPECT_NE(text.find("planes need"), std::string::npos) << text;
+    EXPECT_NE(text.find(" need "), std::string::npos) << text;
+    EXPECT_NE(text.find("in one buffer"), std::string::npos) << text;
     EXPECT_NE(text.find("lower width and height"), std::string::npos) << text;
 }
 
@@ -213,10 +214,10 @@ TEST(Dispatches, OfManyLightsChangeNoBit) {
     options.low_resolution_step = 1;
     options.width = 40;
     options.height = 30;
-    options.sources.lights = 1 << 20;
-    options.sources.shadow_size = 64;
-    options.negative_lights = 3;
-    options.sources.face_size = 16;
+    options.emitters.vpls = 1 << 20;
+    options.emitters.shadow_size = 64;
+    options.negative_vpls = 3;
+    options.emitters.face_size = 16;
     SecondOrderSolver solver(test::device().queue, scene, options);
     std::vector<double> seen;
     ASSERT_TRUE(solver.run(room().cameras[0], [&](double done) {
@@ -231,12 +232,12 @@ TEST(Dispatches, OfManyLightsChangeNoBit) {
     EXPECT_EQ(seen.back(), 1.0);
     // The same gather as one dispatch.
     const auto pixels = static_cast<std::uint32_t>(options.width * options.height);
-    const auto lights = static_cast<std::uint32_t>(solver.sources().light_count);
+    const auto lights = static_cast<std::uint32_t>(solver.emitters().vpl_count);
     const std::size_t floats = IRRADIANCE_PLANES * std::size_t{solver.stride()};
     const cl::Buffer whole = test::empty<float>(floats);
     solver.image_passes().gather(test::device().queue, {solver.stride(), lights, 3, 0}, pixels,
                                  test::upload(std::vector<cl_uint>{pixels}), solver.planes(),
-                                 solver.indirect_lights(), solver.negative_lights(), whole);
+                                 solver.vpls(), solver.negative_vpls(), whole);
     const auto one = test::vectors(test::device().queue, whole, solver.stride(), pixels);
     const auto many =
         test::vectors(test::device().queue, solver.irradiance(), solver.stride(), pixels);
@@ -266,7 +267,7 @@ TEST(Dispatches, OfARangeTouchNothingBesideIt) {
     const auto gather = [&](const Range& range) {
         solver.image_passes().gather(test::device().queue, {solver.stride(), 120, 40, 0}, range,
                                      test::upload(std::vector<cl_uint>{61 * 43}), solver.planes(),
-                                     solver.indirect_lights(), solver.negative_lights(), part);
+                                     solver.vpls(), solver.negative_vpls(), part);
     };
     gather({512, 96});
     const auto found = test::download<float>(part, solver.stride());

@@ -38,24 +38,24 @@ double power_of(const Emitter& emitter) {
 TEST(Emitters, SendAllLightHoweverFewLightsThereAre) {
     const DeviceScene scene = test::on_device(scene_of_all());
     for (const int count : {1, 2, 5, 20, 100, 20000}) {
-        const EmitterSet set = make_emitters(scene, {.lights = count});
+        const EmitterSet set = make_emitters(scene, {.vpls = count});
         ASSERT_EQ(set.emitters.size(), 35u);
         double all = 0.0, sent = 0.0;
         std::size_t without = 0;
         for (const Emitter& emitter : set.emitters) {
             all += power_of(emitter);
-            if (emitter.light_count > 0) sent += power_of(emitter) * double{emitter.taken_over};
-            without += emitter.light_count == 0;
+            if (emitter.vpl_count > 0) sent += power_of(emitter) * double{emitter.taken_over};
+            without += emitter.vpl_count == 0;
         }
         EXPECT_NEAR(sent, all, 1e-6 * all) << count;
-        EXPECT_EQ(set.light_count, static_cast<std::size_t>(count));
+        EXPECT_EQ(set.vpl_count, static_cast<std::size_t>(count));
         if (count < 35) {
             EXPECT_GT(without, 0u) << count;
         }
         if (without > 0) continue;
         for (const Emitter& emitter : set.emitters) EXPECT_EQ(emitter.taken_over, 1.0f);
     }
-    for (const Emitter& emitter : make_emitters(scene, {.lights = 0}).emitters)
+    for (const Emitter& emitter : make_emitters(scene, {.vpls = 0}).emitters)
         EXPECT_EQ(emitter.taken_over, 1.0f);  // nobody is there to take over
 }
 
@@ -67,13 +67,52 @@ TEST_P(Shares, OfSourcesWithoutLightsAreSentByTheOthers) {
     const DeviceScene scene = test::on_device(world);
     for (const int count : {1, 3, 200})
         EXPECT_NEAR(test::total_flux(
-                        scene, test::place_lights(scene, {.lights = count}, GetParam()).lights),
+                        scene, test::place_lights(scene, {.vpls = count}, GetParam()).lights),
                     0.5 * 4 * pi * 11, 1e-5 * 0.5 * 4 * pi * 11)
             << count;
 }
 
+// Lumen of a spot of 1 cd, by the fall-off as KHR_lights_punctual states it, ring by ring.
+double cone_flux(double inner, double outer) {
+    constexpr int rings = 100000;
+    double sum = 0.0;
+    for (int i = 0; i < rings; ++i) {
+        const double angle = outer * (i + 0.5) / rings;
+        const double linear =
+            (std::cos(angle) - std::cos(outer)) / std::max(std::cos(inner) - std::cos(outer), 1e-9);
+        const double share = std::clamp(linear, 0.0, 1.0);
+        sum += 2.0 * pi * std::sin(angle) * share * share;
+    }
+    return sum * outer / rings;
+}
+
+TEST(Emitters, ShareLightsByTheFluxOfTheirCones) {
+    constexpr int count = 1 << 20;
+    const struct {
+        double inner, outer;
+        float candela;
+    } spots[] = {{0.0, 0.7, 3.0f}, {0.6999, 0.7, 1.0f}, {0.3, 1.4, 0.5f}, {0.0, 0.02, 900.0f}};
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 2.0);
+    double total = 0.0;
+    for (const auto& spot : spots) {
+        Light light = test::spot_light({0, 2, 0}, {0, -1, 0}, spot.outer, spot.candela);
+        light.inner_angle = static_cast<float>(spot.inner);
+        scene.lights.push_back(light);
+        total += double{spot.candela} * cone_flux(spot.inner, spot.outer);
+    }
+    const EmitterSet set = make_emitters(test::on_device(scene), {.vpls = count});
+    ASSERT_EQ(set.emitters.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double wanted =
+            count * double{spots[i].candela} * cone_flux(spots[i].inner, spots[i].outer) / total;
+        // One light of rounding, and the float angles' own.
+        EXPECT_NEAR(set.emitters[i].vpl_count, wanted, 2.0 + 1e-5 * wanted) << i;
+    }
+}
+
 TEST(Emitters, GoAlongOneSequenceWithinTheirGroup) {
-    const EmitterSet set = make_emitters(test::on_device(scene_of_all()), {.lights = 500});
+    const EmitterSet set = make_emitters(test::on_device(scene_of_all()), {.vpls = 500});
     std::uint32_t of_surfaces = 1, of_environment = 1;
     for (std::size_t i = 0; i < set.emitters.size(); ++i) {
         const Emitter& emitter = set.emitters[i];
@@ -83,7 +122,7 @@ TEST(Emitters, GoAlongOneSequenceWithinTheirGroup) {
         }
         std::uint32_t& next = emitter.kind == EMITTER_AREA ? of_surfaces : of_environment;
         EXPECT_EQ(emitter.first_index, next) << i;
-        next += emitter.light_count;
+        next += emitter.vpl_count;
     }
     EXPECT_GT(of_surfaces, 16u);
     EXPECT_GT(of_environment, 16u);

@@ -30,8 +30,8 @@ Frame render(const Scene& scene, Math math, const Camera& camera = above, int li
     options.build.math = math;
     options.width = 19;
     options.height = 13;
-    options.sources.lights = lights;
-    options.negative_lights = negative;
+    options.emitters.vpls = lights;
+    options.negative_vpls = negative;
     return test::render(scene, camera, options);
 }
 
@@ -123,8 +123,8 @@ TEST_P(Nothing, OfArea) {
 TEST_P(Nothing, OfNegativeLightsAndFootprint) {
     SecondOrderOptions options;
     options.width = options.height = 1;
-    options.sources.lights = 1;
-    options.negative_lights = 0;
+    options.emitters.vpls = 1;
+    options.negative_vpls = 0;
     options.footprint = 0.0f;
     options.build.math = GetParam();
     expect_finite(test::render(lit_floor(), above, options));

@@ -24,7 +24,7 @@ SecondOrderOptions options_for(int width, int height, Math math = Math::strict) 
     options.build.math = math;
     options.width = width;
     options.height = height;
-    options.sources.shadow_size = 256;
+    options.emitters.shadow_size = 256;
     return options;
 }
 
@@ -79,7 +79,7 @@ TEST_P(Background, FillsAPictureOfNothing) {
     scene.environment = test::even_sky({1, 2, 3});
     for (const int lights : {0, 16}) {
         SecondOrderOptions options = options_for(19, 13, GetParam());
-        options.sources.environment_lights = lights;
+        options.emitters.environment_lights = lights;
         const Frame frame = test::render(scene, test::camera_at({0, 0, 0}, {0, 0, -1}), options);
         for (const glm::vec3& radiance : frame.radiance) EXPECT_EQ(radiance, glm::vec3(1, 2, 3));
     }
@@ -105,7 +105,7 @@ TEST(Background, CostsNothingWhereItIsNotWanted) {
     SecondOrderOptions options = options_for(21, 15);
     const auto drawn = [&] {
         const DeviceScene placed = test::on_device(scene);
-        SecondOrderSolver solver(test::device().queue, placed, options);
+        SecondOrderSolver solver(test::programs(), test::device().queue, placed, options);
         solver.render(camera).wait();
         const auto& events = solver.events();
         return std::count_if(events.begin(), events.end(), [](const PassEvent& pass) {
@@ -121,12 +121,6 @@ TEST(Background, CostsNothingWhereItIsNotWanted) {
     scene.environment.reset();
     scene.lights = {test::directional_light({0, -1, 0})};
     EXPECT_EQ(drawn(), 0);
-    const ImagePasses without(test::device().context, test::device().device,
-                              {.environment = false});
-    const cl::Buffer any = test::empty<float>(1024);
-    EXPECT_THROW(without.environment(test::device().queue, {glm::vec4(1.0f), 1, 1, 16, 0.0f},
-                                     View{}, any, any, any),
-                 Error);
 }
 
 // Rotation takes light and background along: the same as turning scene and camera back.
@@ -177,8 +171,8 @@ TEST_P(EnvironmentLights, LightAFloorNearlyAsTheSkyWould) {
     const double wanted = 0.6 / pi * (pi / 2 + pi / 3);
     for (const auto& [count, most] : {std::pair(16, 0.08), {256, 0.02}}) {
         SecondOrderOptions options = options_for(16, 12, GetParam());
-        options.sources.environment_lights = count;
-        options.sources.shadow_size = 64;
+        options.emitters.environment_lights = count;
+        options.emitters.shadow_size = 64;
         options.indirect = false;
         const Frame frame =
             test::render(scene, test::camera_at({0, 3, 0.1}, {0, 0, 0}, 0.5f), options);
@@ -199,9 +193,9 @@ TEST(EnvironmentLights, ComeCloseToTheReference) {
     const reference::Picture wanted = reference::PathTracer(scene).render(camera, truth);
     for (const auto& [count, most] : {std::pair(16, 0.085), {64, 0.04}, {256, 0.033}}) {
         SecondOrderOptions options = options_for(80, 60);
-        options.sources.environment_lights = count;
-        options.sources.lights = 2048;
-        options.negative_lights = 0;
+        options.emitters.environment_lights = count;
+        options.emitters.vpls = 2048;
+        options.negative_vpls = 0;
         options.low_resolution_step = 1;
         const Frame frame = test::render(scene, camera, options);
         double square = 0.0, mean = 0.0, signed_sum = 0.0;

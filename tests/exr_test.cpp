@@ -26,7 +26,7 @@
 namespace {
 
 using namespace pictures;
-using clgi::io::Storage;
+using clgi::io::PixelType;
 using Exr = ImageIo;
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -46,7 +46,7 @@ void set_data_window(const fs::path& path, std::array<std::int32_t, 4> window) {
 TEST_F(Exr, FullStorageKeepsEveryBit) {
     const std::vector<float> values = {0.0f,   -0.0f,    1.0f,    -1.0f,    1e20f, 65504.0f,
                                        1e-40f, 1.4e-45f, largest, -largest, 0.1f,  3.0e-8f};
-    clgi::io::save_exr(row_of(values), at("a.exr"), Storage::full);
+    clgi::io::save_exr(row_of(values), at("a.exr"), PixelType::full);
     clgi::io::LoadReport report;
     const Image image = clgi::io::load_image(at("a.exr"), &report);
     EXPECT_EQ(report.non_finite, 0u);
@@ -62,17 +62,17 @@ TEST_F(Exr, FullStorageKeepsEveryBit) {
 
 TEST_F(Exr, HalfStorageSaturatesInsteadOfBecomingInfinite) {
     const std::vector<float> values = {65504.0f, 65519.0f, 65520.0f, 1e20f, inf, largest};
-    clgi::io::save_exr(row_of(values), at("a.exr"), Storage::half);
+    clgi::io::save_exr(row_of(values), at("a.exr"), PixelType::half);
     const Image image = clgi::io::read_image(at("a.exr"));
     for (const float v : image.find("R")->values) EXPECT_EQ(v, 65504.0f);
-    clgi::io::save_exr(row_of({-65520.0f, -inf}), at("b.exr"), Storage::half);
+    clgi::io::save_exr(row_of({-65520.0f, -inf}), at("b.exr"), PixelType::half);
     EXPECT_EQ(clgi::io::read_image(at("b.exr")).find("R")->values,
               (std::vector<float>{-65504.0f, -65504.0f}));
 }
 
 TEST_F(Exr, HalfStorageRoundsToNearest) {
     clgi::io::save_exr(row_of({1.0f, 0.1f, -1.0f, 2.9e-8f, 6.0e-8f, 2049.0f}), at("a.exr"),
-                       Storage::half);
+                       PixelType::half);
     const auto values = clgi::io::load_image(at("a.exr")).find("G")->values;
     EXPECT_EQ(values[0], 1.0f);
     EXPECT_NEAR(values[1], 0.1f, 0.1f * 0x1p-11f);
@@ -83,7 +83,7 @@ TEST_F(Exr, HalfStorageRoundsToNearest) {
 }
 
 TEST_F(Exr, NonFiniteSamplesAreReplacedAndCounted) {
-    clgi::io::save_exr(row_of({nan_value, inf, -inf, 1.0f}), at("a.exr"), Storage::full);
+    clgi::io::save_exr(row_of({nan_value, inf, -inf, 1.0f}), at("a.exr"), PixelType::full);
     clgi::io::LoadReport report;
     const Image image = clgi::io::load_image(at("a.exr"), &report);
     EXPECT_EQ(report.non_finite, 9u);
@@ -97,7 +97,7 @@ TEST_F(Exr, AttributesAndChannelNamesComeBack) {
     image.attributes = {{"clgi:quantity", "radiance"},
                         {"clgi:unit", "cd/m^2"},
                         {"an attribute with a name longer than thirty-one letters", ""}};
-    clgi::io::save_exr(image, at("a.exr"), Storage::full);
+    clgi::io::save_exr(image, at("a.exr"), PixelType::full);
     const Image back = clgi::io::load_image(at("a.exr"));
     EXPECT_EQ(back.attributes, image.attributes);
     ASSERT_NE(back.find("normal.X"), nullptr);
@@ -108,12 +108,12 @@ TEST_F(Exr, AttributesAndChannelNamesComeBack) {
 TEST_F(Exr, AttributeNamedAsAPartTypeDoesNotSpoilTheFile) {
     Image image = row_of({1.0f});
     image.attributes = {{"type", "deepscanline"}, {"name", "x"}};
-    clgi::io::save_exr(image, at("a.exr"), Storage::full);
+    clgi::io::save_exr(image, at("a.exr"), PixelType::full);
     EXPECT_EQ(clgi::io::load_image(at("a.exr")).width, 1);
 }
 
 TEST_F(Exr, OnePixelComesBack) {
-    clgi::io::save_exr(row_of({0.25f}), at("a.exr"), Storage::half);
+    clgi::io::save_exr(row_of({0.25f}), at("a.exr"), PixelType::half);
     const Image image = clgi::io::load_image(at("a.exr"));
     EXPECT_EQ(image.width, 1);
     EXPECT_EQ(image.height, 1);
@@ -127,31 +127,31 @@ TEST_F(Exr, RowsStayInTheirOrder) {
     std::vector<float> values;
     for (int i = 0; i < 120; ++i) values.push_back(static_cast<float>(i));
     image.channels = {{"Y", values}};
-    clgi::io::save_exr(image, at("a.exr"), Storage::full);
+    clgi::io::save_exr(image, at("a.exr"), PixelType::full);
     EXPECT_EQ(clgi::io::load_image(at("a.exr")).find("Y")->values, values);
 }
 
 TEST_F(Exr, BrokenImagesAreNotSaved) {
     Image image = row_of({1.0f, 2.0f});
     image.channels[1].values.pop_back();
-    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), Storage::full), clgi::Error);
-    EXPECT_THROW(clgi::io::save_exr(Image{}, at("a.exr"), Storage::full), clgi::Error);
+    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), PixelType::full), clgi::Error);
+    EXPECT_THROW(clgi::io::save_exr(Image{}, at("a.exr"), PixelType::full), clgi::Error);
     image = row_of({1.0f});
     image.channels[1].name = "R";
-    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), Storage::full), clgi::Error);
+    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), PixelType::full), clgi::Error);
     image = row_of({1.0f});
     image.attributes = {{"compression", "not a string attribute"}};
-    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), Storage::full), clgi::Error);
+    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), PixelType::full), clgi::Error);
     image.attributes = {{std::string(256, 'a'), "too long a name"}};
-    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), Storage::full), clgi::Error);
+    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), PixelType::full), clgi::Error);
     image = row_of({1.0f});
     image.channels[1].name = std::string(256, 'a');
-    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), Storage::full), clgi::Error);
+    EXPECT_THROW(clgi::io::save_exr(image, at("a.exr"), PixelType::full), clgi::Error);
     EXPECT_EQ(file_count(), 0u);
 }
 
 TEST_F(Exr, ZeroByZeroIsRefused) {
-    clgi::io::save_exr(row_of({1.0f}), at("a.exr"), Storage::full);
+    clgi::io::save_exr(row_of({1.0f}), at("a.exr"), PixelType::full);
     set_data_window(at("a.exr"), {0, 0, -1, -1});
     expect_refused(at("a.exr"), "");
 }
@@ -165,7 +165,7 @@ TEST_F(Exr, HugeDimensionsAreRefusedBeforeAllocating) {
         {0, 0, 1 << 29, 0}, {0, 0, 1 << 29, 1 << 29}, {0, 0, 20000, 20000},
         {least, 0, -1, 0},  {most - 1, 0, most, 1},   {0, 0, 0, 1 << 29}};
     for (const auto& window : windows) {
-        clgi::io::save_exr(row_of({1.0f, 2.0f}), at("a.exr"), Storage::full);
+        clgi::io::save_exr(row_of({1.0f, 2.0f}), at("a.exr"), PixelType::full);
         set_data_window(at("a.exr"), window);
         EXPECT_THROW(clgi::io::load_image(at("a.exr")), clgi::InputError)
             << window[0] << " " << window[1] << " " << window[2] << " " << window[3];
@@ -208,7 +208,7 @@ TEST_F(Exr, HeaderThatClaimsMoreThanTheFileIsRefused) {
 TEST_F(Exr, EveryTruncationIsRefused) {
     Image image = row_of(std::vector<float>(50, 0.0f));
     for (std::size_t i = 0; i < 50; ++i) image.channels[0].values[i] = 1.0f / (1.0f + i);
-    clgi::io::save_exr(image, at("whole.exr"), Storage::full);
+    clgi::io::save_exr(image, at("whole.exr"), PixelType::full);
     const std::string whole = bytes_of(at("whole.exr"));
     for (std::size_t length = 0; length < whole.size(); ++length) {
         write("a.exr", whole.substr(0, length));
@@ -218,7 +218,7 @@ TEST_F(Exr, EveryTruncationIsRefused) {
 
 // Any byte may be wrong: the picture is read or refused, nothing else.
 TEST_F(Exr, EveryWrongByteIsReadOrRefused) {
-    clgi::io::save_exr(row_of({1.0f, 0.5f, 0.25f, 0.125f}), at("whole.exr"), Storage::half);
+    clgi::io::save_exr(row_of({1.0f, 0.5f, 0.25f, 0.125f}), at("whole.exr"), PixelType::half);
     const std::string whole = bytes_of(at("whole.exr"));
     for (std::size_t i = 0; i < whole.size(); ++i) {
         for (const char value : {'\x00', '\x7f', '\xff', static_cast<char>(whole[i] ^ 1)}) {
@@ -351,7 +351,7 @@ TEST_F(Exr, RealProbeSurvivesARoundTrip) {
         clgi::io::LoadReport report;
         const Image image = clgi::io::load_image(path, &report);
         EXPECT_EQ(report.non_finite, 0u);
-        clgi::io::save_exr(image, at("a.exr"), Storage::full);
+        clgi::io::save_exr(image, at("a.exr"), PixelType::full);
         const Image back = clgi::io::load_image(at("a.exr"));
         ASSERT_EQ(back.channels.size(), image.channels.size());
         for (std::size_t c = 0; c < image.channels.size(); ++c) {

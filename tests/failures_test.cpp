@@ -14,7 +14,7 @@ namespace {
 using test::calls;
 
 const Scene& room() {
-    static const Scene scene = cornell({.lamp = Lamp::spot});
+    static const Scene scene = cornell({.light = LightSource::spot});
     return scene;
 }
 
@@ -22,8 +22,8 @@ SecondOrderOptions small() {
     SecondOrderOptions options;
     options.width = 48;
     options.height = 36;
-    options.sources = {.lights = 60, .shadow_size = 64};
-    options.negative_lights = 20;
+    options.emitters = {.vpls = 60, .shadow_size = 64};
+    options.negative_vpls = 20;
     return options;
 }
 
@@ -72,7 +72,9 @@ TEST_F(Failures, OfFindingADevice) {
 
 TEST_F(Failures, OfACompilerShowItsLog) {
     calls.build_option = " -Dkernel=no_such_word";
-    expect_in(failure([] { GBufferPasses(test::device().context, test::device().device); }),
+    expect_in(failure([] {
+                  GBufferPasses(test::device().context, test::device().device).build({"clear"});
+              }),
               {"gbuffer/clear.cl does not build on", "CL_BUILD_PROGRAM_FAILURE", "no_such_word"});
 }
 

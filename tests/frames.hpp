@@ -13,13 +13,13 @@ namespace clgi::test {
 struct Frame {
     std::size_t pixels = 0;
     SceneFrame place;
-    FrameStatus status;
+    RenderStatus status;
     std::size_t launches = 0;
     std::vector<glm::vec3> radiance;    // [height][width] cd/m^2
     std::vector<glm::vec3> position;    // [height][width] local frame
     std::vector<glm::vec3> irradiance;  // [height][width] local frame, exposed; indirect
-    std::vector<IndirectLight> lights;  // [N]
-    std::vector<IndirectLight> negative;
+    std::vector<Vpl> lights;  // [N]
+    std::vector<Vpl> negative;
 
     glm::dvec3 world(std::size_t pixel) const {
         return glm::dvec3(position[pixel]) / place.scale + place.origin;
@@ -69,25 +69,25 @@ inline Frame read_frame(const cl::CommandQueue& queue, const DeviceScene& scene,
     out.radiance = vectors(queue, solver.radiance(), solver.stride(), out.pixels);
     if (out.launches == 0) return out;
     out.position = vectors(queue, solver.planes(), solver.stride(), out.pixels);
-    if (!options.indirect || solver.sources().light_count == 0) return out;
+    if (!options.indirect || solver.emitters().vpl_count == 0) return out;
     out.irradiance = irradiance_vectors(queue, solver, out.pixels);
     const auto read = [&](const cl::Buffer& buffer, std::size_t count) {
-        std::vector<IndirectLight> lights(count);
+        std::vector<Vpl> lights(count);
         if (count > 0)
-            queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(IndirectLight),
+            queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(Vpl),
                                     lights.data());
         return lights;
     };
-    out.lights = read(solver.indirect_lights(), solver.sources().light_count);
+    out.lights = read(solver.vpls(), solver.emitters().vpl_count);
     out.negative =
-        read(solver.negative_lights(), static_cast<std::size_t>(options.negative_lights));
+        read(solver.negative_vpls(), static_cast<std::size_t>(options.negative_vpls));
     return out;
 }
 
 inline Frame render(const Scene& scene, const Camera& camera, const SecondOrderOptions& options,
                     const cl::CommandQueue& queue = device().queue) {
     const DeviceScene placed = on_device(scene);
-    SecondOrderSolver solver(queue, placed, options);
+    SecondOrderSolver solver(programs(), queue, placed, options);
     solver.render(camera).wait();
     return read_frame(queue, placed, solver);
 }

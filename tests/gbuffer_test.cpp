@@ -223,7 +223,7 @@ TEST(GBuffer, IsTheSameForEveryWorkGroupAndPacket) {
     builds.push_back({.packet_width = 1, .local_size = 7, .atomics64 = false});
     for (const BuildOptions& options : builds) {
         const Drawing other = test::draw(
-            placed, view, GBufferPasses(test::device().context, test::device().device, options));
+            placed, view, GBufferPasses(test::programs(), options));
         const std::string label = "width " + std::to_string(options.packet_width) + ", group " +
                                   std::to_string(options.local_size);
         EXPECT_TRUE(other.visibility == usual.visibility) << label;

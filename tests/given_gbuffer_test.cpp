@@ -33,12 +33,12 @@ GBuffer copy_of(const SecondOrderSolver& solver) {
 TEST(GivenGBuffer, IsLitLikeTheSolversOwn) {
     for (const Scene& scene : {box(), cornell()}) {
         const DeviceScene placed = test::on_device(scene);
-        SecondOrderSolver solver(test::device().queue, placed, small());
+        SecondOrderSolver solver(test::programs(), test::device().queue, placed, small());
         solver.render(scene.cameras[0]).wait();
         const test::Frame own = test::read_frame(test::device().queue, placed, solver);
         const GBuffer given = copy_of(solver);
 
-        SecondOrderSolver other(test::device().queue, placed, small());
+        SecondOrderSolver other(test::programs(), test::device().queue, placed, small());
         other.render(scene.cameras[0], given).wait();
         const test::Frame lit = test::read_frame(test::device().queue, placed, other);
         EXPECT_TRUE(test::same_bits(own.radiance, lit.radiance));
@@ -59,7 +59,7 @@ TEST(GivenGBuffer, IsLitLikeTheSolversOwn) {
 TEST(GivenGBuffer, IsSeenInsteadOfTheScene) {
     const Scene scene = box();
     const DeviceScene placed = test::on_device(scene);
-    SecondOrderSolver solver(test::device().queue, placed, small());
+    SecondOrderSolver solver(test::programs(), test::device().queue, placed, small());
     solver.render(scene.cameras[0]).wait();
     const auto before = test::read_frame(test::device().queue, placed, solver).radiance;
     const cl::CommandQueue& queue = test::device().queue;
@@ -67,7 +67,7 @@ TEST(GivenGBuffer, IsSeenInsteadOfTheScene) {
     // Albedo is halved and emission added, in the solver's own buffers.
     auto planes = test::download<float>(solver.planes(), GBUFFER_PLANES * solver.stride());
     for (std::size_t i = 0; i < 3 * solver.stride(); ++i) {
-        planes[GBUFFER_ALBEDO * solver.stride() + i] *= 0.5f;
+        planes[GBUFFER_BASE * solver.stride() + i] *= 0.5f;
         planes[GBUFFER_EMISSION * solver.stride() + i] = 0.25f;
     }
     queue.enqueueWriteBuffer(solver.gbuffer().planes, CL_TRUE, 0, GBUFFER_PLANES * plane,
@@ -97,7 +97,7 @@ TEST(GivenGBuffer, IsLitByTheSourcesOfTheSceneAlone) {
         const SceneFrame& frame = placed.frame();
         SecondOrderOptions options = small();
         options.indirect = false;
-        SecondOrderSolver solver(test::device().queue, placed, options);
+        SecondOrderSolver solver(test::programs(), test::device().queue, placed, options);
         const std::uint32_t stride = solver.stride();
         const std::size_t pixels = 65 * 47;
         std::vector<float> planes(GBUFFER_PLANES * stride);
@@ -107,7 +107,7 @@ TEST(GivenGBuffer, IsLitByTheSourcesOfTheSceneAlone) {
                 planes[c * stride + p] = position[static_cast<int>(c)];
             planes[(GBUFFER_NORMAL + 2) * stride + p] = 1.0f;
             planes[(GBUFFER_GEOMETRIC + 2) * stride + p] = 1.0f;
-            planes[GBUFFER_ALBEDO * stride + p] = 1.0f;
+            planes[GBUFFER_BASE * stride + p] = 1.0f;
             planes[(GBUFFER_EMISSION + 1) * stride + p] = 1.0f;
         }
         const GBuffer given{test::upload(planes),
@@ -138,8 +138,8 @@ TEST(GivenGBuffer, HidesTheEnvironmentWithoutIds) {
     const DeviceScene placed = test::on_device(scene);
     SecondOrderOptions options = small();
     options.indirect = false;
-    options.sources.environment_lights = 0;
-    SecondOrderSolver solver(test::device().queue, placed, options);
+    options.emitters.environment_lights = 0;
+    SecondOrderSolver solver(test::programs(), test::device().queue, placed, options);
     const std::uint32_t stride = solver.stride();
     const std::size_t pixels = 65 * 47;
     const auto is_wall = [](std::size_t p) { return p % 65 < 31; };
@@ -166,7 +166,7 @@ TEST(GivenGBuffer, WaitsForItsEvents) {
          {cl_command_queue_properties{0},
           cl_command_queue_properties{CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE}}) {
         const cl::CommandQueue queue(test::device().context, test::device().device, order);
-        SecondOrderSolver solver(queue, placed, small());
+        SecondOrderSolver solver(test::programs(), queue, placed, small());
         solver.render(scene.cameras[0]).wait();
         const GBuffer given = copy_of(solver);
         cl::UserEvent gate(test::device().context);
@@ -190,7 +190,7 @@ TEST(GivenGBuffer, WaitsForItsEvents) {
 TEST(GivenGBuffer, MustFit) {
     const Scene scene = box();
     const DeviceScene placed = test::on_device(scene);
-    SecondOrderSolver solver(test::device().queue, placed, small());
+    SecondOrderSolver solver(test::programs(), test::device().queue, placed, small());
     const GBuffer whole = solver.gbuffer();
     const auto refused = [&](const GBuffer& given, const std::string& because) {
         try {

@@ -91,7 +91,7 @@ TEST_F(GlImport, ReadsEveryFormatThatItNames) {
                 EXPECT_EQ(got.at(GBUFFER_NORMAL, p), exact.at(GBUFFER_NORMAL, p));
                 EXPECT_EQ(got.at(GBUFFER_POSITION, p), exact.at(GBUFFER_POSITION, p));
                 for (int c = 0; c < 3; ++c)
-                    EXPECT_NEAR(got.at(GBUFFER_ALBEDO, p)[c], exact.at(GBUFFER_ALBEDO, p)[c], step);
+                    EXPECT_NEAR(got.at(GBUFFER_BASE, p)[c], exact.at(GBUFFER_BASE, p)[c], step);
             }
         }
 }

@@ -56,9 +56,9 @@ void expect_alike(const DeviceScene& scene, const Drawing& cl, const Drawing& gl
         farthest = std::max(farthest, distance(GBUFFER_POSITION) / bound);
         EXPECT_LE(std::abs(cl.depth(p) - gl.depth(p)), bound) << p;
         normal = std::max({normal, distance(GBUFFER_NORMAL), distance(GBUFFER_GEOMETRIC)});
-        albedo = std::max(albedo, distance(GBUFFER_ALBEDO));
+        albedo = std::max(albedo, distance(GBUFFER_BASE));
         const double glow = glm::length(cl.at(GBUFFER_EMISSION, p));
-        apart += distance(GBUFFER_ALBEDO) > close ||
+        apart += distance(GBUFFER_BASE) > close ||
                  distance(GBUFFER_EMISSION) > close * std::max(glow, 1.0);
     }
     // All pixels count, those on silhouettes too: corners are rounded alike, so only pixels whose
@@ -97,7 +97,7 @@ TEST_F(GlRenderer, DrawsABoxForCameraAndSpotlight) { expect_alike(box()); }
 
 TEST_F(GlRenderer, DrawsTheSixFacesOfACube) {
     BoxOptions options;
-    options.lamp = Lamp::point;
+    options.light = LightSource::point;
     expect_alike(box(options));
 }
 

@@ -9,6 +9,7 @@
 #include "gl/shared_images.hpp"
 #include "gl/sharing.hpp"
 #include "gl_drawing.hpp"
+#include "gl_stand_in.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -69,87 +70,11 @@ TEST(GlSharing, SaysWhatIsMissing) {
     expect_copied(facts, "OpenCL platform lacks clEnqueueAcquireGLObjects");
 }
 
-// ---- stand-ins for a driver ---------------------------------------------------------------------
-
-struct Driver {
-    std::vector<std::string> calls;
-    std::vector<cl_mem> alive, acquired;
-    unsigned refused = 0;  // a texture that cannot be shared
-    cl_int acquire_error = CL_SUCCESS;
-};
-Driver driver;
-
-// Called when an image is deleted.
-void CL_CALLBACK deleted(cl_mem image, void*) {
-    driver.alive.erase(std::remove(driver.alive.begin(), driver.alive.end(), image),
-                       driver.alive.end());
-}
-
-// An image with a texture's texels instead of one on them.
-cl_mem CL_API_CALL create(cl_context context, cl_mem_flags flags, cl_uint target, cl_int level,
-                          cl_uint texture, cl_int* error) {
-    EXPECT_EQ(flags, cl_mem_flags{CL_MEM_READ_ONLY});
-    EXPECT_EQ(target, cl_uint{GL_TEXTURE_2D});
-    EXPECT_EQ(level, 0);
-    driver.calls.push_back("create");
-    if (texture == driver.refused) {
-        *error = CL_INVALID_GL_OBJECT;
-        return nullptr;
-    }
-    GLint width = 0, height = 0, internal = 0;
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
-    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
-    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_INTERNAL_FORMAT, &internal);
-    std::vector<float> texels(static_cast<std::size_t>(width * height) * 4);
-    const bool whole = internal == GL_R32I, one = internal == GL_R32F;
-    glGetTexImage(GL_TEXTURE_2D, 0,
-                  whole ? GL_RED_INTEGER
-                  : one ? GL_RED
-                        : GL_RGBA,
-                  whole ? GL_INT : GL_FLOAT, texels.data());
-    glBindTexture(GL_TEXTURE_2D, 0);
-    const cl_image_format format = {cl_channel_order(whole || one ? CL_R : CL_RGBA),
-                                    cl_channel_type(whole ? CL_SIGNED_INT32 : CL_FLOAT)};
-    cl_image_desc shape{};
-    shape.image_type = CL_MEM_OBJECT_IMAGE2D;
-    shape.image_width = static_cast<std::size_t>(width);
-    shape.image_height = static_cast<std::size_t>(height);
-    const cl_mem image = clCreateImage(context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, &format,
-                                       &shape, texels.data(), error);
-    if (image) {
-        driver.alive.push_back(image);
-        clSetMemObjectDestructorCallback(image, deleted, nullptr);
-    }
-    return image;
-}
-
-cl_int CL_API_CALL acquire(cl_command_queue queue, cl_uint count, const cl_mem* images,
-                           cl_uint wait_count, const cl_event* wait, cl_event* event) {
-    driver.calls.push_back("acquire " + std::to_string(count) + " after " +
-                           std::to_string(wait_count));
-    if (driver.acquire_error != CL_SUCCESS) return driver.acquire_error;
-    driver.acquired.assign(images, images + count);
-    return clEnqueueMarkerWithWaitList(queue, wait_count, wait, event);
-}
-
-cl_int CL_API_CALL release(cl_command_queue queue, cl_uint count, const cl_mem* images,
-                           cl_uint wait_count, const cl_event* wait, cl_event* event) {
-    driver.calls.push_back("release " + std::to_string(count) + " after " +
-                           std::to_string(wait_count));
-    EXPECT_EQ(std::vector<cl_mem>(images, images + count), driver.acquired);
-    return clEnqueueMarkerWithWaitList(queue, wait_count, wait, event);
-}
-
-gl::Sharing stand_in() {
-    gl::Sharing out;
-    out.zero_copy = true;
-    out.reason = "zero copy: by stand-ins";
-    out.create = create;
-    out.acquire = acquire;
-    out.release = release;
-    return out;
-}
+using test::Driver;
+using test::driver;
+using test::stand_in;
+using test::Texels;
+using test::texels_of;
 
 class GlSharedTextures : public test::Gl {
 protected:
@@ -166,9 +91,19 @@ protected:
     }
 
     test::Drawing convert(gl::GBufferImport& import) const {
-        const GBuffer out = test::marked_gbuffer(50 * 30);
+        const GBuffer out = test::marked_gbuffer(view_.width * view_.height);
         import.convert(test::device().queue, view_, *scene_, textures_, out).wait();
         return test::read_back(out, view_, *scene_);
+    }
+
+    // Images made by one conversion, and images that exist after it.
+    std::vector<long> made_and_alive(gl::GBufferImport& import) const {
+        driver.calls.clear();
+        convert(import);
+        EXPECT_TRUE(import.zero_copy()) << import.path();
+        test::device().queue.finish();
+        return {std::count(driver.calls.begin(), driver.calls.end(), "create"),
+                static_cast<long>(driver.alive.size())};
     }
 
     std::unique_ptr<DeviceScene> scene_;
@@ -197,12 +132,82 @@ TEST_F(GlSharedTextures, GiveTheBitsOfCopiedOnes) {
     EXPECT_EQ(driver.calls, all_shared);
 }
 
-TEST_F(GlSharedTextures, AreGivenUpAfterEveryConversion) {
-    gl::GBufferImport shared(test::device().context, test::device().device, stand_in());
-    for (int i = 0; i < 3; ++i) convert(shared);
+// Gives a texture the size and texels of another one.
+void specify(unsigned texture, unsigned from, GLenum internal) {
+    const Texels texels = texels_of(from);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), texels.width, texels.height, 0,
+                 texels.one ? GL_RED : GL_RGBA, GL_FLOAT, texels.values.data());
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+using MadeAndAlive = std::vector<long>;
+
+TEST_F(GlSharedTextures, AreMadeOnceAndSeeWhatIsDrawnLater) {
+    {
+        gl::GBufferImport shared(test::device().context, test::device().device, stand_in());
+        gl::GBufferImport copied(test::device().context, test::device().device, gl::Sharing());
+        EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{6, 6}));
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{0, 6}));
+        const test::Drawing before = convert(shared);
+        Camera aside = cornell().cameras[0];
+        aside.position.x += 0.1;
+        view_ = make_view(aside, scene_->frame(), 50, 30);
+        renderer_->draw(view_);
+        driver.calls.clear();
+        const test::Drawing after = convert(shared);
+        EXPECT_EQ(std::count(driver.calls.begin(), driver.calls.end(), "create"), 0);
+        EXPECT_EQ(after.planes, convert(copied).planes);
+        EXPECT_NE(after.planes, before.planes);
+    }
     test::device().queue.finish();
-    // A kernel may hold the images of its last launch.
-    EXPECT_LE(driver.alive.size(), 6u);
+    EXPECT_TRUE(driver.alive.empty()) << "the destructor releases them";
+}
+
+TEST_F(GlSharedTextures, AreMadeAnewWhereTheyChanged) {
+    gl::GBufferImport shared(test::device().context, test::device().device, stand_in());
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{6, 6}));
+    unsigned names[6];
+    glGenTextures(6, names);
+    // Another name.
+    specify(names[0], textures_.albedo, GL_RGBA32F);
+    textures_.albedo = names[0];
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{1, 6}));
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{0, 6}));
+    // The same name, another format.
+    specify(names[0], names[0], GL_RGBA16F);
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{1, 6}));
+    // No longer given, and given again.
+    textures_.emission = 0;
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{0, 5}));
+    textures_.emission = renderer_->textures().emission;
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{1, 6}));
+    // The same names and formats, another width, another height.
+    unsigned* const given[6] = {&textures_.albedo,    &textures_.position, &textures_.normal,
+                                &textures_.geometric, &textures_.emission, &textures_.depth};
+    const auto draw = [&](std::uint32_t width, std::uint32_t height) {
+        view_ = make_view(cornell().cameras[0], scene_->frame(), width, height);
+        renderer_->draw(view_);
+        const gl::GBufferTextures& drawn = renderer_->textures();
+        const unsigned from[6] = {drawn.albedo,    drawn.position, drawn.normal,
+                                  drawn.geometric, drawn.emission, drawn.depth};
+        for (int i = 0; i < 6; ++i) {
+            specify(names[i], from[i], i == 5 ? GL_R32F : GL_RGBA32F);
+            *given[i] = names[i];
+        }
+    };
+    draw(50, 30);
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{6, 6}));
+    draw(40, 30);
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{6, 6}));
+    draw(40, 24);
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{6, 6}));
+    // What cannot be seen from outside has to be said.
+    draw(40, 24);
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{0, 6}));
+    shared.forget_textures();
+    EXPECT_EQ(made_and_alive(shared), (MadeAndAlive{6, 6}));
+    glDeleteTextures(6, names);
 }
 
 TEST_F(GlSharedTextures, AreCopiedWhereOneCannotBeShared) {

@@ -257,7 +257,8 @@ TEST_F(GltfUri, FilesInTheFolderAreReadWhateverTheirName) {
         {"a.bin", "a.bin"},        {"with space.bin", "with space.bin"},
         {"b c.bin", "b%20c.bin"},  {"sub/d.bin", "sub/d.bin"},
         {"e.bin", "sub/../e.bin"}, {"f%20g.bin", "f%20g.bin"},
-        {"100%.bin", "100%.bin"},  {"\xc3\xa9.bin", "%C3%A9.bin"}};
+        {"100%.bin", "100%.bin"},  {"\xc3\xa9.bin", "%C3%A9.bin"},
+        {"a+b.bin", "a+b.bin"}};
     for (const auto& [name, uri] : cases) {
         folder.write(name, bytes_of_triangle());
         EXPECT_EQ(refusal(folder.write("scene.gltf", external(uri).text())), "") << uri;

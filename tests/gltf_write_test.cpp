@@ -117,6 +117,16 @@ TEST(SaveGlb, KeepsMaterialsAndTextures) {
     EXPECT_TRUE(after.warnings.empty());
 }
 
+TEST(SaveGlb, KeepsEmissionOfAnyBrightness) {
+    for (const float brightness : {1e-30f, 1e-13f, 1e-7f, 0.5f, 1.0f, 1e9f}) {
+        Scene scene = furnished();
+        scene.materials[0].emission = glm::vec3(1.0f, 0.5f, 0.0f) * brightness;
+        // A quotient and a product of doubles: exact once rounded to float, or one unit beside it.
+        EXPECT_VEC_NEAR(reload(scene).materials[0].emission, scene.materials[0].emission,
+                        brightness * 1.2e-7);
+    }
+}
+
 TEST(SaveGlb, KeepsLightsAndCameras) {
     const Scene before = furnished();
     const Scene after = reload(before);

@@ -6,7 +6,7 @@
 namespace {
 
 using namespace pictures;
-using clgi::io::Storage;
+using clgi::io::PixelType;
 using Png = ImageIo;
 using LoadImage = ImageIo;
 using AtomicFile = ImageIo;
@@ -48,7 +48,7 @@ TEST_F(LoadImage, SaysWhatIsWrongWithThePath) {
 }
 
 TEST_F(LoadImage, GoesByContentAndNotByName) {
-    clgi::io::save_exr(row_of({0.5f}), at("a.hdr"), Storage::full);
+    clgi::io::save_exr(row_of({0.5f}), at("a.hdr"), PixelType::full);
     EXPECT_EQ(clgi::io::load_image(at("a.hdr")).find("R")->values[0], 0.5f);
 }
 

@@ -149,7 +149,7 @@ TEST(Import, BringsTexelsIntoTheLocalFrameAndExposure) {
             expect_near(got.planes.at(GBUFFER_NORMAL, p), glm::normalize(glm::vec3(0.1f, 0, 2.0f)),
                         "normal");
             expect_near(got.planes.at(GBUFFER_GEOMETRIC, p), {0, 0, 1}, "geometric");
-            expect_near(got.planes.at(GBUFFER_ALBEDO, p),
+            expect_near(got.planes.at(GBUFFER_BASE, p),
                         {0.2f, 0.4f + 0.01f * static_cast<float>(column), 1.0f}, "albedo");
             expect_near(got.planes.at(GBUFFER_EMISSION, p), glm::vec3(1, 2, 4) / 128.0f,
                         "emission");
@@ -211,7 +211,7 @@ TEST(Import, TurnsNormalsTowardsTheViewer) {
     expect_near(both.planes.at(GBUFFER_NORMAL, 1), {0, 0, 1}, "gives way");
     expect_near(both.planes.at(GBUFFER_GEOMETRIC, 2), both.planes.at(GBUFFER_NORMAL, 2), "in for");
     EXPECT_EQ(both.planes.at(GBUFFER_NORMAL, 3), glm::vec3(0.0f));
-    EXPECT_EQ(both.planes.at(GBUFFER_ALBEDO, 3), glm::vec3(0.0f));
+    EXPECT_EQ(both.planes.at(GBUFFER_BASE, 3), glm::vec3(0.0f));
     const Imported alone = import(picture, IMPORT_POSITION);
     expect_near(alone.planes.at(GBUFFER_NORMAL, 0), {0, 0, 1}, "is turned");
     expect_near(alone.planes.at(GBUFFER_NORMAL, 1), {0, -1, 0}, "is turned");
@@ -291,7 +291,7 @@ TEST(Import, WorksOnOnePixel) {
 // Halves and bytes, bit patterns by hand.
 TEST(Import, ReadsHalvesAndBytes) {
     const Picture picture = wall(2, 1);
-    const ImportPasses passes(test::device().context, test::device().device);
+    const ImportPasses passes(test::programs());
     ImportBuffers texels = buffers_of(picture);
     // 0, 0.5, -1.5, 0; 65504 (the largest), 2^-24 (the smallest), 0, 0.
     texels.normal =
@@ -313,7 +313,7 @@ TEST(Import, ReadsHalvesAndBytes) {
                          planes[(plane + 2) * 16 + pixel]);
     };
     expect_near(at(GBUFFER_NORMAL, 0), glm::normalize(glm::vec3(0, 0.5f, 1.5f)), "normal");
-    EXPECT_EQ(at(GBUFFER_ALBEDO, 0), glm::vec3(0.0f, 51.0f / 255.0f, 1.0f));
+    EXPECT_EQ(at(GBUFFER_BASE, 0), glm::vec3(0.0f, 51.0f / 255.0f, 1.0f));
     EXPECT_EQ(at(GBUFFER_EMISSION, 0), glm::vec3(1, 2, 65504) / 128.0f);
     EXPECT_EQ(at(GBUFFER_NORMAL, 1), glm::vec3(0.0f)) << "its emission is infinite";
     EXPECT_EQ(test::download<cl_uint>(count, 1)[0], 1u);
@@ -331,7 +331,7 @@ void expect_refused(const std::function<void()>& call, const std::string& becaus
 TEST(Import, RefusesWhatDoesNotFit) {
     const Picture picture = wall();
     const View view = view_of(picture);
-    const ImportPasses passes(test::device().context, test::device().device);
+    const ImportPasses passes(test::programs());
     const cl::CommandQueue& queue = test::device().queue;
     const GBuffer out{test::empty<float>(16 * 16), test::empty<cl_int>(32), 16};
     const cl::Buffer count = test::empty<cl_uint>(1);

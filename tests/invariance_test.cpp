@@ -21,10 +21,10 @@ SecondOrderOptions small_frame(Math math = Math::strict) {
     options.build.math = math;
     options.width = 47;
     options.height = 35;
-    options.sources.lights = 100;
-    options.sources.shadow_size = 128;
-    options.sources.face_size = 64;
-    options.negative_lights = 50;
+    options.emitters.vpls = 100;
+    options.emitters.shadow_size = 128;
+    options.emitters.face_size = 64;
+    options.negative_vpls = 50;
     return options;
 }
 
@@ -136,10 +136,10 @@ TEST(Picture, OfTwoLightsIsTheSumOfTwoPictures) {
     both.lights.push_back(test::point_light({-0.5, 0.75, 0.25}));
     SecondOrderOptions options = small_frame();
     options.low_resolution_step = 1;
-    options.negative_lights = 0;  // their directions depend on all lights together
-    options.sources.lights = 200;
+    options.negative_vpls = 0;  // their directions depend on all lights together
+    options.emitters.vpls = 200;
     const Frame sum = render(both, options);
-    options.sources.lights = 100;
+    options.emitters.vpls = 100;
     Scene first = both, second = both;
     first.lights.pop_back();
     second.lights.erase(second.lights.begin());
@@ -153,11 +153,11 @@ TEST_P(Picture, IsTheSameEveryTime) {
     SecondOrderOptions options = small_frame(GetParam());
     options.width = 23;
     options.height = 17;
-    options.sources.face_size = 32;
+    options.emitters.face_size = 32;
     for (const Light::Kind kind : {Light::Kind::spot, Light::Kind::point}) {
         const Scene scene = table(kind);
         const DeviceScene placed = test::on_device(scene);
-        SecondOrderSolver solver(test::device().queue, placed, options);
+        SecondOrderSolver solver(test::programs(), test::device().queue, placed, options);
         const auto frame = [&] {
             solver.render(scene.cameras[0]).wait();
             return test::read_frame(test::device().queue, placed, solver);

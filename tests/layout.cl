@@ -1,10 +1,6 @@
-// Tells the size of every shared struct and the place of every member, in the list's order.
+// Tells the size of every shared struct and the place of every member, in the order of the list
+// CLGI_LAYOUT that stands before this text.
 // SPDX-License-Identifier: MIT
-#include "clgi/shared/gbuffer.h"
-#include "clgi/shared/image.h"
-#include "clgi/shared/lights.h"
-#include "clgi/shared/scene.h"
-#include "layout_members.h"
 
 #define TELL_SIZE(type) found[next++] = (uint)sizeof(type);
 #define TELL_MEMBER(type, member)                                       \

@@ -24,7 +24,8 @@ const Entry entries[] = {CLGI_LAYOUT(HOST_SIZE, HOST_MEMBER)};
 
 TEST(Layout, IsTheSameOnHostAndDevice) {
     const test::Device& on = test::device();
-    cl::Program program(on.context, test::kernel_text("tests/layout.cl"));
+    cl::Program program(on.context, test::kernel_text(CLGI_LAYOUT_MEMBERS) +
+                                        test::kernel_text("tests/layout.cl"));
     program.build(on.device, "-cl-std=CL1.2");
     cl::Kernel kernel(program, "layout");
     const cl::Buffer found = test::empty<cl_uint>(std::size(entries));

@@ -21,21 +21,27 @@ inline const ImagePasses& image_passes(Math math = Math::strict) {
 struct PlacedLights {
     EmitterSet set;
     std::vector<cl_uint> accepted;      // [N] Halton index of each light of a spot
-    std::vector<IndirectLight> lights;  // [N] local frame
+    std::vector<Vpl> lights;  // [N] local frame
+};
+
+// What multiplies all flux, and all discs.
+struct FetchScale {
+    float flux = 1.0f, footprint = 1.0f;
 };
 
 inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions& options,
                                  const LightPasses& passes = light_passes(),
-                                 const GBufferPasses& drawn_by = gbuffer_passes()) {
+                                 const GBufferPasses& drawn_by = gbuffer_passes(),
+                                 const FetchScale& scale = {}) {
     const cl::CommandQueue& queue = device().queue;
     PlacedLights out;
     out.set = make_emitters(scene, options);
-    if (out.set.light_count == 0) return out;
+    if (out.set.vpl_count == 0) return out;
     const RasterBuffers buffers = raster_buffers(scene, out.set.pixels);
     for (const View& view : out.set.views) draw_visibility(drawn_by, scene, view, buffers);
-    const SourceBuffers sources{upload(out.set.emitters), upload(out.set.views),
-                                buffers.visibility};
-    const cl::Buffer accepted = upload(std::vector<cl_uint>(out.set.light_count));
+    const EmitterBuffers sources{upload(out.set.emitters), upload(out.set.views),
+                                buffers.pixels};
+    const cl::Buffer accepted = upload(std::vector<cl_uint>(out.set.vpl_count));
     for (std::size_t e = 0; e < out.set.emitters.size(); ++e) {
         if (out.set.candidates[e] == 0) continue;
         const AcceptParams params{static_cast<cl_uint>(e), out.set.candidates[e], 0, 0};
@@ -44,12 +50,13 @@ inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions&
         passes.accept_list(queue, params, sources.emitters, mask, accepted);
         queue.finish();
     }
-    const cl::Buffer lights = empty<IndirectLight>(out.set.light_count);
-    const FetchParams params{static_cast<cl_uint>(out.set.light_count),
-                             static_cast<cl_uint>(out.set.emitters.size()), 1.0f, 1.0f};
+    const cl::Buffer lights = empty<Vpl>(out.set.vpl_count);
+    const FetchParams params{static_cast<cl_uint>(out.set.vpl_count),
+                             static_cast<cl_uint>(out.set.emitters.size()), scale.flux,
+                             scale.footprint};
     passes.fetch(queue, params, scene, sources, accepted, lights);
-    out.accepted = download<cl_uint>(accepted, out.set.light_count);
-    out.lights = download<IndirectLight>(lights, out.set.light_count);
+    out.accepted = download<cl_uint>(accepted, out.set.vpl_count);
+    out.lights = download<Vpl>(lights, out.set.vpl_count);
     return out;
 }
 
@@ -58,9 +65,9 @@ inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions&
     return place_lights(scene, options, light_passes(math), gbuffer_passes(math));
 }
 
-inline double total_flux(const DeviceScene& scene, const std::vector<IndirectLight>& lights) {
+inline double total_flux(const DeviceScene& scene, const std::vector<Vpl>& lights) {
     double sum = 0.0;
-    for (const IndirectLight& light : lights) sum += double{light.flux.x};
+    for (const Vpl& light : lights) sum += double{light.flux.x};
     return sum * scene.frame().exposure / (scene.frame().scale * scene.frame().scale);
 }
 
@@ -82,23 +89,23 @@ inline std::vector<float> point_planes(const std::vector<Receiver>& receivers,
 
 // Irradiance of every receiver as the device has it: in local units, exposed.
 inline std::vector<glm::vec3> gather(const std::vector<Receiver>& receivers,
-                                     const std::vector<IndirectLight>& lights,
-                                     const std::vector<IndirectLight>& negative,
+                                     const std::vector<Vpl>& lights,
+                                     const std::vector<Vpl>& negative,
                                      const ImagePasses& passes = image_passes()) {
     const auto count = static_cast<cl_uint>(receivers.size());
     const std::uint32_t stride = std::max(padded(count), 16u);
     const cl::Buffer irradiance = empty<float>(IRRADIANCE_PLANES * stride);
     const cl::Buffer points = upload(point_planes(receivers, stride));
     const cl::Buffer point_count = upload(std::vector<cl_uint>{count});
-    const auto held = [](std::vector<IndirectLight> values) {
+    const auto held = [](std::vector<Vpl> values) {
         if (values.empty()) values.resize(1);
         return upload(values);
     };
-    const cl::Buffer positive_lights = held(lights), negative_lights = held(negative);
+    const cl::Buffer positive_lights = held(lights), negative_vpls = held(negative);
     const GatherParams params{stride, static_cast<cl_uint>(lights.size()),
                               static_cast<cl_uint>(negative.size()), 0};
     passes.gather(device().queue, params, count, point_count, points, positive_lights,
-                  negative_lights, irradiance);
+                  negative_vpls, irradiance);
     const auto planes = download<float>(irradiance, IRRADIANCE_PLANES * stride);
     std::vector<glm::vec3> out;
     for (std::size_t i = 0; i < count; ++i)
@@ -107,13 +114,13 @@ inline std::vector<glm::vec3> gather(const std::vector<Receiver>& receivers,
 }
 
 // The same lights without their discs: the pure 1/d^2 kernel, which the closed forms are about.
-inline std::vector<IndirectLight> bare(std::vector<IndirectLight> lights) {
-    for (IndirectLight& light : lights) light.position.w = light.normal.w = 0.0f;
+inline std::vector<Vpl> bare(std::vector<Vpl> lights) {
+    for (Vpl& light : lights) light.position.w = light.normal.w = 0.0f;
     return lights;
 }
 
 // Lux at one place of the world from these lights.
-inline double lux_at(const DeviceScene& scene, const std::vector<IndirectLight>& lights,
+inline double lux_at(const DeviceScene& scene, const std::vector<Vpl>& lights,
                      const glm::dvec3& position, const glm::vec3& normal,
                      Math math = Math::strict) {
     const Receiver receiver{scene.frame().to_local(position), normal};

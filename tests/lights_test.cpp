@@ -32,7 +32,7 @@ std::vector<glm::dvec3> around(int count) {
 }
 
 // rho Phi / (4 pi R^2) at every point of the inside of a sphere.
-void expect_even_in_sphere(const DeviceScene& scene, const std::vector<IndirectLight>& lights,
+void expect_even_in_sphere(const DeviceScene& scene, const std::vector<Vpl>& lights,
                            double flux, double albedo, Math math) {
     for (const glm::dvec3& direction : around(40))
         EXPECT_NEAR(test::lux_at(scene, test::bare(lights), direction, glm::vec3(-direction), math),
@@ -54,7 +54,7 @@ TEST_P(SpotInASphere, LightsEveryPointAlike) {
     const double flux = 2 * pi * (1 - std::cos(30 * degree));
     EXPECT_NEAR(0.5 * flux / (4 * pi), 0.0334936491, 1e-10);
     for (const int n : {1, 7, 300}) {
-        const PlacedLights placed = test::place_lights(scene, {.lights = n}, GetParam());
+        const PlacedLights placed = test::place_lights(scene, {.vpls = n}, GetParam());
         expect_even_in_sphere(scene, placed.lights, flux, 0.5, GetParam());
     }
 }
@@ -62,9 +62,9 @@ TEST_P(SpotInASphere, LightsEveryPointAlike) {
 TEST_P(PointInASphere, LightsEveryPointAlike) {
     FurnaceOptions options;
     options.subdivisions = fine;
-    options.lamp = Lamp::point;
+    options.light = LightSource::point;
     const DeviceScene scene = test::on_device(furnace(options));
-    expect_even_in_sphere(scene, test::place_lights(scene, {.lights = 500}, GetParam()).lights,
+    expect_even_in_sphere(scene, test::place_lights(scene, {.vpls = 500}, GetParam()).lights,
                           4 * pi, 0.5, GetParam());
 }
 
@@ -82,7 +82,7 @@ TEST_P(AreaLightInASphere, LightsEveryPointAlike) {
         material);  // facing down
     const DeviceScene scene = test::on_device(world);
     const double flux = pi * 3.0 * 4 * half * half;
-    expect_even_in_sphere(scene, test::place_lights(scene, {.lights = 512}, GetParam()).lights,
+    expect_even_in_sphere(scene, test::place_lights(scene, {.vpls = 512}, GetParam()).lights,
                           flux, 0.5, GetParam());
 }
 
@@ -103,7 +103,7 @@ TEST_P(SpotOverAFloor, LightsItsOwnPlaceAsTheIntegralSays) {
         EXPECT_NEAR(floor_seen_from_spot(angle * degree), wanted, 1e-10);
         const DeviceScene scene = test::on_device(spot_over_floor(angle * degree));
         const PlacedLights placed =
-            test::place_lights(scene, {.lights = 10000, .shadow_size = 256}, GetParam());
+            test::place_lights(scene, {.vpls = 10000, .shadow_size = 256}, GetParam());
         // Halton sums of 10,000 points are within 0.01 % here; corners at 1/256 pixel add as much.
         EXPECT_NEAR(test::lux_at(scene, placed.lights, {0, 1, 0}, {0, -1, 0}, GetParam()), wanted,
                     0.005 * wanted)
@@ -115,7 +115,7 @@ TEST_P(SpotOverAFloor, LightsItsOwnPlaceAsTheIntegralSays) {
 double convergence(const std::vector<glm::dvec3>& places, Math math) {
     const DeviceScene scene = test::on_device(spot_over_floor(45 * degree));
     const auto lit = [&](int n) {
-        const auto lights = test::bare(test::place_lights(scene, {.lights = n}, math).lights);
+        const auto lights = test::bare(test::place_lights(scene, {.vpls = n}, math).lights);
         std::vector<double> out;
         for (const glm::dvec3& place : places)
             out.push_back(test::lux_at(scene, lights, place, {0, -1, 0}, math));
@@ -153,7 +153,7 @@ TEST_P(IndirectLights, CarryAllThatTheRoomReflects) {
         const DeviceScene scene = test::on_device(room);
         const double flux = 2 * pi * (1 - std::cos(angle * degree));
         EXPECT_NEAR(
-            test::total_flux(scene, test::place_lights(scene, {.lights = 300}, GetParam()).lights),
+            test::total_flux(scene, test::place_lights(scene, {.vpls = 300}, GetParam()).lights),
             0.7 * flux, 0.7 * flux * 1e-5);  // sums of 300 floats
     }
 }
@@ -165,7 +165,7 @@ TEST_P(IndirectLights, CarryHalfWhereHalfTheConeLeavesTheScene) {
     const DeviceScene scene = test::on_device(world);
     const double half = 0.5 * pi * (1 - std::cos(40 * degree));  // times albedo 1/2
     EXPECT_NEAR(
-        test::total_flux(scene, test::place_lights(scene, {.lights = 4000}, GetParam()).lights),
+        test::total_flux(scene, test::place_lights(scene, {.vpls = 4000}, GetParam()).lights),
         half, 0.01 * half);
 }
 
@@ -181,7 +181,7 @@ TEST_P(IndirectLights, CarryASunsLightOnAFloor) {
         // A strip of the disc at 80 degrees: 2500 of 20000 samples, whose border counts 1 %.
         EXPECT_NEAR(
             test::total_flux(
-                scene, test::place_lights(scene, {.lights = 20000, .shadow_size = 1024}, GetParam())
+                scene, test::place_lights(scene, {.vpls = 20000, .shadow_size = 1024}, GetParam())
                            .lights),
             flux, 0.01 * flux)
             << slant;
@@ -192,7 +192,7 @@ TEST_P(IndirectLights, AreNoneWhereTheSpotFacesAway) {
     Scene world = spot_over_floor(30 * degree);
     world.lights[0].direction = {0, 1, 0};
     const DeviceScene scene = test::on_device(world);
-    for (const IndirectLight& light : test::place_lights(scene, {.lights = 50}, GetParam()).lights)
+    for (const Vpl& light : test::place_lights(scene, {.vpls = 50}, GetParam()).lights)
         EXPECT_EQ(light.flux, glm::vec4(0.0f));
 }
 
@@ -200,8 +200,8 @@ TEST_P(IndirectLights, AreNoneWhereTheSpotIsBuried) {
     Scene world = spot_over_floor(30 * degree);
     test::add_box(world, {-0.1, 0.9, -0.1}, {0.1, 1.1, 0.1}, 1);  // seen from inside: its back
     const DeviceScene scene = test::on_device(world);
-    for (const IndirectLight& light :
-         test::place_lights(scene, {.lights = 50}, GetParam()).lights) {
+    for (const Vpl& light :
+         test::place_lights(scene, {.vpls = 50}, GetParam()).lights) {
         EXPECT_TRUE(std::isfinite(light.flux.x));
         EXPECT_GE(light.flux.x, 0.0f);
     }

@@ -31,12 +31,13 @@ public:
 
     PassChain(const cl::Context& context, const cl::Device& device, const cl::CommandQueue& queue,
               const Allocate& allocate)
-        : scene_(context, device, cornell({.lamp = Lamp::spot})),
+        : scene_(context, device, cornell({.light = LightSource::spot})),
           gbuffer_(context, device),
           lights_(context, device),
           image_(context, device),
+          parallel_(context, device),
           view_(make_view(cornell().cameras[0], scene_.frame(), width, height)),
-          set_(make_emitters(scene_, {.lights = 40, .shadow_size = 32})) {
+          set_(make_emitters(scene_, {.vpls = 40, .shadow_size = 32})) {
         add_gbuffer("source", set_.views[0]);
         add_lights();
         add_gbuffer("camera", view_);
@@ -95,49 +96,62 @@ private:
     }
     const cl::Buffer& at(const std::string& name) const { return buffers.at(name); }
     RasterBuffers raster(const std::string& who) const {
-        return {at(who + "_visibility"), at("vertices"), at("polygons"), at("runs"),
-                at("run_count")};
+        RasterBuffers out;
+        out.pixels = at(who + "_visibility");
+        out.polygons = at("polygons");
+        out.runs = at("runs");
+        out.late = at("late");
+        out.counts = at("counts_of_polygons");
+        out.capacity = capacity();
+        return out;
     }
-    SourceBuffers sources() const {
+    std::uint32_t capacity() const { return raster_capacity(scene_.info().triangle_count); }
+    EmitterBuffers sources() const {
         return {at("emitters"), at("views"), at("source_visibility"), set_.views.size(),
                 set_.pixels};
     }
 
     void add_gbuffer(const std::string& who, const View& view) {
         const std::size_t seen = std::size_t{view.width} * view.height * 8;
-        const PassArgument visibility{"visibility", who + "_visibility", seen};
-        const PassArgument vertices{"vertices", "vertices",
-                                    scene_.info().vertex_count * sizeof(ScreenVertex)};
-        const PassArgument polygons{"polygons", "polygons",
-                                    scene_.info().triangle_count * sizeof(RasterPolygon)};
-        const PassArgument runs{"runs", "runs",
-                                raster_runs(scene_.info().triangle_count) * sizeof(RasterRun)};
-        const PassArgument count{"run_count", "run_count", 4};
-        steps.push_back({"gbuffer.clear", {visibility, count}, [=, this](auto& queue, auto& wait) {
-                             return gbuffer_.clear(queue, view, raster(who), wait);
+        const PassArgument visibility{"pixels", who + "_visibility", seen};
+        const PassArgument views{"views", who + "_views", sizeof(View)};
+        const PassArgument polygons{"polygons", "polygons", capacity() * sizeof(RasterPolygon)};
+        const PassArgument runs{"runs", "runs", capacity() * sizeof(RasterRun)};
+        const PassArgument late{"late", "late",
+                                raster_batches(scene_.info().triangle_count) * sizeof(cl_uint)};
+        const PassArgument counts{"counts", "counts_of_polygons", sizeof(RasterCount)};
+        const ViewSpan span = span_of({view}, 0, 1);
+        steps.push_back({"gbuffer.put_view", {views}, [=, this](auto& queue, auto& wait) {
+                             return gbuffer_.put_view(queue, view, 0, at(who + "_views"), wait);
                          }});
-        steps.push_back({"gbuffer.transform", {vertices}, [=, this](auto& queue, auto& wait) {
-                             return gbuffer_.transform(queue, view, scene_, raster(who), wait);
-                         }});
-        const std::vector<std::uint32_t> stages =
-            gbuffer_.fused() ? std::vector<std::uint32_t>{RASTER_FUSED}
-                             : std::vector<std::uint32_t>{RASTER_DEPTH, RASTER_IDENTITY};
-        for (const std::uint32_t stage : stages)
+        steps.push_back(
+            {"gbuffer.clear", {views, visibility, counts}, [=, this](auto& queue, auto& wait) {
+                 return gbuffer_.clear(queue, span, at(who + "_views"), raster(who), wait);
+             }});
+        for (const std::uint32_t stage : gbuffer_.stages(Pixels::visibility)) {
             steps.push_back({"gbuffer.raster",
-                             {visibility, vertices, polygons, runs, count},
+                             {views, visibility, polygons, runs, late, counts},
                              [=, this](auto& queue, auto& wait) {
-                                 return gbuffer_.raster(queue, view, scene_, stage, raster(who),
-                                                        wait);
+                                 return gbuffer_.raster(queue, span, at(who + "_views"), scene_,
+                                                        stage, raster(who), wait);
                              }});
+            steps.push_back({"gbuffer.raster_late",
+                             {views, visibility, polygons, runs, late, counts},
+                             [=, this](auto& queue, auto& wait) {
+                                 return gbuffer_.raster_late(queue, span, at(who + "_views"),
+                                                             scene_, stage, raster(who), wait);
+                             }});
+        }
         steps.push_back({"gbuffer.raster_large",
-                         {visibility, polygons, runs, count},
+                         {views, visibility, polygons, runs, late, counts},
                          [=, this](auto& queue, auto& wait) {
-                             return gbuffer_.raster_large(queue, view, scene_, raster(who), wait);
+                             return gbuffer_.raster_large(queue, span, at(who + "_views"), scene_,
+                                                          raster(who), wait);
                          }});
     }
 
     void add_lights() {
-        const auto count = static_cast<std::uint32_t>(set_.light_count);
+        const auto count = static_cast<std::uint32_t>(set_.vpl_count);
         const AcceptParams accept{0, set_.candidates[0], count, 0};
         const PassArgument emitters{"emitters", "emitters", sizeof(Emitter)};
         const PassArgument mask{"mask", "mask", accept.candidate_count / 8};
@@ -156,7 +170,7 @@ private:
                           {"visibility", "source_visibility", set_.pixels * 8},
                           emitters,
                           accepted,
-                          {"lights", "lights", count * sizeof(IndirectLight)}},
+                          {"lights", "lights", count * sizeof(Vpl)}},
                          [=, this](auto& queue, auto& wait) {
                              return lights_.fetch(queue, {count, 1, 1.0f, 1.0f}, scene_, sources(),
                                                   at("accepted"), at("lights"), wait);
@@ -164,12 +178,12 @@ private:
     }
 
     void add_image() {
-        const auto count = static_cast<std::uint32_t>(set_.light_count);
+        const auto count = static_cast<std::uint32_t>(set_.vpl_count);
         const PassArgument g{"planes", "planes", planes(GBUFFER_PLANES)};
         const PassArgument points{"planes", "planes", planes(POINT_PLANES)};
         const PassArgument lit{"irradiance", "irradiance", planes(IRRADIANCE_PLANES)};
-        const PassArgument light{"lights", "lights", count * sizeof(IndirectLight)};
-        const PassArgument taken{"negative", "negative", negative * sizeof(IndirectLight)};
+        const PassArgument light{"lights", "lights", count * sizeof(Vpl)};
+        const PassArgument taken{"negative", "negative", negative * sizeof(Vpl)};
         const PassArgument flags{"flags", "flags", pixels};
         const PassArgument counts{"counts", "counts", (pixels + 511) / 512 * sizeof(cl_uint)};
         const PassArgument listed{"listed", "listed", planes(1)};
@@ -226,9 +240,15 @@ private:
         steps.push_back({"image.count", {flags, counts}, [=, this](auto& queue, auto& wait) {
                              return image_.count(queue, pixels, at("flags"), at("counts"), wait);
                          }});
+        steps.push_back({"parallel.offsets",
+                         {{"sums", "counts", counts.needed}},
+                         [=, this](auto& queue, auto& wait) {
+                             return parallel_.offsets(queue, (pixels + 511) / 512, at("counts"),
+                                                      cl::Buffer(), wait);
+                         }});
         steps.push_back({"image.compact",
                          {flags,
-                          counts,
+                          {"offsets", "counts", counts.needed},
                           points,
                           listed,
                           {"points", "listed_points", planes(POINT_PLANES)},
@@ -252,6 +272,7 @@ private:
         combine.stride = stride;
         combine.emitter_count = 1;
         combine.exposure = combine.texel_bias = 1.0f;
+        combine.depth_words = 2;
         combine.effects = COMBINE_DIRECT | COMBINE_INDIRECT;
         const PassArgument radiance{"radiance", "radiance", planes(RADIANCE_PLANES)};
         steps.push_back({"image.combine",
@@ -264,9 +285,11 @@ private:
                           radiance,
                           {"non_finite", "non_finite", 4}},
                          [=, this](auto& queue, auto& wait) {
-                             return image_.combine(queue, combine, view_, scene_, sources(),
-                                                   at("planes"), at("ids"), at("irradiance"),
-                                                   at("radiance"), at("non_finite"), wait);
+                             return image_.combine(
+                                 queue, combine, view_, scene_,
+                                 {sources(), {at("planes"), at("ids"), stride}, at("irradiance"),
+                                  at("radiance"), at("non_finite")},
+                                 wait);
                          }});
         steps.push_back({"image.tonemap",
                          {radiance, {"preview", "preview", pixels * 4}},
@@ -280,6 +303,7 @@ private:
     GBufferPasses gbuffer_;
     LightPasses lights_;
     ImagePasses image_;
+    ParallelPasses parallel_;
     View view_;
     EmitterSet set_;
     std::map<std::string, std::size_t> bytes_;

@@ -16,7 +16,7 @@
 namespace {
 
 using namespace geometry;
-using clgi::Lamp;
+using clgi::LightSource;
 using clgi::Scene;
 
 constexpr double pi = glm::pi<double>();
@@ -28,13 +28,13 @@ struct Named {
 
 std::vector<Named> all_scenes() {
     clgi::CornellOptions cornell_spot, cornell_point;
-    cornell_spot.lamp = Lamp::spot;
-    cornell_point.lamp = Lamp::point;
+    cornell_spot.light = LightSource::spot;
+    cornell_point.light = LightSource::point;
     clgi::FurnaceOptions furnace_area, furnace_point;
-    furnace_area.lamp = Lamp::area;
-    furnace_point.lamp = Lamp::point;
+    furnace_area.light = LightSource::area;
+    furnace_point.light = LightSource::point;
     clgi::BoxOptions box_point;
-    box_point.lamp = Lamp::point;
+    box_point.light = LightSource::point;
     return {{"cornell", clgi::cornell()},
             {"cornell spot", clgi::cornell(cornell_spot)},
             {"cornell point", clgi::cornell(cornell_point)},
@@ -283,9 +283,9 @@ TEST(Furnace, LampIsWhatWasAskedFor) {
     EXPECT_LT(spot.inner_angle, spot.outer_angle);
     EXPECT_NEAR(spot.inner_angle, pi / 6.0, 1e-6);
     EXPECT_EQ(spot.position, glm::dvec3(0.0));
-    options.lamp = Lamp::point;
+    options.light = LightSource::point;
     EXPECT_EQ(clgi::furnace(options).lights.at(0).kind, clgi::Light::Kind::point);
-    options.lamp = Lamp::area;
+    options.light = LightSource::area;
     EXPECT_TRUE(clgi::furnace(options).lights.empty());
     EXPECT_TRUE(clgi::has_emission(clgi::furnace(options)));
 }
@@ -342,7 +342,7 @@ TEST(Procedural, OptionsOutOfRangeAreRefusedByName) {
     refused([] { clgi::furnace({.radius = 0.0}); }, "radius");
     refused([] { clgi::cornell({.cone_angle = 0.0f}); }, "cone_angle");
     refused([] { clgi::cornell({.radiance = glm::vec3(-1.0f)}); }, "radiance");
-    refused([] { clgi::box({.lamp = Lamp::area}); }, "lamp");
+    refused([] { clgi::box({.light = LightSource::area}); }, "lamp");
     refused([] { clgi::box({.mesh_height = 1.5}); }, "mesh_height");
     refused([] { clgi::box({.left = glm::vec3(2.0f)}); }, "left");
     refused([] { clgi::corridor({.rooms = 0}); }, "rooms");

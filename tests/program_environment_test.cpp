@@ -20,12 +20,17 @@ using Program = clgi::test::Program;
 using clgi::io::Image;
 using clgi::io::load_image;
 
+// Two halves, each of one colour: red, green and blue are these multiples.
+constexpr float tint[3] = {0.5f, 1.0f, 2.25f};
+
 Image sky_picture(float left, float right) {
     Image sky;
     sky.width = 4;
     sky.height = 2;
-    for (const char* name : {"R", "G", "B"})
-        sky.channels.push_back({name, {left, left, right, right, left, left, right, right}});
+    for (int c = 0; c < 3; ++c) {
+        const float l = tint[c] * left, r = tint[2 - c] * right;
+        sky.channels.push_back({std::string(1, "RGB"[c]), {l, l, r, r, l, l, r, r}});
+    }
     return sky;
 }
 
@@ -43,7 +48,7 @@ TEST_F(Program, RendersUnderAnEnvironmentAsTheReferenceDoes) {
     const std::string scene = file("floor.glb").string();
     clgi::io::save_glb(floor_scene(1), scene);
     const std::string sky = file("sky.exr").string();
-    clgi::io::save_exr(sky_picture(1.0f, 3.0f), sky, clgi::io::Storage::full);
+    clgi::io::save_exr(sky_picture(1.0f, 3.0f), sky, clgi::io::PixelType::full);
     const std::string flags = " --size 32x24 --full --environment " + sky +
                               " --environment-rotation 90 --environment-scale 2 -o ";
     const Outcome rendered = run("render " + scene + flags + file("a.exr").string() +
@@ -54,15 +59,37 @@ TEST_F(Program, RendersUnderAnEnvironmentAsTheReferenceDoes) {
     EXPECT_NE(effects.find("environment"), std::string::npos) << effects;
     ASSERT_EQ(run("reference " + scene + flags + file("b.exr").string() + " --spp 64").code, 0);
     const Image a = load_image(file("a.exr")), b = load_image(file("b.exr"));
-    const auto& found = a.find("G")->values;
-    const auto& wanted = b.find("G")->values;
-    // A quarter turn to the left takes the left half, 2, behind the camera: ahead both meet.
-    EXPECT_EQ(found[0], wanted[0]);
-    EXPECT_EQ(found[31], wanted[31]);
-    EXPECT_NE(found[0], 0.0f);
-    // The floor sees half of either: 4 * albedo 1, give or take 64 directions.
-    EXPECT_NEAR(found[12 * 32 + 16], 4.0f, 0.2f);
-    EXPECT_NEAR(wanted[12 * 32 + 16], 4.0f, 0.5f);
+    for (int c = 0; c < 3; ++c) {
+        const std::string channel(1, "RGB"[c]);
+        const auto& found = a.find(channel)->values;
+        const auto& wanted = b.find(channel)->values;
+        // A quarter turn to the left takes the left half behind the camera: ahead both meet.
+        EXPECT_EQ(found[0], wanted[0]);
+        EXPECT_EQ(found[31], wanted[31]);
+        EXPECT_EQ(found[0], 2.0f * tint[2 - c] * 3.0f);
+        // The floor has albedo 1 and sees half of either half, wherever it is.
+        const double left = 2.0 * tint[c] * 1.0, right = 2.0 * tint[2 - c] * 3.0;
+        const double even = 0.5 * (left + right);
+        double mean = 0.0, traced = 0.0, noise = 0.0;
+        int floor = 0;
+        for (std::size_t p = 0; p < found.size(); ++p) {
+            if (found[p] == found[0]) continue;
+            ++floor;
+            mean += found[p];
+            traced += wanted[p];
+            noise += std::pow(double{b.find("error.Y")->values[p]}, 2);
+        }
+        ASSERT_GT(floor, 100);
+        // Each of 64 lights has the light of 4 pi / 64 sr in one direction, where it falls more
+        // steeply than over 0.44 rad: by 1 - 0.44^2 / 12, and by more where a region is long.
+        EXPECT_NEAR(mean / floor / even, 1.02, 0.025) << channel;
+        // Four standard errors: stated for luminance, in proportion for one channel.
+        const double luminance = 0.2126 * (6 * tint[2] - 2 * tint[0]) + 0.7152 * 4 +
+                                 0.0722 * (6 * tint[0] - 2 * tint[2]);
+        EXPECT_NEAR(traced / floor, even,
+                    4 * std::sqrt(noise) / floor * std::abs(right - left) / luminance)
+            << channel;
+    }
 }
 
 TEST_F(Program, TakesAColourForAnEnvironment) {
@@ -83,7 +110,7 @@ TEST_F(Program, RefusesWhatIsNoEnvironment) {
     std::ofstream(file("text.exr")) << "not a picture";
     Image grey = sky_picture(1, 1);
     grey.channels.resize(1);
-    clgi::io::save_exr(grey, file("grey.exr"), clgi::io::Storage::full);
+    clgi::io::save_exr(grey, file("grey.exr"), clgi::io::PixelType::full);
     for (const std::string command : {"render ", "reference "}) {
         const auto with = [&](const std::string& flags) {
             return run(command + scene + common + " " + flags);
@@ -104,7 +131,7 @@ TEST_F(Program, WarnsOfWhatIsOddInAnEnvironment) {
     const std::string scene = make("cornell");
     Image odd = sky_picture(1, 2);
     odd.channels[1].values[3] = -4.0f;
-    clgi::io::save_exr(odd, file("odd.exr"), clgi::io::Storage::full);
+    clgi::io::save_exr(odd, file("odd.exr"), clgi::io::PixelType::full);
     const Outcome outcome = run("reference " + scene + " --size 8x8 --spp 1 --environment " +
                                 file("odd.exr").string() + " -o " + file("x.exr").string());
     EXPECT_EQ(outcome.code, 0);
@@ -114,7 +141,7 @@ TEST_F(Program, WarnsOfWhatIsOddInAnEnvironment) {
     Image sun = sky_picture(1, 2);
     for (Image::Channel& channel : sun.channels) channel.values[5] = INFINITY;
     sun.channels[0].values[1] = NAN;
-    clgi::io::save_exr(sun, file("sun.exr"), clgi::io::Storage::full);
+    clgi::io::save_exr(sun, file("sun.exr"), clgi::io::PixelType::full);
     clgi::io::save_glb(floor_scene(1), file("floor.glb"));
     const Outcome sunny = run("reference " + file("floor.glb").string() +
                               " --size 64x64 --spp 1 --effects emission --full --environment " +
@@ -124,7 +151,7 @@ TEST_F(Program, WarnsOfWhatIsOddInAnEnvironment) {
     float brightest = 0.0f;
     for (const float value : load_image(file("s.exr")).find("G")->values)
         brightest = std::max(brightest, value);
-    EXPECT_EQ(brightest, 2.0f);
+    EXPECT_EQ(brightest, 2.0f * tint[2]);
 }
 
 TEST_F(Program, LightsTheTexelsOfALightmap) {

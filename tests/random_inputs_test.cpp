@@ -28,7 +28,7 @@ CLGI_IN_BOTH_MATHS(DiscKernel);
 constexpr int launches = 16, pairs = 65536;  // a million together
 
 // One light, and points at distances from `least` to `most`, evenly on a logarithmic scale.
-std::vector<test::Receiver> around(test::Random& random, const IndirectLight& light, double least,
+std::vector<test::Receiver> around(test::Random& random, const Vpl& light, double least,
                                    double most) {
     std::vector<test::Receiver> out;
     for (int i = 0; i < pairs; ++i) {
@@ -39,7 +39,7 @@ std::vector<test::Receiver> around(test::Random& random, const IndirectLight& li
     return out;
 }
 
-IndirectLight light_at(const glm::vec3& position, const glm::vec3& normal, double area) {
+Vpl light_at(const glm::vec3& position, const glm::vec3& normal, double area) {
     const auto radius2 = static_cast<float>(area / pi);
     return {glm::vec4(position, radius2), glm::vec4(normal, radius2 * radius2), glm::vec4(1.0f)};
 }
@@ -51,7 +51,7 @@ TEST_P(DiscKernel, IsWithinItsRoundingsOfDoublePrecision) {
     for (int launch = 0; launch < launches; ++launch) {
         // At the origin, where small distances are floats too, and elsewhere.
         const glm::vec3 at = launch % 2 ? 0.5f * direction(random) : glm::vec3(0.0f);
-        const IndirectLight light = light_at(at, direction(random), std::exp2(random(-40, 0)));
+        const Vpl light = light_at(at, direction(random), std::exp2(random(-40, 0)));
         const auto receivers = around(random, light, launch % 2 ? -20 : -40, 1);
         const auto found = test::gather(receivers, {light}, {}, test::image_passes(GetParam()));
         double worst = 0.0, most = 0.0;
@@ -80,7 +80,7 @@ TEST_P(DiscKernel, StaysFiniteAndBelowTheLightsRadiosity) {
     test::Random random(32);
     for (int launch = 0; launch < launches; ++launch) {
         const double area = std::exp2(random(-60, 10));
-        const IndirectLight light = light_at(glm::vec3(0.0f), direction(random), area);
+        const Vpl light = light_at(glm::vec3(0.0f), direction(random), area);
         // From the smallest denormal to a million scenes away.
         const auto found = test::gather(around(random, light, -149, 20), {light}, {},
                                         test::image_passes(GetParam()));

@@ -47,7 +47,7 @@ std::vector<std::uint64_t> expected(const Drawing& drawing) {
         Corner corner[3];
         std::uint32_t closeness = 0;
         for (int k = 0; k < 3; ++k) {
-            const ScreenVertex& vertex = drawing.vertices[triangle[k]];
+            const test::ScreenVertex& vertex = drawing.vertices[triangle[k]];
             corner[k] = {vertex.x, vertex.y};
             std::memcpy(&closeness, &vertex.closeness, sizeof closeness);
         }
@@ -208,6 +208,15 @@ TEST(Raster, GivesEdgesThroughCentresToTheTopLeft) {
         for (int x = 0; x < 8; ++x)
             EXPECT_EQ(drawing.triangle(8 * y + x) >= 0, x >= 2 && x < 6 && y >= 1 && y < 4)
                 << x << ", " << y;
+    // And of large triangles: rows 4 to 43.
+    Scene large = test::plain_scene();
+    test::add_quad(large,
+                   {glm::dvec3(2.5, 4.5, 0), {44.5, 4.5, 0}, {44.5, 43.5, 0}, {2.5, 43.5, 0}});
+    const Drawing other = test::draw(large, test::pixel_camera(48, 48), 48, 48);
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 48; ++x)
+            EXPECT_EQ(other.triangle(48 * y + x) >= 0, x >= 2 && x < 44 && y >= 4 && y < 43)
+                << x << ", " << y;
 }
 
 TEST(Raster, DrawsNothingOfNoArea) {
@@ -275,12 +284,15 @@ TEST(Raster, StaysInsideItsView) {
     view.first_pixel = 19;
     const std::size_t pixels = 21 * 17, all = 19 + pixels + 33;
     const RasterBuffers buffers = test::raster_buffers(placed, all);
-    const std::uint64_t canary = 0x0123456789abcdef;
-    test::device().queue.enqueueFillBuffer(buffers.visibility, canary, 0, all * sizeof canary);
+    const std::uint64_t canary = ~std::uint64_t{15};  // loses against all that is drawn
+    test::device().queue.enqueueFillBuffer(buffers.pixels, canary, 0, all * sizeof canary);
     test::draw_visibility(test::gbuffer_passes(), placed, view, buffers);
-    const auto words = test::download<std::uint64_t>(buffers.visibility, all);
+    const auto words = test::download<std::uint64_t>(buffers.pixels, all);
     for (std::size_t p = 0; p < all; ++p)
         EXPECT_EQ(words[p] == canary, p < 19 || p >= 19 + pixels) << p;
+    view.first_pixel = 0;
+    const Drawing first = test::draw(placed, view);
+    for (std::size_t p = 0; p < pixels; ++p) EXPECT_EQ(words[19 + p], first.visibility[p]) << p;
 }
 
 }  // namespace

@@ -70,7 +70,8 @@ TEST(ReferenceMaterial, ReadsTheColourThatTheGBufferHolds) {
                     u > v ? reference::Hit{0, u - v, v} : reference::Hit{1, u, v - u};
                 const reference::Surface surface =
                     reference::surface_at(geometry, hit, glm::vec3(0, 0, -1));
-                const glm::vec3 other = drawing.at(GBUFFER_ALBEDO, size * y + x);
+                const glm::vec3 other = drawing.at(GBUFFER_BASE, size * y + x) *
+                                        reflectance(material.metallic, material.roughness).diffuse;
                 int differ = 0;
                 for (int c = 0; c < 3; ++c)
                     differ += std::abs(surface.albedo[c] - other[c]) > 4e-5f;
@@ -140,11 +141,11 @@ TEST(ReferenceTransport, IsWhatTheSecondOrderSolverConvergesTo) {
     SecondOrderOptions solver_options;
     solver_options.width = options.width;
     solver_options.height = options.height;
-    solver_options.sources.lights = 20000;
-    solver_options.negative_lights = 0;
+    solver_options.emitters.vpls = 20000;
+    solver_options.negative_vpls = 0;
     solver_options.low_resolution_step = 1;
     solver_options.direct = false;
-    solver_options.sources.shadow_size = 1024;
+    solver_options.emitters.shadow_size = 1024;
     const test::Frame frame = test::render(room, camera, solver_options);
     EXPECT_NEAR(mean(frame.radiance) / mean(shadowed.radiance), 1.0, 0.003 + 3 * error);
 }

@@ -139,12 +139,12 @@ TEST(Reference, LosesNoEnergyInACube) {
 }
 
 TEST(Reference, LightsASphereBySpotAndPoint) {
-    for (const Lamp lamp : {Lamp::spot, Lamp::point}) {
+    for (const LightSource lamp : {LightSource::spot, LightSource::point}) {
         FurnaceOptions furnace_options;
-        furnace_options.lamp = lamp;
+        furnace_options.light = lamp;
         furnace_options.subdivisions = 6;
         const PathTracer tracer(furnace(furnace_options));
-        const double flux = 2 * pi * (lamp == Lamp::spot ? 1 - std::cos(30 * degree) : 2.0);
+        const double flux = 2 * pi * (lamp == LightSource::spot ? 1 - std::cos(30 * degree) : 2.0);
         std::vector<Place> places;
         for (int i = 0; i < 400; ++i) {
             const double y = 1 - (2 * i + 1) / 400.0, turn = i * 2.4;

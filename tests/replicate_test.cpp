@@ -17,11 +17,11 @@ SecondOrderOptions options_for(int lights, int negative) {
     SecondOrderOptions options;
     options.width = 48;
     options.height = 36;
-    options.sources.lights = lights;
-    options.sources.shadow_size = 128;
-    options.sources.face_size = 64;
-    options.sources.area_samples = 4;
-    options.negative_lights = negative;
+    options.emitters.vpls = lights;
+    options.emitters.shadow_size = 128;
+    options.emitters.face_size = 64;
+    options.emitters.area_samples = 4;
+    options.negative_vpls = negative;
     return options;
 }
 
@@ -37,10 +37,10 @@ bool equal(const io::Image& a, const io::Image& b) {
 }
 
 TEST(Replicate, ZeroIsTheSequenceItselfAndOthersAreNot) {
-    for (const Lamp lamp : {Lamp::spot, Lamp::point, Lamp::area}) {
-        const Scene scene = cornell({.lamp = lamp});
+    for (const LightSource lamp : {LightSource::spot, LightSource::point, LightSource::area}) {
+        const Scene scene = cornell({.light = lamp});
         const DeviceScene device = test::on_device(scene);
-        SecondOrderSolver solver(test::device().queue, device, options_for(200, 40));
+        SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(200, 40));
         const io::Image plain = picture(solver, scene.cameras[0]);
         solver.set_replicate(7);
         const io::Image seven = picture(solver, scene.cameras[0]);
@@ -56,17 +56,17 @@ TEST(Replicate, ZeroIsTheSequenceItselfAndOthersAreNot) {
 }
 
 TEST(Replicate, AcceptsAsManyLightsAsTheSequenceDoes) {
-    const Scene scene = cornell({.lamp = Lamp::spot});
+    const Scene scene = cornell({.light = LightSource::spot});
     const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::device().queue, device, options_for(300, 0));
+    SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(300, 0));
     int before = 0;
     for (std::uint32_t replicate = 0; replicate < 20; ++replicate) {
         solver.set_replicate(replicate);
         solver.render(scene.cameras[0]);
         test::device().queue.finish();
         int lit = 0;
-        for (const IndirectLight& light :
-             test::download<IndirectLight>(solver.indirect_lights(), 300))
+        for (const Vpl& light :
+             test::download<Vpl>(solver.vpls(), 300))
             lit += light.flux.w > 0.0f;
         // Part of the cone leaves by the open side: which lights do depends on the shift.
         EXPECT_GT(lit, 270) << replicate;
@@ -78,13 +78,13 @@ TEST(Replicate, AcceptsAsManyLightsAsTheSequenceDoes) {
 }
 
 TEST(Replicate, ReportsTheStandardErrorOfItsMean) {
-    const Scene scene = cornell({.lamp = Lamp::spot});
+    const Scene scene = cornell({.light = LightSource::spot});
     const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::device().queue, device, options_for(50, 0));
+    SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(50, 0));
     constexpr int count = 5;
     const report::Replicates found =
         report::replicate(test::device().queue, solver, scene.cameras[0], count);
-    EXPECT_EQ(solver.options().sources.replicate, 0u);
+    EXPECT_EQ(solver.options().emitters.replicate, 0u);
     std::vector<io::Image> each;
     for (int k = 1; k <= count; ++k) {
         solver.set_replicate(static_cast<std::uint32_t>(k));
@@ -111,24 +111,24 @@ TEST(Replicate, ReportsTheStandardErrorOfItsMean) {
 }
 
 TEST(Replicate, IsCancelledBetweenTwoAndLeavesTheSolverAsItWas) {
-    const Scene scene = cornell({.lamp = Lamp::spot});
+    const Scene scene = cornell({.light = LightSource::spot});
     const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::device().queue, device, options_for(50, 0));
+    SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(50, 0));
     solver.set_replicate(9);
     int asked = 0;
     EXPECT_THROW(report::replicate(test::device().queue, solver, scene.cameras[0], 100,
                                    [&] { return ++asked < 3; }),
                  report::Cancelled);
     EXPECT_EQ(asked, 3);
-    EXPECT_EQ(solver.options().sources.replicate, 9u);
+    EXPECT_EQ(solver.options().emitters.replicate, 9u);
 }
 
 // Lights close to what they light spoil the low-discrepancy rate pixel by pixel: about N^-1/2
 // stays.
 TEST(Replicate, ErrsLessThanHalfWithSixteenTimesTheLights) {
-    const Scene scene = cornell({.lamp = Lamp::spot});
+    const Scene scene = cornell({.light = LightSource::spot});
     const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::device().queue, device, options_for(100, 0));
+    SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(100, 0));
     const auto error = [&](int lights) {
         solver.reconfigure(options_for(lights, 0));
         return report::replicate(test::device().queue, solver, scene.cameras[0], 12).single_error;
@@ -138,9 +138,9 @@ TEST(Replicate, ErrsLessThanHalfWithSixteenTimesTheLights) {
 }
 
 TEST(Reconfigure, IsAsGoodAsANewSolver) {
-    const Scene scene = cornell({.lamp = Lamp::spot});
+    const Scene scene = cornell({.light = LightSource::spot});
     const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::device().queue, device, options_for(60, 10));
+    SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(60, 10));
     std::vector<SecondOrderOptions> others(5, options_for(90, 20));
     others[1].low_resolution_step = 1;
     others[2].low_resolution_step = 2;
@@ -150,7 +150,7 @@ TEST(Reconfigure, IsAsGoodAsANewSolver) {
     others[4].indirect = false;
     for (const SecondOrderOptions& options : others) {
         solver.reconfigure(options);
-        SecondOrderSolver fresh(test::device().queue, device, options);
+        SecondOrderSolver fresh(test::programs(), test::device().queue, device, options);
         EXPECT_TRUE(equal(picture(solver, scene.cameras[0]), picture(fresh, scene.cameras[0])));
         EXPECT_EQ(solver.bytes(), fresh.bytes());
     }

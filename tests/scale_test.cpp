@@ -48,8 +48,8 @@ struct Moved {
     double flux = 0.0;   // share
 };
 
-Moved moved(const std::vector<IndirectLight>& lights, const SceneFrame& frame,
-            const std::vector<IndirectLight>& others, const SceneFrame& there, double size) {
+Moved moved(const std::vector<Vpl>& lights, const SceneFrame& frame,
+            const std::vector<Vpl>& others, const SceneFrame& there, double size) {
     Moved out;
     const double area = std::pow(frame.scale / there.scale / size, 2);
     const double lumen = area * there.exposure / frame.exposure;
@@ -83,10 +83,10 @@ TEST(Scaled, PlacesTheSameLights) {
                                test::point_light({0.2, 0.1, 0.1})}) {
         const Scene scene = room(light);
         const DeviceScene here = test::on_device(scene);
-        const auto usual = test::place_lights(here, {.lights = 300});
+        const auto usual = test::place_lights(here, {.vpls = 300});
         for (const double size : sizes) {
             const DeviceScene there = test::on_device(scaled(scene, size));
-            const auto placed = test::place_lights(there, {.lights = 300});
+            const auto placed = test::place_lights(there, {.vpls = 300});
             EXPECT_EQ(placed.accepted, usual.accepted) << size;
             expect_rounding_only(
                 moved(usual.lights, here.frame(), placed.lights, there.frame(), size));
@@ -101,9 +101,9 @@ TEST(Scaled, IsTheSamePictureButForRounding) {
     SecondOrderOptions options;
     options.width = 31;
     options.height = 23;
-    options.sources = {.lights = 100, .shadow_size = 64, .face_size = 64};
+    options.emitters = {.vpls = 100, .shadow_size = 64, .face_size = 64};
     options.low_resolution_step = 1;
-    options.negative_lights = 0;
+    options.negative_vpls = 0;
     const test::Frame usual = test::render(scene, scene.cameras[0], options);
     for (const double size : sizes) {
         const Scene other = scaled(scene, size);
@@ -121,7 +121,7 @@ TEST(Scaled, IsTheSamePictureButForRounding) {
             const double d = glm::length(ray), direct = ray.y / (d * d * d);
             const double moves = shift + 2 * u * 4.0;  // the lamp's place is rounded once each time
             double bound = direct * (moves * (3 / d + 1 / ray.y) + 16 * u);
-            for (const IndirectLight& light : usual.lights) {
+            for (const Vpl& light : usual.lights) {
                 const glm::dvec3 t = unscaled(usual.place, glm::vec3(light.position), 1.0) - at;
                 const double square = glm::dot(t, t);
                 const double radius2 = light.position.w / std::pow(usual.place.scale, 2);

@@ -60,9 +60,9 @@ TEST(Front, KnowsScenesByTheirLamps) {
     const auto class_of = [](const Scene& scene) {
         return report::classify(test::on_device(scene));
     };
-    EXPECT_EQ(class_of(cornell({.lamp = Lamp::spot})), SceneClass::spot);
-    EXPECT_EQ(class_of(cornell({.lamp = Lamp::point})), SceneClass::point);
-    EXPECT_EQ(class_of(cornell({.lamp = Lamp::area})), SceneClass::area);
+    EXPECT_EQ(class_of(cornell({.light = LightSource::spot})), SceneClass::spot);
+    EXPECT_EQ(class_of(cornell({.light = LightSource::point})), SceneClass::point);
+    EXPECT_EQ(class_of(cornell({.light = LightSource::area})), SceneClass::area);
     Scene sunlit = test::plain_scene();
     test::add_floor(sunlit, 1.0);
     sunlit.lights = {test::directional_light({0, -1, 0})};
@@ -128,14 +128,14 @@ std::vector<double> luminance(SecondOrderSolver& solver, const Camera& camera) {
 double true_error(SecondOrderSolver& solver, const Camera& camera) {
     const std::vector<double> delivered = luminance(solver, camera);
     SecondOrderOptions options = solver.options();
-    options.sources.lights = report::converged_lights;
-    options.negative_lights = 4096;
+    options.emitters.vpls = report::converged_lights;
+    options.negative_vpls = 4096;
     options.low_resolution_step = 1;
-    options.sources.area_samples = 64;
+    options.emitters.area_samples = 64;
     std::vector<double> truth(delivered.size());
     constexpr int replicates = 3;
     for (int k = 1; k <= replicates; ++k) {
-        options.sources.replicate = 1000 + k;
+        options.emitters.replicate = 1000 + k;
         solver.reconfigure(options);
         const std::vector<double> one = luminance(solver, camera);
         for (std::size_t i = 0; i < truth.size(); ++i) truth[i] += one[i] / replicates;
@@ -153,41 +153,41 @@ SecondOrderOptions small_picture() {
     SecondOrderOptions options;
     options.width = 64;
     options.height = 48;
-    options.sources.shadow_size = 128;
-    options.sources.face_size = 64;
+    options.emitters.shadow_size = 128;
+    options.emitters.face_size = 64;
     return options;
 }
 
-class AskForEvery : public testing::TestWithParam<Lamp> {};
+class AskForEvery : public testing::TestWithParam<LightSource> {};
 
 TEST_P(AskForEvery, ATargetErrorIsNotExceeded) {
-    const Scene scene = cornell({.lamp = GetParam()});
+    const Scene scene = cornell({.light = GetParam()});
     const DeviceScene device = test::on_device(scene);
     const Camera& camera = scene.cameras[0];
-    SecondOrderSolver solver(test::device().queue, device, small_picture());
+    SecondOrderSolver solver(test::programs(), test::device().queue, device, small_picture());
     constexpr double target = 0.1;
     const report::Answer answer =
         report::ask(test::device().queue, device, solver, camera, {.target_error = target});
     EXPECT_TRUE(answer.target_met);
     ASSERT_TRUE(answer.estimated_error);
     EXPECT_LE(*answer.estimated_error, target);
-    EXPECT_EQ(solver.options().sources.lights, answer.settings.lights);
-    EXPECT_EQ(solver.options().sources.replicate, 0u);
+    EXPECT_EQ(solver.options().emitters.vpls, answer.settings.lights);
+    EXPECT_EQ(solver.options().emitters.replicate, 0u);
     EXPECT_EQ(solver.options().width, 64);
     EXPECT_LE(true_error(solver, camera), target) << "estimated " << *answer.estimated_error;
 }
 
-INSTANTIATE_TEST_SUITE_P(Lamps, AskForEvery, testing::Values(Lamp::spot, Lamp::point, Lamp::area),
+INSTANTIATE_TEST_SUITE_P(Lamps, AskForEvery, testing::Values(LightSource::spot, LightSource::point, LightSource::area),
                          [](const auto& test) {
-                             return std::string(test.param == Lamp::spot    ? "spot"
-                                                : test.param == Lamp::point ? "point"
+                             return std::string(test.param == LightSource::spot    ? "spot"
+                                                : test.param == LightSource::point ? "point"
                                                                             : "area");
                          });
 
 TEST(Ask, ACancelledProbeSaysSo) {
-    const Scene scene = cornell({.lamp = Lamp::spot});
+    const Scene scene = cornell({.light = LightSource::spot});
     const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::device().queue, device, small_picture());
+    SecondOrderSolver solver(test::programs(), test::device().queue, device, small_picture());
     EXPECT_THROW(report::ask(test::device().queue, device, solver, scene.cameras[0],
                              {.budget_ms = 20.0}, [] { return false; }),
                  report::Cancelled);

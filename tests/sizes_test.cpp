@@ -22,11 +22,11 @@ struct Argument {
 
 // The buffers of a frame of 5x3 pixels, all of them large enough.
 struct Plenty {
-    DeviceScene scene = test::on_device(cornell({.lamp = Lamp::spot}));
+    DeviceScene scene = test::on_device(cornell({.light = LightSource::spot}));
     View view = make_view(cornell().cameras[0], scene.frame(), width, height);
     RasterBuffers raster = test::raster_buffers(scene, pixels);
-    EmitterSet set = make_emitters(scene, {.lights = 4, .shadow_size = 8});
-    SourceBuffers sources{test::upload(set.emitters), test::upload(set.views),
+    EmitterSet set = make_emitters(scene, {.vpls = 4, .shadow_size = 8});
+    EmitterBuffers emitters{test::upload(set.emitters), test::upload(set.views),
                           test::empty<std::uint64_t>(64)};
     cl::Buffer any = test::empty<float>(1 << 16);
 };
@@ -38,7 +38,7 @@ RasterBuffers with(RasterBuffers buffers, cl::Buffer RasterBuffers::*which,
     return buffers;
 }
 
-SourceBuffers with(SourceBuffers buffers, cl::Buffer SourceBuffers::*which,
+EmitterBuffers with(EmitterBuffers buffers, cl::Buffer EmitterBuffers::*which,
                    const cl::Buffer& other) {
     buffers.*which = other;
     return buffers;
@@ -67,24 +67,33 @@ TEST(Sizes, OfGBufferPasses) {
     const Plenty p;
     const GBufferPasses& passes = test::gbuffer_passes();
     const cl::CommandQueue& queue = test::device().queue;
-    const std::uint32_t stage = passes.fused() ? RASTER_FUSED : RASTER_DEPTH;
-    const std::size_t vertices = p.scene.info().vertex_count,
-                      triangles = p.scene.info().triangle_count;
+    const std::uint32_t stage = passes.stages(Pixels::visibility).front();
+    const std::size_t triangles = p.scene.info().triangle_count;
+    const std::size_t capacity = p.raster.capacity;
+    const cl::Buffer views = test::upload(std::vector<View>{p.view});
+    const ViewSpan span = span_of({p.view}, 0, 1);
     using R = RasterBuffers;
-    const auto clear = [&](const R& b) { passes.clear(queue, p.view, b); };
-    const auto transform = [&](const R& b) { passes.transform(queue, p.view, p.scene, b); };
+    const auto clear = [&](const R& b, const cl::Buffer& v) { passes.clear(queue, span, v, b); };
     const auto raster = [&](const R& b) {
-        passes.clear(queue, p.view, p.raster);
-        passes.transform(queue, p.view, p.scene, p.raster);
-        passes.raster(queue, p.view, p.scene, stage, b);
+        passes.clear(queue, span, views, p.raster);
+        if (b.counts()) queue.enqueueFillBuffer(b.counts, cl_uint{0}, 0, sizeof(RasterCount));
+        passes.raster(queue, span, views, p.scene, stage, b);
+    };
+    const auto late = [&](const R& b) {
+        if (b.counts()) queue.enqueueFillBuffer(b.counts, cl_uint{0}, 0, sizeof(RasterCount));
+        passes.raster_late(queue, span, views, p.scene, stage, b);
     };
     const auto large = [&](const R& b) {
-        queue.enqueueFillBuffer(b.run_count, cl_uint{0}, 0, sizeof(cl_uint));
-        passes.raster_large(queue, p.view, p.scene, b);
+        if (b.counts()) queue.enqueueFillBuffer(b.counts, cl_uint{0}, 0, sizeof(RasterCount));
+        passes.raster_large(queue, span, views, p.scene, b);
     };
+    const CubeParams cubes{2, 5, 8, 1, 0, 16, 0.0f, 0.1f};
+    const cl::Buffer zeros = test::upload(std::vector<float>(1 << 10));
+    const SurfaceParams surface{3, 16, 1, 0};
+    const GBuffer target{p.any, p.any, 16, Storage::full};
     const auto resolve = [&](const cl::Buffer& visibility, const cl::Buffer& planes,
                              const cl::Buffer& ids) {
-        passes.clear(queue, p.view, p.raster);
+        passes.clear(queue, span, views, p.raster);
         if (visibility()) queue.enqueueFillBuffer(visibility, cl_uchar{255}, 0, pixels * 8 - 8);
         passes.resolve(queue, p.view, p.scene, {stride, RESOLVE_ALL, 0, 0}, visibility, planes,
                        ids);
@@ -93,32 +102,80 @@ TEST(Sizes, OfGBufferPasses) {
         passes.downsample(queue, {width, height, stride, stride, 2, 0, 0, 0}, planes, points);
     };
     expect_refusals({
-        {"gbuffer.clear", "visibility", pixels * 8,
-         [&](const cl::Buffer& b) { clear(with(p.raster, &R::visibility, b)); }},
-        {"gbuffer.clear", "run_count", 4,
-         [&](const cl::Buffer& b) { clear(with(p.raster, &R::run_count, b)); }},
-        {"gbuffer.transform", "vertices", vertices * sizeof(ScreenVertex),
-         [&](const cl::Buffer& b) { transform(with(p.raster, &R::vertices, b)); }},
-        {"gbuffer.raster", "visibility", pixels * 8,
-         [&](const cl::Buffer& b) { raster(with(p.raster, &R::visibility, b)); }},
-        {"gbuffer.raster", "polygons", triangles * sizeof(RasterPolygon),
+        {"gbuffer.put_view", "views", sizeof(View),
+         [&](const cl::Buffer& b) { passes.put_view(queue, p.view, 0, b); }},
+        {"gbuffer.cubes", "points", POINT_PLANES * 16 * 4,
+         [&](const cl::Buffer& b) { passes.cubes(queue, cubes, b, zeros, p.any); }},
+        {"gbuffer.cubes", "chosen", 8,
+         [&](const cl::Buffer& b) {
+             if (b()) queue.enqueueFillBuffer(b, cl_uchar{0}, 0, b.getInfo<CL_MEM_SIZE>());
+             passes.cubes(queue, cubes, zeros, b, p.any);
+         }},
+        {"gbuffer.cubes", "views", 11 * sizeof(View),
+         [&](const cl::Buffer& b) { passes.cubes(queue, cubes, zeros, zeros, b); }},
+        {"gbuffer.clear", "pixels", pixels * 8,
+         [&](const cl::Buffer& b) { clear(with(p.raster, &R::pixels, b), views); }},
+        {"gbuffer.clear", "counts", sizeof(RasterCount),
+         [&](const cl::Buffer& b) { clear(with(p.raster, &R::counts, b), views); }},
+        {"gbuffer.raster", "pixels", pixels * 8,
+         [&](const cl::Buffer& b) { raster(with(p.raster, &R::pixels, b)); }},
+        {"gbuffer.raster", "polygons", capacity * sizeof(RasterPolygon),
          [&](const cl::Buffer& b) { raster(with(p.raster, &R::polygons, b)); }},
-        {"gbuffer.raster", "runs", raster_runs(triangles) * sizeof(RasterRun),
+        {"gbuffer.raster", "runs", capacity * sizeof(RasterRun),
          [&](const cl::Buffer& b) { raster(with(p.raster, &R::runs, b)); }},
-        {"gbuffer.raster_large", "visibility", pixels * 8,
-         [&](const cl::Buffer& b) { large(with(p.raster, &R::visibility, b)); }},
+        {"gbuffer.raster", "late", raster_batches(triangles) * 4,
+         [&](const cl::Buffer& b) { raster(with(p.raster, &R::late, b)); }},
+        {"gbuffer.raster_late", "late", raster_batches(triangles) * 4,
+         [&](const cl::Buffer& b) { late(with(p.raster, &R::late, b)); }},
+        {"gbuffer.raster_large", "pixels", pixels * 8,
+         [&](const cl::Buffer& b) { large(with(p.raster, &R::pixels, b)); }},
+        {"gbuffer.raster_views", "pixels", pixels * 8,
+         [&](const cl::Buffer& b) {
+             passes.raster_views(queue, span, views, p.scene, b, Pixels::visibility);
+         }},
+        {"gbuffer.raster_views", "pixels", pixels * 4,
+         [&](const cl::Buffer& b) {
+             passes.raster_views(queue, span, views, p.scene, b, Pixels::depth);
+         }},
+        {"gbuffer.surface", "samples", 3 * sizeof(SurfaceSample),
+         [&](const cl::Buffer& b) {
+             if (b()) queue.enqueueFillBuffer(b, cl_uchar{0}, 0, 3 * sizeof(SurfaceSample) - 1);
+             passes.surface(queue, p.scene, surface, b, target, p.any);
+         }},
+        {"gbuffer.surface", "planes", GBUFFER_PLANES * 16 * 4,
+         [&](const cl::Buffer& b) {
+             passes.surface(queue, p.scene, surface, zeros, {b, p.any, 16}, p.any);
+         }},
+        {"gbuffer.surface", "ids", GBUFFER_ID_PLANES * 16 * 4,
+         [&](const cl::Buffer& b) {
+             passes.surface(queue, p.scene, surface, zeros, {p.any, b, 16}, p.any);
+         }},
+        {"gbuffer.surface", "coords", 4 * 16 * 4,
+         [&](const cl::Buffer& b) { passes.surface(queue, p.scene, surface, zeros, target, b); }},
         {"gbuffer.resolve", "planes", GBUFFER_PLANES * stride * 4,
-         [&](const cl::Buffer& b) { resolve(p.raster.visibility, b, p.any); }},
+         [&](const cl::Buffer& b) { resolve(p.raster.pixels, b, p.any); }},
         {"gbuffer.resolve", "ids", GBUFFER_ID_PLANES * stride * 4,
-         [&](const cl::Buffer& b) { resolve(p.raster.visibility, p.any, b); }},
+         [&](const cl::Buffer& b) { resolve(p.raster.pixels, p.any, b); }},
         {"gbuffer.downsample", "planes", POINT_PLANES * stride * 4,
          [&](const cl::Buffer& b) { down(b, p.any); }},
         {"gbuffer.downsample", "points", POINT_PLANES * stride * 4,
          [&](const cl::Buffer& b) { down(p.any, b); }},
     });
-    EXPECT_THROW(passes.raster(queue, p.view, p.scene, 3, p.raster), Error);
+    EXPECT_THROW(passes.raster(queue, span, views, p.scene, 3, p.raster), Error);
+    ViewSpan two = span;
+    two.count = 2;  // more than the lists are for
+    EXPECT_THROW(passes.raster(queue, two, test::upload(std::vector<View>(2, p.view)), p.scene,
+                               stage, p.raster),
+                 Error);
+    EXPECT_THROW(passes.raster_views(queue, two, views, p.scene, p.raster.pixels,
+                                     Pixels::visibility),
+                 Error);
+    for (const CubeParams& wrong : {CubeParams{2, 4, 8, 1, 0, 16, 0.0f, 0.1f},
+                                    {2, 5, 7, 1, 0, 16, 0.0f, 0.1f},
+                                    {2, 5, 8, 1, 0, 16, 0.0f, 0.0f}})
+        EXPECT_THROW(passes.cubes(queue, wrong, zeros, zeros, p.any), Error);
     EXPECT_THROW(
-        passes.resolve(queue, p.view, p.scene, {15, 0, 0, 0}, p.raster.visibility, p.any, p.any),
+        passes.resolve(queue, p.view, p.scene, {15, 0, 0, 0}, p.raster.pixels, p.any, p.any),
         Error);
     EXPECT_THROW(
         passes.downsample(queue, {width, height, stride, low - 1, 2, 0, 0, 0}, p.any, p.any), Error);
@@ -136,16 +193,16 @@ TEST(Sizes, OfLightPasses) {
     const AcceptParams accept{0, 64, 0, 0};
     const FetchParams fetch{4, 1, 1.0f, 1.0f};
     const NegativeParams negative{4, 3, stride, 0.0f, 1.0f, 0, 0, 0};
-    const std::size_t light = sizeof(IndirectLight);
+    const std::size_t light = sizeof(Vpl);
     expect_refusals({
         {"lights.accept_mask", "mask", 8,
-         [&](const cl::Buffer& b) { passes.accept_mask(queue, accept, p.sources.emitters, b); }},
+         [&](const cl::Buffer& b) { passes.accept_mask(queue, accept, p.emitters.emitters, b); }},
         {"lights.accept_list", "mask", 8,
          [&](const cl::Buffer& b) {
-             passes.accept_list(queue, accept, p.sources.emitters, b, p.any);
+             passes.accept_list(queue, accept, p.emitters.emitters, b, p.any);
          }},
         {"lights.fetch", "lights", 4 * light,
-         [&](const cl::Buffer& b) { passes.fetch(queue, fetch, p.scene, p.sources, zeros, b); }},
+         [&](const cl::Buffer& b) { passes.fetch(queue, fetch, p.scene, p.emitters, zeros, b); }},
         {"lights.negative", "negative", 3 * light,
          [&](const cl::Buffer& b) { passes.negative(queue, negative, p.view, zeros, zeros, b); }},
     });
@@ -153,14 +210,14 @@ TEST(Sizes, OfLightPasses) {
     const cl::Buffer tiny = test::empty<char>(1);
     EXPECT_THROW(passes.accept_mask(queue, accept, tiny, p.any), Error);
     EXPECT_THROW(passes.accept_list(queue, accept, tiny, p.any, p.any), Error);
-    EXPECT_THROW(passes.accept_list(queue, accept, p.sources.emitters, p.any, tiny), Error);
+    EXPECT_THROW(passes.accept_list(queue, accept, p.emitters.emitters, p.any, tiny), Error);
     EXPECT_THROW(passes.fetch(queue, fetch, p.scene,
-                              with(p.sources, &SourceBuffers::emitters, tiny), zeros, p.any),
+                              with(p.emitters, &EmitterBuffers::emitters, tiny), zeros, p.any),
                  Error);
-    EXPECT_THROW(passes.fetch(queue, fetch, p.scene, p.sources, tiny, p.any), Error);
+    EXPECT_THROW(passes.fetch(queue, fetch, p.scene, p.emitters, tiny, p.any), Error);
     EXPECT_THROW(passes.negative(queue, negative, p.view, tiny, zeros, p.any), Error);
     EXPECT_THROW(passes.negative(queue, negative, p.view, zeros, tiny, p.any), Error);
-    EXPECT_THROW(passes.accept_mask(queue, {0, 33, 0, 0}, p.sources.emitters, p.any), Error);
+    EXPECT_THROW(passes.accept_mask(queue, {0, 33, 0, 0}, p.emitters.emitters, p.any), Error);
     EXPECT_THROW(passes.negative(queue, {4, 3, pixels - 1, 0.0f}, p.view, zeros, zeros, p.any),
                  Error);
 }
@@ -179,6 +236,7 @@ TEST(Sizes, OfImagePasses) {
     combine.width = width;
     combine.height = height;
     combine.stride = stride;
+    combine.depth_words = 2;
     combine.effects = COMBINE_INDIRECT;
     const GatherParams gather{stride, 0, 0, 0};
     const EnvironmentParams environment{glm::vec4(1.0f), 1, 1, stride, 0.0f};
@@ -226,15 +284,15 @@ TEST(Sizes, OfImagePasses) {
         {"image.place", "irradiance", irradiance,
          [&](B b) { passes.place(queue, refine, z, z, z, b); }},
         {"image.combine", "planes", GBUFFER_PLANES * plane,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, b, z, z, a, a); }},
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {b, z, stride}, z, a, a}); }},
         {"image.combine", "ids", GBUFFER_ID_PLANES * plane,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, b, z, a, a); }},
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, b, stride}, z, a, a}); }},
         {"image.combine", "irradiance", irradiance,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, b, a, a); }},
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, b, a, a}); }},
         {"image.combine", "radiance", RADIANCE_PLANES * plane,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, z, b, a); }},
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, z, b, a}); }},
         {"image.combine", "non_finite", 4,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, p.sources, z, z, z, a, b); }},
+         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, z, a, b}); }},
         {"image.environment", "texels", 3 * sizeof(float),
          [&](B b) { passes.environment(queue, environment, p.view, b, z, a); }},
         {"image.environment", "planes", (GBUFFER_NORMAL + 3) * plane,
@@ -271,7 +329,7 @@ TEST(Sizes, OfNothingAtAllAreFine) {
     const RasterBuffers buffers = test::raster_buffers(scene, 1);
     const View view = make_view(Camera(), scene.frame(), 1, 1);
     test::draw_visibility(test::gbuffer_passes(), scene, view, buffers);
-    EXPECT_EQ(test::download<std::uint64_t>(buffers.visibility, 1)[0], ~std::uint64_t{0});
+    EXPECT_EQ(test::download<std::uint64_t>(buffers.pixels, 1)[0], ~std::uint64_t{0});
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ SecondOrderOptions options_for(int width, int height, int lights, int negative,
     options.build.math = math;
     options.width = width;
     options.height = height;
-    options.sources.lights = lights;
-    options.negative_lights = negative;
+    options.emitters.vpls = lights;
+    options.negative_vpls = negative;
     return options;
 }
 
@@ -52,8 +52,8 @@ TEST_P(SecondOrder, LightsASphereEvenly) {
 }
 
 TEST(SecondOrder, KeepsItsIndirectLightsWhenTheCameraMoves) {
-    for (const Lamp lamp : {Lamp::spot, Lamp::area}) {
-        const Scene scene = cornell({.lamp = lamp});
+    for (const LightSource lamp : {LightSource::spot, LightSource::area}) {
+        const Scene scene = cornell({.light = lamp});
         const SecondOrderOptions options = options_for(40, 30, 200, 20);
         const Frame here = test::render(scene, scene.cameras[0], options);
         const Frame there =
@@ -72,9 +72,9 @@ TEST_P(NegativeLights, AreNoneInAnEmptyConvexBox) {
         SecondOrderOptions options = options_for(61, 43, 150, 100, GetParam());
         options.low_resolution_step = step;
         const Frame with = test::render(room, camera, options);
-        options.negative_lights = 0;
+        options.negative_vpls = 0;
         const Frame without = test::render(room, camera, options);
-        for (const IndirectLight& light : with.negative) EXPECT_EQ(light.flux, glm::vec4(0.0f));
+        for (const Vpl& light : with.negative) EXPECT_EQ(light.flux, glm::vec4(0.0f));
         EXPECT_TRUE(test::same_bits(with.irradiance, without.irradiance));
         EXPECT_TRUE(with.radiance == without.radiance);
     }
@@ -91,7 +91,7 @@ TEST_P(NegativeLights, OnlyTakeAwayAndNeverTooMuch) {
     options.direct = false;
     const Camera camera = test::camera_at({0, 0.1, 0.95}, {0, -0.5, -1}, 1.2f);
     const Frame with = test::render(room, camera, options);
-    options.negative_lights = 0;
+    options.negative_vpls = 0;
     const Frame without = test::render(room, camera, options);
     std::size_t darker = 0;
     for (std::size_t p = 0; p < with.pixels; ++p)
@@ -101,7 +101,7 @@ TEST_P(NegativeLights, OnlyTakeAwayAndNeverTooMuch) {
             darker += with.radiance[p][c] < without.radiance[p][c];
         }
     EXPECT_GT(darker, with.pixels / 10);
-    for (const IndirectLight& light : with.negative) {
+    for (const Vpl& light : with.negative) {
         EXPECT_TRUE(std::isfinite(glm::dot(light.position, light.flux)));
         EXPECT_GE(light.flux.x, 0.0f);
     }
@@ -187,10 +187,10 @@ TEST(SecondOrder, RefusesOptionsOutOfRange) {
     for (const auto& break_one : std::initializer_list<void (*)(SecondOrderOptions&)>{
              [](SecondOrderOptions& o) { o.width = 0; },
              [](SecondOrderOptions& o) { o.height = 16385; },
-             [](SecondOrderOptions& o) { o.negative_lights = -1; },
+             [](SecondOrderOptions& o) { o.negative_vpls = -1; },
              [](SecondOrderOptions& o) { o.footprint = -1.0f; },
              [](SecondOrderOptions& o) { o.discontinuity_threshold = std::nanf(""); },
-             [](SecondOrderOptions& o) { o.sources.lights = -1; }}) {
+             [](SecondOrderOptions& o) { o.emitters.vpls = -1; }}) {
         SecondOrderOptions options;
         break_one(options);
         EXPECT_THROW(SecondOrderSolver(test::device().queue, scene, options), Error);

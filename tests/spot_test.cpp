@@ -24,7 +24,7 @@ Scene room(const glm::vec3& direction, double angle) {
 }
 
 PlacedLights placed(const glm::vec3& direction, double angle, int lights) {
-    return test::place_lights(test::on_device(room(direction, angle)), {.lights = lights});
+    return test::place_lights(test::on_device(room(direction, angle)), {.vpls = lights});
 }
 
 // Index of the last of N accepted points, found with numpy in double precision.
@@ -54,11 +54,11 @@ TEST(Spot, KeepsTheOrderOfTheSequence) {
 
 TEST(Spot, TakesTheSameForEveryWorkGroup) {
     const DeviceScene scene = test::on_device(room({0.3f, -1, 0.2f}, 20 * degree));
-    const PlacedLights usual = test::place_lights(scene, {.lights = 333});
+    const PlacedLights usual = test::place_lights(scene, {.vpls = 333});
     for (const std::size_t size : {1, 7, 64, 256}) {
-        const LightPasses passes(test::device().context, test::device().device,
+        const LightPasses passes(test::programs(),
                                  {.local_size = size});
-        const PlacedLights other = test::place_lights(scene, {.lights = 333}, passes);
+        const PlacedLights other = test::place_lights(scene, {.vpls = 333}, passes);
         EXPECT_EQ(other.accepted, usual.accepted) << size;
         for (std::size_t i = 0; i < usual.lights.size(); ++i) {
             EXPECT_EQ(other.lights[i].position, usual.lights[i].position) << size;
@@ -70,7 +70,7 @@ TEST(Spot, TakesTheSameForEveryWorkGroup) {
 TEST(Spot, LightsNothingOutsideItsCone) {
     for (const double angle : {0.1, 1.0, 10.0, 30.0, 60.0, 75.0, 90.0}) {
         const glm::vec3 axis = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
-        for (const IndirectLight& light : placed(axis, angle * degree, 200).lights) {
+        for (const Vpl& light : placed(axis, angle * degree, 200).lights) {
             if (light.flux.w == 0.0f) continue;
             const double cosine =
                 glm::dot(glm::normalize(glm::dvec3(light.position)), glm::dvec3(axis));
@@ -86,7 +86,7 @@ TEST(Spot, FillsEveryConeThereIs) {
     for (const double angle : {1e-3, 0.01, 0.1, 0.5, 1.0, 5.0, 89.9, 90.0}) {
         const PlacedLights found = placed({0, -1, 0.01f}, angle * degree, 300);
         std::size_t lit = 0;
-        for (const IndirectLight& light : found.lights) {
+        for (const Vpl& light : found.lights) {
             lit += light.flux.w > 0.0f;
             for (int c = 0; c < 4; ++c)
                 EXPECT_TRUE(std::isfinite(light.position[c]) && std::isfinite(light.flux[c]));
@@ -117,7 +117,7 @@ TEST(Spot, KeepsTheLightsItStillCoversWhenItTurns) {
             std::find(after.accepted.begin(), after.accepted.end(), before.accepted[i]);
         if (same == after.accepted.end()) continue;
         ++kept;
-        const IndirectLight& moved =
+        const Vpl& moved =
             after.lights[static_cast<std::size_t>(same - after.accepted.begin())];
         // Another image shows the same plane: a few float spacings of a room of size 1.
         EXPECT_LT(glm::length(glm::vec3(moved.position - before.lights[i].position)), 2e-6f);
@@ -128,8 +128,8 @@ TEST(Spot, KeepsTheLightsItStillCoversWhenItTurns) {
 
 TEST(Spot, RefusesCountsOutOfRange) {
     const DeviceScene scene = test::on_device(room({0, -1, 0}, 1.0));
-    EXPECT_THROW(make_emitters(scene, {.lights = -1}), Error);
-    EXPECT_THROW(make_emitters(scene, {.lights = (1 << 20) + 1}), Error);
+    EXPECT_THROW(make_emitters(scene, {.vpls = -1}), Error);
+    EXPECT_THROW(make_emitters(scene, {.vpls = (1 << 20) + 1}), Error);
     EXPECT_THROW(make_emitters(scene, {.shadow_size = 0}), Error);
     EXPECT_THROW(make_emitters(scene, {.area_samples = -1}), Error);
 }

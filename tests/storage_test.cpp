@@ -21,10 +21,10 @@ SecondOrderOptions small_frame(const BuildOptions& build) {
     SecondOrderOptions options;
     options.width = 61;
     options.height = 43;
-    options.sources.lights = 100;
-    options.sources.shadow_size = 128;
-    options.sources.face_size = 64;
-    options.negative_lights = 50;
+    options.emitters.vpls = 100;
+    options.emitters.shadow_size = 128;
+    options.emitters.face_size = 64;
+    options.negative_vpls = 50;
     options.build = build;
     return options;
 }
@@ -35,14 +35,14 @@ TEST(HalfStorage, HoldsTheSamePlanesRounded) {
     const View view = make_view(scene.cameras[0], placed.frame(), 61, 43);
     const test::Drawing full = test::draw(placed, view);
 
-    const GBufferPasses passes(test::device().context, test::device().device, halves);
+    const GBufferPasses passes(test::programs(), halves);
     const RasterBuffers buffers = test::raster_buffers(placed, full.pixels());
     const cl::Buffer planes =
         test::empty<std::uint16_t>(gbuffer_bytes(Storage::half, full.stride) / 2);
     const cl::Buffer ids = test::empty<cl_int>(GBUFFER_ID_PLANES * full.stride);
     test::draw_visibility(passes, placed, view, buffers);
     passes.resolve(test::device().queue, view, placed, {full.stride, RESOLVE_ALL, 0, 0},
-                   buffers.visibility, planes, ids);
+                   buffers.pixels, planes, ids);
     const auto rows = test::download<std::uint16_t>(planes, GBUFFER_HALF_ROWS * full.stride);
 
     int shining = 0;
@@ -65,7 +65,7 @@ TEST(HalfStorage, TakesFewerBytesAndGivesNearlyTheSamePicture) {
     const Scene scene = cornell();
     const DeviceScene placed = test::on_device(scene);
     const auto frame = [&](const BuildOptions& build, std::size_t& bytes) {
-        SecondOrderSolver solver(test::device().queue, placed, small_frame(build));
+        SecondOrderSolver solver(test::programs(), test::device().queue, placed, small_frame(build));
         bytes = solver.bytes();
         // Besides what is estimated, a few words.
         EXPECT_NEAR(
@@ -110,7 +110,7 @@ TEST(HalfStorage, IsTheSameForEveryWorkGroupAndPacket) {
 // One light of the given flux right in front of a wall.
 glm::vec3 lit_by(float flux, const ImagePasses& passes, Storage storage) {
     const std::uint32_t stride = 16;
-    const std::vector<IndirectLight> lights{{{0, 0, 0.1f, 0}, {0, 0, -1, 0}, {flux, 1, -flux, 1}}};
+    const std::vector<Vpl> lights{{{0, 0, 0.1f, 0}, {0, 0, -1, 0}, {flux, 1, -flux, 1}}};
     std::vector<std::uint16_t> rows(point_bytes(Storage::half, stride) / sizeof(std::uint16_t));
     const float position = 0.0f;
     std::memcpy(rows.data(), &position, sizeof position);
@@ -129,7 +129,7 @@ TEST(HalfStorage, KeepsLargeNumbersFiniteAndShowsWhatIsNot) {
     for (const int width : {0, 1, 4}) {
         BuildOptions build = halves;
         build.packet_width = width;
-        const ImagePasses passes(test::device().context, test::device().device, build);
+        const ImagePasses passes(test::programs(), build);
         // 1 / (pi 0.1^2) of the flux arrives.
         const glm::vec3 some = lit_by(100.0f, passes, Storage::half);
         EXPECT_NEAR(some.x, 100.0f / (0.01f * 3.14159265f), 3183.1f * half_error);

@@ -134,7 +134,7 @@ TEST(Turned, ShowsTheSameTrianglesAtTheSameDepth) {
                 rounding(scene, placed.frame(), usual.triangle(p), glm::dvec3(view.eye), before);
             EXPECT_LE(glm::length(after - before), 2 * bound) << p;
             const glm::vec3 normal = drawing.at(GBUFFER_GEOMETRIC, p) * turn;
-            EXPECT_EQ(drawing.at(GBUFFER_ALBEDO, p), usual.at(GBUFFER_ALBEDO, p));
+            EXPECT_EQ(drawing.at(GBUFFER_BASE, p), usual.at(GBUFFER_BASE, p));
             EXPECT_GT(glm::dot(normal, usual.at(GBUFFER_GEOMETRIC, p)), 1 - 16 * u);
         }
     }
@@ -146,7 +146,7 @@ TEST(Turned, GathersTheSame) {
         return glm::normalize(glm::vec3(random(-1, 1), random(-1, 1), random(-1, 1)) +
                               glm::vec3(0, 1e-6f, 0));
     };
-    std::vector<IndirectLight> lights;
+    std::vector<Vpl> lights;
     std::vector<Receiver> receivers;
     for (int i = 0; i < 64; ++i) {
         lights.push_back(
@@ -155,8 +155,8 @@ TEST(Turned, GathersTheSame) {
     }
     const auto usual = test::gather(receivers, lights, {});
     for (const glm::mat3& turn : quarter_turns()) {
-        std::vector<IndirectLight> lights_there = lights;
-        for (IndirectLight& light : lights_there) {
+        std::vector<Vpl> lights_there = lights;
+        for (Vpl& light : lights_there) {
             light.position = glm::vec4(turn * glm::vec3(light.position), light.position.w);
             light.normal = glm::vec4(turn * glm::vec3(light.normal), light.normal.w);
         }
@@ -166,7 +166,7 @@ TEST(Turned, GathersTheSame) {
         const auto found = test::gather(receivers_there, lights_there, {});
         for (std::size_t r = 0; r < receivers.size(); ++r) {
             double condition = 0.0;  // the sum if no cosine were less than 1
-            for (const IndirectLight& light : lights) {
+            for (const Vpl& light : lights) {
                 const glm::dvec3 t = glm::dvec3(light.position) - glm::dvec3(receivers[r].position);
                 const double square = glm::dot(t, t), radius2 = light.position.w;
                 condition += (square + radius2) / std::numbers::pi /
@@ -189,7 +189,7 @@ TEST(Turned, LightsASpotsOwnPlaceAsTheIntegralSays) {
     turns.push_back(glm::mat3(2, -1, 2, 2, 2, -1, -1, 2, 2) / 3.0f);  // off every axis
     for (const glm::mat3& turn : turns) {
         const DeviceScene scene = test::on_device(turned(world, turn));
-        const auto placed = test::place_lights(scene, {.lights = 10000, .shadow_size = 256});
+        const auto placed = test::place_lights(scene, {.vpls = 10000, .shadow_size = 256});
         // As in tests/lights_test.cpp: corners at 1/256 pixel, and the sum of 10,000 points.
         EXPECT_NEAR(test::lux_at(scene, placed.lights, glm::dmat3(turn) * glm::dvec3(0, 1, 0),
                                  turn * glm::vec3(0, -1, 0)),
@@ -202,8 +202,8 @@ SecondOrderOptions small_frame() {
     SecondOrderOptions options;
     options.width = 47;
     options.height = 35;
-    options.sources = {.lights = 100, .shadow_size = 128, .face_size = 64};
-    options.negative_lights = 50;
+    options.emitters = {.vpls = 100, .shadow_size = 128, .face_size = 64};
+    options.negative_vpls = 50;
     return options;
 }
 
@@ -252,14 +252,14 @@ TEST(Reordered, LightsGiveTheSameLightsAndTheSameSum) {
     scene.lights.push_back(test::directional_light({0.2f, -1, 0.1f}, 0.83f));
     scene.lights.push_back(test::spot_light({0.5, 0.5, 0.6}, {-1, -0.4f, -1}, 0.5, 2.1f));
     SecondOrderOptions options = small_frame();
-    options.negative_lights = 0;  // a direction is no sum: its own rounding is not bounded here
+    options.negative_vpls = 0;  // a direction is no sum: its own rounding is not bounded here
     options.low_resolution_step = 1;
     const test::Frame usual = test::render(scene, scene.cameras[0], options);
     std::swap(scene.lights[0], scene.lights[2]);
     std::swap(scene.lights[1], scene.lights[3]);
     const test::Frame other = test::render(scene, scene.cameras[0], options);
 
-    const auto sorted = [](std::vector<IndirectLight> lights) {
+    const auto sorted = [](std::vector<Vpl> lights) {
         std::sort(lights.begin(), lights.end(),
                   [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) < 0; });
         return lights;
@@ -268,7 +268,7 @@ TEST(Reordered, LightsGiveTheSameLightsAndTheSameSum) {
     EXPECT_TRUE(test::same_bits(sorted(usual.lights), sorted(other.lights)));
     // Nothing is taken away, so each of n additions is u of the sum off at most; then a handful of
     // products.
-    const double additions = options.sources.lights + 4 + 8;
+    const double additions = options.emitters.vpls + 4 + 8;
     for (std::size_t p = 0; p < usual.pixels; ++p)
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(other.radiance[p][c], usual.radiance[p][c],

@@ -38,7 +38,7 @@ TEST(Texture, DecodesEverySrgbByte) {
     for (int i = 0; i < 256; ++i) ramp.rgba[4 * i] = static_cast<std::uint8_t>(i);
     const Drawing drawing = test::draw(textured(ramp, 16, 16), test::pixel_camera(16, 16), 16, 16);
     for (int i = 0; i < 256; ++i)  // half a float spacing, since the table comes from doubles
-        EXPECT_NEAR(drawing.at(GBUFFER_ALBEDO, i).x, decoded(i / 255.0), 6e-8) << i;
+        EXPECT_NEAR(drawing.at(GBUFFER_BASE, i).x, decoded(i / 255.0), 6e-8) << i;
 }
 
 TEST(Texture, ShowsACheckerTexelByTexel) {
@@ -50,7 +50,7 @@ TEST(Texture, ShowsACheckerTexelByTexel) {
         test::draw(textured(checker, 64, 32), test::pixel_camera(64, 32), 64, 32);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x)
-            EXPECT_EQ(drawing.at(GBUFFER_ALBEDO, 64 * y + x).x, (x / 8 + y / 8) % 2 ? 0.0f : 1.0f);
+            EXPECT_EQ(drawing.at(GBUFFER_BASE, 64 * y + x).x, (x / 8 + y / 8) % 2 ? 0.0f : 1.0f);
 }
 
 TEST(Texture, InterpolatesLinearLight) {
@@ -61,7 +61,7 @@ TEST(Texture, InterpolatesLinearLight) {
     for (int x = 0; x < 64; ++x) {
         const double u = (x + 0.5) / 64.0;
         const double wanted = std::min(std::max(2.0 * u - 0.5, 0.0), 1.0);
-        EXPECT_NEAR(drawing.at(GBUFFER_ALBEDO, 64 * 4 + x).x, wanted, 2e-6) << x;  // of u itself
+        EXPECT_NEAR(drawing.at(GBUFFER_BASE, 64 * 4 + x).x, wanted, 2e-6) << x;  // of u itself
     }
 }
 
@@ -80,7 +80,7 @@ TEST(Texture, WrapsAsItsSamplerSays) {
                                : wrap == Wrap::clamp_to_edge ? std::min(std::max(texel, 0), 3)
                                : folded < 4                  ? folded
                                                              : 7 - folded;
-            EXPECT_NEAR(drawing.at(GBUFFER_ALBEDO, 128 + x).x, decoded(60 * wanted / 255.0), 1e-7)
+            EXPECT_NEAR(drawing.at(GBUFFER_BASE, 128 + x).x, decoded(60 * wanted / 255.0), 1e-7)
                 << static_cast<int>(wrap) << ", pixel " << x;
         }
     }
@@ -92,7 +92,7 @@ TEST(Texture, FadesToItsMeanFarAway) {
         if ((i + i / 64) % 2) checker.rgba[4 * i] = 0;
     const Drawing drawing = test::draw(textured(checker, 4, 4), test::pixel_camera(4, 4), 4, 4);
     for (int p = 0; p < 16; ++p)  // levels are stored in bytes: half of one is 0.0046 near 0.5
-        EXPECT_NEAR(drawing.at(GBUFFER_ALBEDO, p).x, 0.5f, 0.0046f);
+        EXPECT_NEAR(drawing.at(GBUFFER_BASE, p).x, 0.5f, 0.0046f);
 }
 
 TEST(Texture, FollowsItsTransformAndUvSet) {
@@ -105,7 +105,7 @@ TEST(Texture, FollowsItsTransformAndUvSet) {
     scene.materials[0].base_texture.transform[2][0] = 0.25f;  // from the second texel
     const Drawing drawing = test::draw(scene, test::pixel_camera(16, 4), 16, 4);
     for (int x = 0; x < 16; ++x)
-        EXPECT_NEAR(drawing.at(GBUFFER_ALBEDO, x).x, decoded(60 * (1 + x / 8) / 255.0), 1e-7) << x;
+        EXPECT_NEAR(drawing.at(GBUFFER_BASE, x).x, decoded(60 * (1 + x / 8) / 255.0), 1e-7) << x;
 }
 
 TEST(Color, IsFactorTimesVertexColor) {
@@ -115,7 +115,7 @@ TEST(Color, IsFactorTimesVertexColor) {
     const Drawing drawing = test::draw(scene, test::pixel_camera(32, 32), 32, 32);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x) {
-            const glm::vec3 albedo = drawing.at(GBUFFER_ALBEDO, 32 * y + x);
+            const glm::vec3 albedo = drawing.at(GBUFFER_BASE, 32 * y + x);
             EXPECT_NEAR(albedo.x, 0.8 * (x + 0.5) / 32, 1e-6);
             EXPECT_NEAR(albedo.y, 0.5, 1e-6);
             EXPECT_NEAR(albedo.z, 0.25 * (y + 0.5) / 32, 1e-6);
@@ -135,7 +135,7 @@ TEST(Mask, LetsThroughWhereAlphaIsBelowItsCutoff) {
         const DeviceScene placed = test::on_device(scene);
         const Drawing drawing = test::draw(
             placed, make_view(test::pixel_camera(32, 32), placed.frame(), 32, 32),
-            GBufferPasses(test::device().context, test::device().device, {.packet_width = width}));
+            GBufferPasses(test::programs(), {.packet_width = width}));
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x) {
                 const int alpha = 4 * (8 * (y / 4) + x / 4);

@@ -48,8 +48,8 @@ void draw(bool atomics64) {
     SecondOrderOptions options;
     options.width = 24;
     options.height = 16;
-    options.sources = {.lights = 8, .shadow_size = 16, .face_size = 8, .area_samples = 1};
-    options.negative_lights = 4;
+    options.emitters = {.vpls = 8, .shadow_size = 16, .face_size = 8, .area_samples = 1};
+    options.negative_vpls = 4;
     options.build = {
         .packet_width = 4, .local_size = 16, .atomics64 = atomics64, .parallel = false};
     const test::Frame frame =

@@ -15,10 +15,18 @@ namespace clgi::cli {
 using nlohmann::ordered_json;
 
 void add_ask_flags(CLI::App& command, AskFlags& flags) {
-    CLI::Option* error = command.add_option("--target-error", flags.target_error,
-                                            "Error to the converged picture: 2% or 0.02");
-    CLI::Option* time =
-        command.add_option("--time-budget", flags.time_budget, "Frame time to meet: 33ms or 0.5s");
+    CLI::Option* error =
+        command
+            .add_option("--target-error", flags.target_error,
+                        "Find the settings for this error against the converged picture: 2% or "
+                        "0.02")
+            ->type_name("E")
+            ->default_str("none");
+    CLI::Option* time = command
+                            .add_option("--time-budget", flags.time_budget,
+                                        "Find the settings for this frame time: 33ms or 0.5s")
+                            ->type_name("T")
+                            ->default_str("none");
     for (const char* setting : {"--vpls", "--negative-vpls", "--low-res", "--low-res-step"})
         for (CLI::Option* asked : {error, time}) asked->excludes(command.get_option(setting));
 }
@@ -48,7 +56,7 @@ ordered_json ask_json(const AskRecord& record, double delivered_ms) {
         out["target_met"] = answer.target_met;
     }
     out["settings"] = {{"vpls", settings.lights},
-                       {"negative_vpls", settings.negative_lights},
+                       {"negative_vpls", settings.negative_vpls},
                        {"low_res_step", settings.step}};
     // As --low-res takes it: JSON has no infinity, and a float's expansion has too many digits.
     ordered_json& low_res = out["settings"]["low_res"];
@@ -75,7 +83,7 @@ std::string ask_line(const AskRecord& record, double delivered_ms) {
         line += fmt::format(", estimated error {:.3g} %", 100.0 * *answer.estimated_error);
     const report::Settings& settings = answer.settings;
     return line + fmt::format(" (--vpls {} --negative-vpls {} {}; found in {:.1f} s)",
-                              settings.lights, settings.negative_lights,
+                              settings.lights, settings.negative_vpls,
                               settings.step == 1 ? "--low-res off"
                                                  : fmt::format("--low-res-step {} --low-res {}",
                                                                settings.step, settings.threshold),
@@ -86,10 +94,11 @@ std::string ask_warning(const AskRecord& record) {
     const report::Answer& answer = record.answer;
     std::string text;
     if (record.wish.target_error && !answer.target_met)
-        text = fmt::format("warning: the error asked for, {:.3g} %, is not reached{}: {:.3g} % is",
-                           100.0 * *record.wish.target_error,
-                           record.wish.budget_ms ? " within the time budget" : "",
-                           100.0 * *answer.estimated_error);
+        text = fmt::format(
+            "warning: the target error of {:.3g} % is not reached{}; the error is {:.3g} %",
+            100.0 * *record.wish.target_error,
+            record.wish.budget_ms ? " within the time budget" : "",
+            100.0 * *answer.estimated_error);
     if (!record.wish.budget_ms) return text;
     const auto add = [&](const std::string& more) {
         text += text.empty() ? "warning: " + more : "; " + more;
@@ -97,11 +106,11 @@ std::string ask_warning(const AskRecord& record) {
     if (!answer.budget_met)
         add(fmt::format("{} {:.1f} ms, more than the budget of {:.4g} ms",
                         answer.settings.lights == report::fewest_lights
-                            ? "the cheapest settings take"
-                            : "the times of this machine vary: the settings found took",
+                            ? "even the cheapest settings take"
+                            : "times on this machine vary: the chosen settings took",
                         *answer.promised_ms, *record.wish.budget_ms));
     else if (answer.settings.lights == report::most_lights)
-        add(fmt::format("{} lights are the most there are; the budget is not used up",
+        add(fmt::format("the largest number of lights, {}, does not use up the budget",
                         report::most_lights));
     return text;
 }

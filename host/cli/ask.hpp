@@ -1,4 +1,4 @@
-// --target-error and --time-budget of render: the result is asked for, the settings follow.
+// --target-error and --time-budget of render: a probe finds the settings.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -16,20 +16,20 @@ struct AskFlags {
 };
 void add_ask_flags(CLI::App& command, AskFlags& flags);
 
-// Throws Error for what is no share or no time.
+// Throws Error for an invalid share or time.
 report::Wish wish_of(const std::string& command, const AskFlags& flags);
 
-// What --stats says under "ask".
+// The part "ask" of --stats.
 struct AskRecord {
     report::Wish wish;
     report::Answer answer;
 };
 nlohmann::ordered_json ask_json(const AskRecord& record, double delivered_ms);
 
-// What was promised and delivered, one line on standard output.
+// One line with what was promised and delivered, for standard output.
 std::string ask_line(const AskRecord& record, double delivered_ms);
 
-// Why less was promised than asked for; empty where it was not.
+// Why less was promised than asked for; empty if it was not.
 std::string ask_warning(const AskRecord& record);
 
 }  // namespace clgi::cli

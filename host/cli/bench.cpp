@@ -1,4 +1,4 @@
-// clgi bench TABLE: a paper's table, or the cost of the library, on this device.
+// clgi bench TABLE: repeats a table of a paper, or measures the cost of the library.
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@
 #include "cli/session.hpp"
 #include "report/bench.hpp"
 #include "report/bench_layer.hpp"
+#include "report/bench_views.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -20,6 +21,7 @@ struct BenchFlags {
     DeviceFlags device;
     std::string table;
     std::string mesh;
+    std::vector<std::string> scenes;
     int repeats = 30;
     bool json = false;
 };
@@ -85,9 +87,56 @@ void run_layer(const BenchFlags& flags, const Session& session) {
                    row.ratio);
 }
 
+void run_views(const BenchFlags& flags, const Session& session) {
+    catch_interrupts();
+    const auto bar = progress_bar(flags.table, flags.device.quiet);
+    std::vector<std::pair<std::string, Scene>> scenes = {
+        {"corridor", corridor()},
+        {"cornell", cornell()},
+        {"box", flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh))}};
+    for (const std::string& file : flags.scenes) scenes.emplace_back(file, io::load_gltf(file));
+    report::ViewsSetup setup;
+    setup.queue = session.queue;
+    setup.build = build_of(flags.device);
+    setup.repeats = flags.repeats;
+    setup.progress = [&](double done) {
+        if (!bar(done)) throw Interrupted();
+        return true;
+    };
+    const report::ViewsTable table = report::bench_views(setup, scenes);
+    bar(1.0);
+    if (flags.json) {
+        nlohmann::ordered_json out = {{"table", "views"},
+                                      {"device", describe(session.device)},
+                                      {"copy_gigabytes_per_second", table.copy_gigabytes_per_second},
+                                      {"rows", nlohmann::ordered_json::array()}};
+        for (const report::ViewsRow& row : table.rows)
+            out["rows"].push_back({{"scene", row.scene},
+                                   {"form", row.form},
+                                   {"triangles", row.triangles},
+                                   {"hemicube_ms", row.hemicube_ms},
+                                   {"triangles_per_second", row.triangles_per_second},
+                                   {"gigabytes_per_second", row.gigabytes_per_second},
+                                   {"roof_share", row.roof_share},
+                                   {"taken", row.taken}});
+        fmt::print("{}\n", out.dump(2));
+        return;
+    }
+    fmt::print("views on {}\nhemicubes of 256x256, copy {:.1f} GB/s\n\n", describe(session.device),
+               table.copy_gigabytes_per_second);
+    fmt::print("{:<20}{:>10}  {:<19}{:>8}{:>12}{:>9}{:>8}\n", "scene", "triangles", "form", "ms",
+               "Mtri/s", "GB/s", "share");
+    for (const report::ViewsRow& row : table.rows)
+        fmt::print("{:<20}{:>10}  {:<17}{:<2}{:>8.3f}{:>12.1f}{:>9.2f}{:>7.1f}%\n", row.scene,
+                   row.triangles, row.form, row.taken ? " *" : "", row.hemicube_ms,
+                   1e-6 * row.triangles_per_second, row.gigabytes_per_second,
+                   100.0 * row.roof_share);
+}
+
 void run_bench(const BenchFlags& flags) {
     const Session session = open_session(flags.device);
     if (flags.table == "layer") return run_layer(flags, session);
+    if (flags.table == "views") return run_views(flags, session);
     report::BenchSetup setup;
     setup.queue = session.queue;
     setup.scene = flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh));
@@ -108,16 +157,23 @@ void run_bench(const BenchFlags& flags) {
 }  // namespace
 
 void add_bench(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bench", "Run a paper's table again");
+    CLI::App* command = app.add_subcommand("bench", "Repeat a table of a paper");
     const auto flags = std::make_shared<BenchFlags>();
     command
         ->add_option("table", flags->table,
-                     "cochran1, cochran2, or layer: passes against kernels by hand")
+                     "views: hemicubes per second; "
+                     "layer: passes against the same kernels enqueued by hand")
         ->required()
-        ->check(CLI::IsMember({"cochran1", "cochran2", "layer"}));
-    command->add_option("--mesh", flags->mesh,
-                        "Mesh in the box, such as the Stanford bunny; default: a generated one");
-    command->add_option("--repeats", flags->repeats, "Frames measured of each row")
+        ->type_name("TABLE")
+        ->check(CLI::IsMember({"cochran1", "cochran2", "views", "layer"}));
+    command->add_option("--mesh", flags->mesh, "Mesh in the box, such as the Stanford bunny")
+        ->type_name("FILE")
+        ->default_str("a generated solid");
+    command->add_option("--scene", flags->scenes, "views: one more scene; may be repeated")
+        ->type_name("FILE")
+        ->default_str("none");
+    command->add_option("--repeats", flags->repeats, "Frames measured for each row")
+        ->type_name("N")
         ->check(CLI::Range(1, 10000));
     command->add_flag("--json", flags->json, "Print JSON");
     add_device_flags(*command, flags->device);

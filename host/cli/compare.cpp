@@ -119,30 +119,39 @@ void add_compare(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("compare", "Error metrics of one picture against another");
     const auto flags = std::make_shared<CompareFlags>();
-    command->add_option("a", flags->a, "The picture in question, .exr or .hdr")
+    command->add_option("a", flags->a, "The picture to judge, .exr or .hdr")
         ->required()
         ->type_name("A");
-    command->add_option("b", flags->b, "The picture that it should be")->required()->type_name("B");
+    command->add_option("b", flags->b, "The true picture, .exr or .hdr")
+        ->required()
+        ->type_name("B");
     command->add_flag("--json", flags->json, "Print JSON");
     command
         ->add_option("--mask", flags->mask,
                      "Count only pixels that are not zero in this .exr, .hdr or .png")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->default_str("none");
     command->add_option("--region", flags->region, "Count only pixels in this rectangle")
         ->delimiter(',')
         ->expected(4)
-        ->type_name("X,Y,W,H");
-    CLI::Option* difference = command->add_option("--difference,--diff", flags->difference,
-                                                  "Write where they differ as PNG, with a scale");
-    difference->type_name("FILE");
-    command->add_option("--show", flags->shown, "difference (red where A is brighter), size, flip")
+        ->type_name("X,Y,W,H")
+        ->default_str("the whole picture");
+    CLI::Option* difference =
+        command->add_option("--difference,--diff", flags->difference,
+                            "Write a PNG of the difference, with a scale bar");
+    difference->type_name("FILE")->default_str("none");
+    command
+        ->add_option("--show", flags->shown,
+                     "What --difference shows; difference is red where A is brighter")
         ->check(CLI::IsMember(shown_by_name()))
         ->type_name("WHAT")
         ->needs(difference);
-    command->add_option("--scale", flags->scale, "The difference that has the full colour")
+    command->add_option("--scale", flags->scale, "The difference that gets the full colour")
+        ->type_name("X")
+        ->default_str("from the pictures")
         ->check(CLI::PositiveNumber)
         ->needs(difference);
-    command->add_flag("--no-flip", flags->no_flip, "Leave out FLIP, which takes longest");
+    command->add_flag("--no-flip", flags->no_flip, "Leave out FLIP, the slowest metric");
     command->callback([flags] {
         if (flags->no_flip && flags->shown == "flip") {
             throw CLI::ValidationError("--no-flip excludes --show flip");

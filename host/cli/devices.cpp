@@ -1,4 +1,4 @@
-// clgi devices: what there is to run on, and which one would be taken.
+// clgi devices: all OpenCL devices, and the one that a command would use.
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/session.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -21,7 +22,7 @@ bool has(const cl::Device& device, const char* extension) {
     return device.getInfo<CL_DEVICE_EXTENSIONS>().find(extension) != std::string::npos;
 }
 
-// A platform whose hardware is absent says so by an error.
+// A platform without hardware reports an error.
 std::vector<cl::Device> devices_of(const cl::Platform& platform) {
     std::vector<cl::Device> out;
     try {
@@ -66,9 +67,10 @@ void run_devices(const std::string& choice) {
 }  // namespace
 
 void add_devices(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("devices", "List OpenCL devices; * is taken");
+    CLI::App* command =
+        app.add_subcommand("devices", "List the OpenCL devices; * marks the chosen one");
     const auto choice = std::make_shared<std::string>();
-    command->add_option("--device", *choice, "platform:CPU|GPU:name-or-index");
+    add_device_option(*command, *choice);
     command->callback([choice] { run_devices(*choice); });
 }
 

@@ -80,15 +80,18 @@ Environment load_environment(const std::string& path, bool quiet) {
 }  // namespace
 
 void add_environment_flags(CLI::App& command, EnvironmentFlags& flags) {
-    CLI::Option* source = command.add_option(
-        "--environment", flags.source, "Light from all round: latitude-longitude picture or R,G,B");
-    source->type_name("FILE|R,G,B");
+    CLI::Option* source =
+        command.add_option("--environment", flags.source,
+                           "Light from all directions: a latitude-longitude picture or one colour");
+    source->type_name("FILE|R,G,B")->default_str("none");
     command
         .add_option("--environment-rotation", flags.rotation,
-                    "Degrees about +Y, counter-clockwise from above")
+                    "Degrees about +Y, counter-clockwise seen from above")
+        ->type_name("D")
         ->check(CLI::Range(-1e6, 1e6))
         ->needs(source);
-    command.add_option("--environment-scale", flags.scale, "Times the picture: cd/m^2")
+    command.add_option("--environment-scale", flags.scale, "Multiplies the environment")
+        ->type_name("X")
         ->check(CLI::Range(0.0, 1e30))
         ->needs(source);
 }

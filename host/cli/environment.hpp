@@ -1,4 +1,4 @@
-// --environment and what belongs to it.
+// --environment and its further flags.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,11 +15,11 @@ struct EnvironmentFlags {
 };
 void add_environment_flags(CLI::App& command, EnvironmentFlags& flags);
 
-// Gives the scene what was asked for, if anything was, with a notice about what is odd in it unless
-// quiet. Throws InputError for a file that is no such picture, Error for a colour below 0.
+// Adds the environment of the flags, if any, to the scene. Prints a warning about unusual content
+// unless quiet. Throws InputError for a file that is no such picture, Error for a colour below 0.
 void add_environment(const EnvironmentFlags& flags, Scene& scene, bool quiet);
 
-// The flags as they were given, each with a blank before it.
+// The flags as given, with a space before each.
 std::string text_of(const EnvironmentFlags& flags);
 
 }  // namespace clgi::cli

@@ -9,23 +9,23 @@
 
 namespace clgi::cli {
 
-// Lives in an OpenGL context of its own, on the thread that makes it.
+// Has its own OpenGL context, on the thread that makes it.
 class GlFrames {
 public:
-    // Throws DeviceError where there is no OpenGL without a window, Error where the program was
-    // built without OpenGL.
+    // Throws DeviceError if there is no OpenGL without a window, Error if the program was built
+    // without OpenGL.
     GlFrames();
     ~GlFrames();
     GlFrames(const GlFrames&) = delete;
     GlFrames& operator=(const GlFrames&) = delete;
 
-    // What an OpenCL context must be made with to share textures; empty where the device cannot.
+    // The properties that an OpenCL context needs to share textures; empty if the device cannot.
     std::vector<cl_context_properties> properties(const cl::Device& device) const;
 
-    // Takes the scene over to OpenGL. The queue keeps its order; `build` is the solver's.
+    // Copies the scene to OpenGL. The queue is in order; `build` is the solver's.
     void open(const cl::CommandQueue& queue, const DeviceScene& scene, const BuildOptions& build);
 
-    // Enqueues a frame: the view is drawn, brought into the solver's G-buffer and lit.
+    // Draws the view, converts it to the solver's G-buffer and enqueues the lighting.
     cl::Event render(SecondOrderSolver& solver, const Camera& camera);
 
     const std::string& renderer() const;  // "surfaceless: llvmpipe ..., OpenGL 4.5"

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/session.hpp"
 #include "cli/version.hpp"
 #include "opencl/error_text.hpp"
@@ -39,7 +40,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
         if (command->get_name() == argv[1]) return;
         known += (known.empty() ? "" : ", ") + command->get_name();
     }
-    throw clgi::Error(fmt::format("there is no command '{}', known are {}", argv[1], known));
+    throw clgi::Error(fmt::format("unknown command '{}'; known commands are {}", argv[1], known));
 }
 
 int parse_and_run(CLI::App& app, int argc, char** argv) {
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
         CLI::App app("Global illumination on any OpenCL device.", "clgi");
         app.set_version_flag("--version", "clgi " CLGI_VERSION);
         app.require_subcommand(1);
+        clgi::cli::set_help(app);
         clgi::cli::add_devices(app);
         clgi::cli::add_scene(app);
         clgi::cli::add_render(app);

@@ -11,13 +11,20 @@
 
 namespace clgi::cli {
 
-void add_picture_flags(CLI::App& command, PictureFlags& flags) {
-    command.add_option("-o,--output", flags.exr, "EXR: radiance in cd/m^2");
-    command.add_option("--png", flags.png, "8-bit preview");
-    command.add_option("--exposure", flags.exposure,
-                       "Preview exposure in stops; default: from the picture");
-    command.add_flag("--full", flags.full, "32-bit EXR channels instead of half");
-    command.add_option("--size", flags.size, "WIDTHxHEIGHT");
+void add_picture_flags(CLI::App& command, PictureFlags& flags, int width, int height) {
+    command.add_option("-o,--output", flags.exr, "EXR picture: radiance in cd/m^2")
+        ->type_name("FILE")
+        ->default_str("none");
+    command.add_option("--png", flags.png, "8-bit sRGB preview")
+        ->type_name("FILE")
+        ->default_str("none");
+    command.add_option("--exposure", flags.exposure, "Exposure of the preview; at 0, 1 is white")
+        ->type_name("STOPS")
+        ->default_str("from the picture");
+    command.add_flag("--full", flags.full, "Write 32-bit EXR channels instead of 16-bit ones");
+    command.add_option("--size", flags.size, "Pixels across and down")
+        ->type_name("WxH")
+        ->default_str(fmt::format("{}x{}", width, height));
 }
 
 void parse_size(const std::string& command, const std::string& text, int most, int& width,
@@ -33,13 +40,13 @@ void parse_size(const std::string& command, const std::string& text, int most, i
 
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height) {
     if (flags.exr.empty() && flags.png.empty())
-        throw Error(command + ": nothing to write, -o FILE.exr or --png FILE.png needed");
+        throw Error(command + ": no output is given, -o FILE.exr or --png FILE.png needed");
     parse_size(command, flags.size, 16384, width, height);
 }
 
 void save_picture(const io::Image& picture, const PictureFlags& flags) {
     if (!flags.exr.empty())
-        io::save_exr(picture, flags.exr, flags.full ? io::Storage::full : io::Storage::half);
+        io::save_exr(picture, flags.exr, flags.full ? io::PixelType::full : io::PixelType::half);
     if (!flags.png.empty()) {
         const float exposure =
             flags.exposure ? std::exp2(*flags.exposure) : report::preview_exposure(picture);

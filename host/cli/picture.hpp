@@ -16,17 +16,18 @@ struct PictureFlags {
     std::optional<float> exposure;  // stops, 0: radiance 1 is white; none: from the picture
     std::string size;               // WIDTHxHEIGHT; empty: the default
 };
-void add_picture_flags(CLI::App& command, PictureFlags& flags);
+// width, height: the default size.
+void add_picture_flags(CLI::App& command, PictureFlags& flags, int width, int height);
 
-// "640x480", each side from 1 to `most`; empty: both stay as they are. Throws Error, begun with the
-// command's name.
+// "640x480", each side from 1 to `most`; empty: both stay as they are. Throws Error that begins
+// with the command's name.
 void parse_size(const std::string& command, const std::string& text, int most, int& width,
                 int& height);
 
-// Throws Error, begun with the command's name, when nothing is to be written or the size is wrong.
+// Throws Error that begins with the command's name if there is no output or the size is invalid.
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height);
 
-// Writes what was asked for.
+// Writes the files that the flags name.
 void save_picture(const io::Image& picture, const PictureFlags& flags);
 
 }  // namespace clgi::cli

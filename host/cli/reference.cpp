@@ -35,7 +35,7 @@ struct ReferenceFlags {
     bool quiet = false;
 };
 
-// What there is to tell about a picture or an atlas.
+// The result for a picture or an atlas.
 struct Outcome {
     io::Image image;
     std::size_t texels = 0;  // that were lit; 0: a picture
@@ -46,7 +46,7 @@ struct Outcome {
 };
 
 Outcome trace_picture(const reference::PathTracer& tracer, const Scene& scene,
-                      const ReferenceFlags& flags, const reference::Progress& progress) {
+                      const ReferenceFlags& flags, const Progress& progress) {
     const reference::Picture found = tracer.render(
         scene.cameras[static_cast<std::size_t>(flags.camera)], flags.options, progress);
     if (found.cancelled) throw Interrupted();
@@ -59,7 +59,7 @@ Outcome trace_picture(const reference::PathTracer& tracer, const Scene& scene,
 }
 
 Outcome trace_atlas(const reference::PathTracer& tracer, const report::AtlasPlaces& atlas,
-                    const ReferenceFlags& flags, const reference::Progress& progress) {
+                    const ReferenceFlags& flags, const Progress& progress) {
     const reference::Irradiance found = tracer.irradiance(atlas.places, flags.options, progress);
     if (found.cancelled) throw Interrupted();
     return {report::atlas_image(atlas, found, flags.effects),
@@ -141,34 +141,51 @@ void add_reference(CLI::App& app) {
     command->add_option("scene", flags->scene, ".gltf or .glb file")
         ->required()
         ->type_name("SCENE");
-    add_picture_flags(*command, flags->picture);
+    add_picture_flags(*command, flags->picture, flags->options.width, flags->options.height);
     add_environment_flags(*command, flags->environment);
-    CLI::Option* atlas = command->add_option("--atlas", flags->atlas,
-                                             "Irradiance of the texels of a lightmap, SIZE across");
-    atlas->type_name("SIZE")->check(CLI::Range(1, 8192))->excludes("--size");
-    command->add_option("--uv-set", flags->uv_set, "Of the lightmap; default: 1, else 0")
+    CLI::Option* atlas =
+        command
+            ->add_option("--atlas", flags->atlas,
+                         "Write the irradiance of a lightmap with SIZE x SIZE texels")
+            ->type_name("SIZE")
+            ->default_str("none")
+            ->check(CLI::Range(1, 8192))
+            ->excludes("--size");
+    command->add_option("--uv-set", flags->uv_set, "UV set of the lightmap")
+        ->type_name("N")
+        ->default_str("1, else 0")
         ->check(CLI::Range(0, 1))
         ->needs(atlas);
-    command->add_option("--spp", flags->options.samples, "Samples a pixel, at most")
+    command->add_option("--spp", flags->options.samples, "Largest number of samples per pixel")
+        ->type_name("N")
         ->check(CLI::Range(1, 1 << 24));
-    command->add_option("--error", flags->error,
-                        "Stop at this standard error, of the mean: 0.5% or 0.005");
-    command->add_option("--effects", flags->effects,
-                        "Which paths count: emission,direct,indirect,one-bounce,bounces=K,"
-                        "unshadowed-indirect,diffuse,diffuse-indirect; default all");
-    command->add_option("--seed", flags->options.seed, "Another one gives other noise");
+    command
+        ->add_option("--error", flags->error,
+                     "Stop at this standard error, relative to the mean: 0.5% or 0.005")
+        ->type_name("X")
+        ->default_str("none");
+    command
+        ->add_option("--effects", flags->effects,
+                     "Light paths that count: emission,direct,indirect,one-bounce,bounces=K,"
+                     "unshadowed-indirect,diffuse,diffuse-indirect")
+        ->type_name("LIST")
+        ->default_str("all");
+    command->add_option("--seed", flags->options.seed, "Seed of the random numbers")
+        ->type_name("N");
     command
         ->add_option("--roulette-depth", flags->options.roulette_depth,
-                     "Surfaces met before chance may end a path")
+                     "Surfaces on a path before Russian roulette may end it")
+        ->type_name("N")
         ->check(CLI::Range(0, 1000000));
-    command->add_option("--threads", flags->options.threads, "0: all cores")
+    command->add_option("--threads", flags->options.threads, "Threads; 0: one for each core")
+        ->type_name("N")
         ->check(CLI::Range(0, 4096));
-    command->add_option("--scene", flags->scene_index, "Which scene of the file");
-    command->add_option("--camera", flags->camera, "Which camera of the scene")
-        ->check(CLI::NonNegativeNumber)
-        ->excludes(atlas);
-    command->add_option("--stats", flags->stats, "JSON file of samples, error and time");
-    command->add_flag("--quiet", flags->quiet, "Only errors");
+    add_place_options(*command, flags->scene_index, flags->camera);
+    command->get_option("--camera")->excludes(atlas);
+    command->add_option("--stats", flags->stats, "JSON file with samples, error and time")
+        ->type_name("FILE")
+        ->default_str("none");
+    add_quiet_flag(*command, flags->quiet);
     command->callback([flags] { run_reference(*flags); });
 }
 

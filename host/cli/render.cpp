@@ -87,13 +87,13 @@ void spin_lights(DeviceScene& device, const Scene& scene, double angle) {
 std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderSolver& solver) {
     std::vector<std::string> out;
     const SecondOrderOptions& options = solver.options();
-    const bool lit = options.indirect && solver.sources().light_count > 0;
-    if (options.direct && !solver.sources().emitters.empty()) out.push_back("direct");
+    const bool lit = options.indirect && solver.emitters().vpl_count > 0;
+    if (options.direct && !solver.emitters().emitters.empty()) out.push_back("direct");
     if (options.direct && scene.has_lobes()) out.push_back("glossy-direct");
     if (options.direct && !scene.emissive().empty()) out.push_back("emission");
     if (options.direct && scene.environment()) out.push_back("environment");
     if (lit) out.push_back("one-bounce");
-    if (lit && options.negative_lights > 0) out.push_back("negative-lights");
+    if (lit && options.negative_vpls > 0) out.push_back("negative-lights");
     return out;
 }
 
@@ -104,12 +104,10 @@ void run_render(RenderFlags flags) {
     const bool asked = wish.budget_ms || wish.target_error;
     if (asked && flags.method == "direct")
         throw Error(
-            "render: --method direct has no settings to find, neither for --target-error "
-            "nor for --time-budget");
-    if (flags.gbuffer == "gl" && (asked || flags.replicates > 1))
-        throw Error(
-            "render: --gbuffer gl goes with neither --replicates nor --target-error nor "
+            "render: --method direct has no settings to find; it excludes --target-error and "
             "--time-budget");
+    if (flags.gbuffer == "gl" && (asked || flags.replicates > 1))
+        throw Error("render: --gbuffer gl excludes --replicates, --target-error and --time-budget");
     flags.options.direct = !flags.no_direct;
     flags.options.indirect = flags.method != "direct";
     flags.options.build = build_of(flags.device);
@@ -137,7 +135,7 @@ void run_render(RenderFlags flags) {
 
     catch_interrupts();
     const auto bar = progress_bar("render", flags.device.quiet);
-    // The first frame also compiles what the driver left for later: it warms up and is not timed.
+    // The first picture warms up and is not timed: some drivers compile on the first launch.
     if (gl) {
         gl->render(solver, camera).wait();
         if (!bar(1.0)) throw Interrupted();
@@ -183,15 +181,18 @@ void run_render(RenderFlags flags) {
     }
 
     if (record.status.non_finite > 0)
-        notice(false, fmt::format("warning: {} packets of pixels were not finite and were mended",
-                                  record.status.non_finite));
+        notice(
+            false,
+            fmt::format(
+                "warning: {} packets of pixels had numbers that were not finite and were replaced",
+                record.status.non_finite));
     if (gl) {
         record.gl_renderer = gl->renderer();
         record.gl_path = gl->path();
         notice(flags.device.quiet, fmt::format("OpenGL {}; {}", gl->renderer(), gl->path()));
         if (const std::uint32_t texels = gl->non_finite())
             notice(false, fmt::format("warning: {} texels of the G-buffer were not finite and "
-                                      "were taken for background",
+                                      "became background",
                                       texels));
     }
     const report::Spread times = report::spread(record.frame_ms);
@@ -205,8 +206,8 @@ void run_render(RenderFlags flags) {
             "{}{}{}: {:.1f} ms a frame ({} frames, {} indirect and {} negative lights, {} "
             "triangles)\n",
             flags.picture.exr, both ? ", " : "", flags.picture.png, times.median,
-            record.frame_ms.size(), solver.sources().light_count,
-            flags.options.indirect ? solver.options().negative_lights : 0, scene.triangles.size());
+            record.frame_ms.size(), solver.emitters().vpl_count,
+            flags.options.indirect ? solver.options().negative_vpls : 0, scene.triangles.size());
         if (record.ask) fmt::print("{}\n", ask_line(*record.ask, times.median));
         if (record.replicates)
             fmt::print(
@@ -221,7 +222,7 @@ void run_render(RenderFlags flags) {
         record.gbuffer = flags.gbuffer;
         record.method = flags.method == "auto" ? "second-order" : flags.method;
         record.triangles = scene.triangles.size();
-        record.lights = solver.sources().emitters.size();
+        record.lights = solver.emitters().emitters.size();
         record.effects = effects_of(device_scene, solver);
         record.bytes = device_scene.bytes() + solver.bytes();
         record.warnings = scene.warnings;
@@ -238,51 +239,69 @@ void add_render(CLI::App& app) {
     command->add_option("scene", flags->scene, ".gltf or .glb file")
         ->required()
         ->type_name("SCENE");
-    add_picture_flags(*command, flags->picture);
-    command->add_option("--method", flags->method, "auto, second-order or direct")
-        ->check(CLI::IsMember({"auto", "second-order", "direct"}));
-    command->add_option("--scene", flags->scene_index, "Which scene of the file");
-    command->add_option("--camera", flags->camera, "Which camera of the scene")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--vpls", options.sources.lights, "Indirect lights")
-        ->check(CLI::Range(0, 1 << 20));
-    command->add_option("--negative-vpls", options.negative_lights, "Negative indirect lights")
-        ->check(CLI::Range(0, 1 << 20));
-    command->add_option("--low-res", flags->low_res, "off, or the discontinuity threshold");
+    add_picture_flags(*command, flags->picture, options.width, options.height);
     command
-        ->add_option("--low-res-step", flags->options.low_resolution_step,
-                     "pixels from one low-resolution point to the next")
+        ->add_option("--method", flags->method, "auto is second-order; direct: no indirect light")
+        ->type_name("METHOD")
+        ->check(CLI::IsMember({"auto", "second-order", "direct"}));
+    add_place_options(*command, flags->scene_index, flags->camera);
+    command->add_option("--vpls", options.emitters.vpls, "Indirect lights (VPLs) of all lights")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1 << 20));
+    command->add_option("--negative-vpls", options.negative_vpls, "Negative lights; 0: none")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1 << 20));
+    command
+        ->add_option("--low-res", flags->low_res,
+                     "Discontinuity threshold; off or 0: every pixel is gathered, inf: none")
+        ->type_name("off|T")
+        ->default_str(fmt::format("{}", options.discontinuity_threshold));
+    command
+        ->add_option("--low-res-step", options.low_resolution_step,
+                     "Pixels between low-resolution points")
+        ->type_name("N")
         ->check(CLI::IsMember({2, 4}));
     command
-        ->add_option("--shadow-size", options.sources.shadow_size,
-                     "Pixels of a spot's or directional light's image")
+        ->add_option("--shadow-size", options.emitters.shadow_size,
+                     "Pixels per side of the shadow map of a spot or directional light")
+        ->type_name("N")
         ->check(CLI::Range(1, 8192));
     command
-        ->add_option("--face-size", options.sources.face_size,
-                     "Pixels of a cube face, for point and area lights")
+        ->add_option("--face-size", options.emitters.face_size,
+                     "Pixels per side of a cube or hemicube face, for point and area lights")
+        ->type_name("N")
         ->check(CLI::Range(1, 4096));
     command
-        ->add_option("--area-samples", options.sources.area_samples,
-                     "Points that stand for all emissive surfaces")
+        ->add_option("--area-samples", options.emitters.area_samples,
+                     "Sample points on all emissive surfaces together")
+        ->type_name("N")
         ->check(CLI::Range(0, 4096));
     add_environment_flags(*command, flags->environment);
     command
-        ->add_option("--environment-lights", options.sources.environment_lights,
-                     "Directions that stand for the environment")
+        ->add_option("--environment-lights", options.emitters.environment_lights,
+                     "Directional lights that approximate the environment")
+        ->type_name("N")
         ->check(CLI::Range(0, 4096));
-    command->add_option("--gbuffer", flags->gbuffer, "What draws the camera's view: cl or gl")
+    command->add_option("--gbuffer", flags->gbuffer, "What rasterises the camera's view")
+        ->type_name("WHAT")
         ->check(CLI::IsMember({"cl", "gl"}));
     add_ask_flags(*command, flags->ask);
-    command->add_flag("--no-direct", flags->no_direct, "Leave direct light out of the picture");
-    command->add_option("--frames", flags->frames, "Frames to render and time; the last is kept")
+    command->add_flag("--no-direct", flags->no_direct,
+                      "Leave out direct light, emission and the environment");
+    command->add_option("--frames", flags->frames, "Pictures to render and time; the last is kept")
+        ->type_name("N")
         ->check(CLI::Range(1, 1000000));
     command
         ->add_option("--replicates", flags->replicates,
-                     "Randomised shifts to take the mean of, and the standard error from")
+                     "Render N randomised replicates, keep the mean and its standard error")
+        ->type_name("N")
+        ->default_str("none")
         ->check(CLI::Range(2, 100000));
-    command->add_flag("--orbit", flags->orbit, "Move the camera round the scene over the frames");
+    command->add_flag("--orbit", flags->orbit, "Turn the camera around the scene over the frames");
     command->add_flag("--spin-light", flags->spin_light, "Turn the lights over the frames");
-    command->add_option("--stats", flags->stats, "JSON file of times and settings");
+    command->add_option("--stats", flags->stats, "JSON file with times and settings")
+        ->type_name("FILE")
+        ->default_str("none");
     add_device_flags(*command, flags->device);
     command->callback([flags] { run_render(*flags); });
 }

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/session.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -27,6 +28,7 @@ struct SceneFlags {
     std::optional<float> cone;  // degrees
     std::optional<int> rooms;
     std::optional<float> door;  // degrees
+    bool quiet = false;
 };
 
 struct SceneKind {
@@ -44,20 +46,20 @@ void take_angle(float& radians, const std::optional<float>& degrees) {
     if (degrees) radians = glm::radians(*degrees);
 }
 
-// The lamp and, where it is a spot, its cone.
+// The light and, for a spot, its cone.
 template <typename Options>
 void take_lamp(Options& options, const SceneFlags& flags) {
-    static const std::map<std::string, Lamp> lamps = {
-        {"spot", Lamp::spot}, {"area", Lamp::area}, {"point", Lamp::point}};
+    static const std::map<std::string, LightSource> lamps = {
+        {"spot", LightSource::spot}, {"area", LightSource::area}, {"point", LightSource::point}};
     if (flags.light) {
         const auto found = lamps.find(*flags.light);
         if (found == lamps.end()) {
             throw Error(
-                fmt::format("scene: --light is '{}', needs spot, area or point", *flags.light));
+                fmt::format("scene: --light is '{}', spot, area or point needed", *flags.light));
         }
-        options.lamp = found->second;
+        options.light = found->second;
     }
-    if (flags.cone && options.lamp != Lamp::spot) throw Error("scene: --cone needs --light spot");
+    if (flags.cone && options.light != LightSource::spot) throw Error("scene: --cone needs --light spot");
     take_angle(options.cone_angle, flags.cone);
 }
 
@@ -109,10 +111,10 @@ const SceneKind& find_kind(const std::string& name) {
     for (const SceneKind& kind : scene_kinds()) {
         if (kind.name == name) return kind;
     }
-    throw Error(fmt::format("scene: there is no scene '{}', known are {}", name, known_names()));
+    throw Error(fmt::format("scene: unknown scene '{}'; known scenes are {}", name, known_names()));
 }
 
-// A flag that would be ignored is more likely a slip than a wish.
+// A flag that would be ignored is probably a mistake.
 void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
     static const std::vector<std::string> all = {"--mesh", "--light", "--albedo", "--subdivisions",
                                                  "--cone", "--rooms", "--door"};
@@ -120,7 +122,7 @@ void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
         const bool known =
             std::find(kind.flags.begin(), kind.flags.end(), flag) != kind.flags.end();
         if (!known && command.count(flag) > 0) {
-            throw Error(fmt::format("scene: {} means nothing to the scene {}", flag, kind.name));
+            throw Error(fmt::format("scene: {} does not apply to the scene {}", flag, kind.name));
         }
     }
 }
@@ -130,28 +132,50 @@ void run_scene(const CLI::App& command, const SceneFlags& flags) {
     refuse_foreign_flags(command, kind);
     const Scene scene = kind.make(flags);
     io::save_glb(scene, flags.output);
-    fmt::print("{}: {}, {} triangles\n", flags.output, kind.name, scene.triangles.size());
+    if (!flags.quiet)
+        fmt::print("{}: {}, {} triangles\n", flags.output, kind.name, scene.triangles.size());
+}
+
+std::string degrees(float radians) { return fmt::format("{:.4g}", glm::degrees(radians)); }
+
+std::string cone_defaults() {
+    return fmt::format("{}; corridor: {}, furnace: {}", degrees(BoxOptions().cone_angle),
+                       degrees(CorridorOptions().cone_angle), degrees(FurnaceOptions().cone_angle));
 }
 
 }  // namespace
 
 void add_scene(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("scene", "Write a procedural scene");
+    CLI::App* command = app.add_subcommand("scene", "Write a generated scene");
     const auto flags = std::make_shared<SceneFlags>();
     command->add_option("name", flags->name, known_names())->required()->type_name("NAME");
     command->add_option("-o,--output", flags->output, "The .glb file")
         ->required()
         ->type_name("FILE");
-    command->add_option("--mesh", flags->mesh, "box: the .gltf or .glb file that floats in it")
-        ->type_name("FILE");
-    command->add_option("--light", flags->light, "What lights it: spot, area or point")
-        ->type_name("KIND");
-    command->add_option("--albedo", flags->albedo, "furnace: reflectance of the wall, 0 to 0.999");
-    command->add_option("--subdivisions", flags->subdivisions,
-                        "furnace: 20 * 4^N triangles, 0 to 8");
-    command->add_option("--cone", flags->cone, "Degrees from the spot's axis to its edge");
-    command->add_option("--rooms", flags->rooms, "corridor: rooms on either side, 1 to 64");
-    command->add_option("--door", flags->door, "corridor: degrees that the doors stand open");
+    command->add_option("--mesh", flags->mesh, "box: .gltf or .glb file to put into the box")
+        ->type_name("FILE")
+        ->default_str("a generated solid");
+    command->add_option("--light", flags->light, "spot, area or point; box: spot or point")
+        ->type_name("KIND")
+        ->default_str("spot; cornell: area");
+    command->add_option("--albedo", flags->albedo, "furnace: reflectance of the wall, 0 to 0.999")
+        ->type_name("X")
+        ->default_str(fmt::format("{}", FurnaceOptions().albedo));
+    command
+        ->add_option("--subdivisions", flags->subdivisions, "furnace: 20 * 4^N triangles, 0 to 8")
+        ->type_name("N")
+        ->default_str(fmt::format("{}", FurnaceOptions().subdivisions));
+    command
+        ->add_option("--cone", flags->cone, "Angle from the axis of the spot to its edge, degrees")
+        ->type_name("D")
+        ->default_str(cone_defaults());
+    command->add_option("--rooms", flags->rooms, "corridor: rooms on either side, 1 to 64")
+        ->type_name("N")
+        ->default_str(fmt::format("{}", CorridorOptions().rooms));
+    command->add_option("--door", flags->door, "corridor: angle by which doors are open, degrees")
+        ->type_name("D")
+        ->default_str(degrees(CorridorOptions().door_angle));
+    add_quiet_flag(*command, flags->quiet);
     command->callback([command, flags] { run_scene(*command, *flags); });
 }
 

@@ -20,13 +20,36 @@ std::atomic<bool> interrupt_flag{false};
 
 }  // namespace
 
+void add_device_option(CLI::App& command, std::string& choice) {
+    command.add_option("--device", choice, "platform:CPU|GPU:name-or-index")
+        ->type_name("CHOICE")
+        ->default_str("CLGI_DEVICE, else the first GPU, else the first CPU");
+}
+
+void add_quiet_flag(CLI::App& command, bool& quiet) {
+    command.add_flag("--quiet", quiet, "Print no notices, no progress bar and no summary");
+}
+
+void add_place_options(CLI::App& command, int& scene, int& camera) {
+    command.add_option("--scene", scene, "Index of the scene in the file")
+        ->type_name("N")
+        ->default_str("the file's default");
+    command.add_option("--camera", camera, "Index of the camera in the scene")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber);
+}
+
 void add_device_flags(CLI::App& command, DeviceFlags& flags) {
-    command.add_option("--device", flags.device, "platform:CPU|GPU:name-or-index");
-    command.add_option("--math", flags.math, "strict or fast")
+    add_device_option(command, flags.device);
+    command.add_option("--math", flags.math, "Math of the kernels; fast may reorder and round")
+        ->type_name("MATH")
         ->check(CLI::IsMember({"strict", "fast"}));
-    command.add_option("--storage", flags.storage, "Planes between passes: full (float) or half")
+    command
+        .add_option("--storage", flags.storage,
+                    "Number format of planes between passes: full is float")
+        ->type_name("STORAGE")
         ->check(CLI::IsMember({"full", "half"}));
-    command.add_flag("--quiet", flags.quiet, "Print nothing but errors");
+    add_quiet_flag(command, flags.quiet);
 }
 
 Session open_session(const DeviceFlags& flags, const ContextProperties& properties) {
@@ -65,7 +88,7 @@ Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlag
     for (const std::string& warning : scene.warnings) notice(quiet, "warning: " + warning);
     if (scene.cameras.empty()) {
         scene.cameras.push_back(default_camera(scene));
-        notice(quiet, "note: the scene has no camera; a default one is used");
+        notice(quiet, "note: the scene has no camera; a default camera is used");
     }
     add_environment(environment, scene, quiet);
     if (scene.lights.empty() && !has_emission(scene) && !scene.environment) {

@@ -1,4 +1,4 @@
-// What several commands do alike: choose a device, open a scene, react to Ctrl-C.
+// What several commands share: choosing a device, opening a scene, reacting to Ctrl-C.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -22,6 +22,11 @@ struct DeviceFlags {
     bool quiet = false;
 };
 void add_device_flags(CLI::App& command, DeviceFlags& flags);
+void add_device_option(CLI::App& command, std::string& choice);  // --device alone
+void add_quiet_flag(CLI::App& command, bool& quiet);             // --quiet alone
+
+// --scene and --camera of commands that read a glTF file.
+void add_place_options(CLI::App& command, int& scene, int& camera);
 
 struct Session {
     cl::Device device;
@@ -29,23 +34,24 @@ struct Session {
     cl::CommandQueue queue;  // with profiling
 };
 
-// Opens the device and names it in one line, unless quiet. properties: what its context is made
-// with besides the device, if anything.
+// Opens the device and prints its name, unless quiet. properties: further properties of its
+// context, if any.
 using ContextProperties = std::function<std::vector<cl_context_properties>(const cl::Device&)>;
 Session open_session(const DeviceFlags& flags, const ContextProperties& properties = nullptr);
 
-// How the flags ask for kernels to be built.
+// The build options that the flags select.
 BuildOptions build_of(const DeviceFlags& flags);
 
-// "" where they ask for nothing special, else the flags again, with a space before each.
+// The flags that are not at their default, with a space before each.
 std::string build_flags(const DeviceFlags& flags);
 
-// Loads a glTF file, prints its warnings, gives it the environment that was asked for, and a camera
-// and a light where it has none, saying so. lightmaps: keeps texture coordinates without textures.
+// Loads a glTF file, prints its warnings and adds the environment of the flags. Adds a camera and a
+// light if the file has none, and prints a note. lightmaps: keeps texture coordinates without
+// textures.
 Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlags& environment,
                  bool quiet, bool lightmaps = false);
 
-// A line of notice on stderr, unless quiet.
+// Prints a line on stderr, unless quiet.
 void notice(bool quiet, const std::string& text);
 
 // From here on Ctrl-C sets a flag instead of ending the process.
@@ -55,7 +61,7 @@ bool interrupted();
 // Thrown to leave a command after Ctrl-C; main ends with exit code 130.
 struct Interrupted {};
 
-// Draws a bar on stderr when that is a terminal; false after Ctrl-C.
+// Draws a bar on stderr if that is a terminal. The result returns false after Ctrl-C.
 std::function<bool(double)> progress_bar(const std::string& what, bool quiet);
 
 }  // namespace clgi::cli

@@ -1,4 +1,4 @@
-// What --stats writes.
+// The JSON of --stats.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -26,7 +26,7 @@ struct RenderRecord {
     std::vector<std::vector<report::PassTime>> passes;  // of every frame
     std::size_t bytes = 0;                              // of scene and solver
     double build_ms = 0.0;                              // kernels and buffers
-    FrameStatus status;
+    RenderStatus status;
     std::string gbuffer = "cl";  // what drew the camera's view: cl or gl
     std::string gl_renderer;     // of gl: "surfaceless: llvmpipe ..."
     std::string gl_path;         // of gl: "copied: ..."
@@ -35,7 +35,7 @@ struct RenderRecord {
     std::vector<std::string> warnings;
 };
 
-// JSON, written aside and renamed. Throws InputError when it cannot be written.
+// Writes a temporary file and renames it. Throws InputError when it cannot be written.
 void save_stats(const RenderRecord& record, const std::filesystem::path& path);
 
 }  // namespace clgi::cli

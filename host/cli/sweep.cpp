@@ -84,20 +84,27 @@ void add_sweep(CLI::App& app) {
     command->add_option("scene", flags->scene, ".gltf or .glb file")
         ->required()
         ->type_name("SCENE");
-    command->add_option("-o,--output", flags->output, "Folder; references in it are used again")
+    command
+        ->add_option("-o,--output", flags->output,
+                     "Folder for the results; references in it are used again")
         ->required()
         ->type_name("FOLDER");
-    command->add_option("--method", flags->method, "second-order, reference or all")
+    command->add_option("--method", flags->method, "What to measure")
+        ->type_name("METHOD")
         ->check(CLI::IsMember({"second-order", "reference", "all"}));
-    command->add_option("--size", flags->size, "WIDTHxHEIGHT; default 320x240, quick 160x120");
-    command->add_option("--spp", flags->samples, "Samples a pixel of the references")
+    command->add_option("--size", flags->size, "Pixels across and down")
+        ->type_name("WxH")
+        ->default_str("320x240; with --quick 160x120");
+    command->add_option("--spp", flags->samples, "Samples per pixel of the references")
+        ->type_name("N")
+        ->default_str("192; with --quick 64")
         ->check(CLI::Range(2, 1 << 20));
-    command->add_option("--rounds", flags->rounds, "Times through all settings")
+    command->add_option("--rounds", flags->rounds, "Times that every setting is measured")
+        ->type_name("N")
+        ->default_str("3; with --quick 2")
         ->check(CLI::Range(1, 1000));
-    command->add_flag("--quick", flags->quick, "Fewer settings, smaller, in under a minute");
-    command->add_option("--scene", flags->scene_index, "Which scene of the file");
-    command->add_option("--camera", flags->camera, "Which camera of the scene")
-        ->check(CLI::NonNegativeNumber);
+    command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
+    add_place_options(*command, flags->scene_index, flags->camera);
     add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {

@@ -68,16 +68,10 @@ ImportParams import_params(const DeviceScene& scene, std::uint32_t stride,
     return out;
 }
 
-ImportPasses::ImportPasses(const cl::Context& context, const cl::Device& device,
-                           const BuildOptions& options) {
-    if (device.getInfo<CL_DEVICE_IMAGE_SUPPORT>()) {
-        auto kernels =
-            build_room(context, device, "gbuffer", {"import_buffers", "import_images"}, options);
-        buffers_ = kernels[0];
-        images_ = kernels[1];
-    } else {
-        buffers_ = build_room(context, device, "gbuffer", {"import_buffers"}, options)[0];
-    }
+ImportPasses::ImportPasses(const Programs& programs, const BuildOptions& options)
+    : buffers_(programs.kernel("gbuffer", "import_buffers", options)) {
+    if (programs.device().getInfo<CL_DEVICE_IMAGE_SUPPORT>())
+        images_ = programs.kernel("gbuffer", "import_images", options);
 }
 
 cl::Event ImportPasses::buffers(const cl::CommandQueue& queue, const View& view,
@@ -115,7 +109,7 @@ cl::Event ImportPasses::images(const cl::CommandQueue& queue, const View& view,
                                const ImportParams& params, const ImportImages& texels,
                                const GBuffer& out, const cl::Buffer& non_finite,
                                const WaitList& wait) const {
-    if (!images_.kernel()) throw Error("gbuffer.import_images: the device has no images");
+    if (!images_.slot) throw Error("gbuffer.import_images: the device has no images");
     need_target(images_, view, params, out, non_finite);
     need_image(images_, "normal", texels.normal, view);
     need_image(images_, "albedo", texels.albedo, view);

@@ -64,6 +64,7 @@ public:
     std::vector<cl::ImageFormat> formats;
     ImportPasses passes;
     Readback readback;
+    SharedImages shared;
     cl::Buffer non_finite;
     bool zero_copy;
     std::string path;
@@ -96,20 +97,29 @@ cl::Event GBufferImport::convert(const cl::CommandQueue& queue, const View& view
     State& state = *state_;
     ImportImages images;
     std::string why;
-    state.zero_copy = state.sharing.zero_copy &&
-                      share(state.sharing, state.context, state.formats, channels, images, why);
+    state.zero_copy =
+        state.sharing.zero_copy && state.shared.share(state.sharing, state.context, state.formats,
+                                                      channels, view, images, why);
     state.path = why.empty() ? state.sharing.reason : "copied: " + why;
     const cl::Event event = on_device("the textures cannot be read", [&] {
         if (!state.zero_copy) return state.copied(queue, view, params, channels, out, wait);
-        return while_acquired(state.sharing, queue, images, wait, [&](const WaitList& acquired) {
-            return state.passes.images(queue, view, params, images, out, state.non_finite,
-                                       acquired);
-        });
+        try {
+            return while_acquired(
+                state.sharing, queue, images, wait, [&](const WaitList& acquired) {
+                    return state.passes.images(queue, view, params, images, out, state.non_finite,
+                                               acquired);
+                });
+        } catch (const std::exception&) {
+            state.shared.clear();  // the next conversion tries with images made anew
+            throw;
+        }
     });
     state.last_queue = queue;
     state.last.assign(1, event);
     return event;
 }
+
+void GBufferImport::forget_textures() { state_->shared.clear(); }
 
 bool GBufferImport::zero_copy() const { return state_->zero_copy; }
 

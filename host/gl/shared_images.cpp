@@ -36,9 +36,9 @@ std::vector<cl::ImageFormat> readable_formats(const cl::Context& context) {
     return out;
 }
 
-bool share(const Sharing& sharing, const cl::Context& context,
-           const std::vector<cl::ImageFormat>& formats, Channels& channels, ImportImages& images,
-           std::string& why) {
+bool SharedImages::share(const Sharing& sharing, const cl::Context& context,
+                         const std::vector<cl::ImageFormat>& formats, Channels& channels,
+                         const View& view, ImportImages& images, std::string& why) {
     for (const Channel* channel : channels.given()) {
         const bool readable =
             std::any_of(formats.begin(), formats.end(), [&](const cl::ImageFormat& format) {
@@ -46,31 +46,35 @@ bool share(const Sharing& sharing, const cl::Context& context,
                        format.image_channel_data_type == channel->format->channel;
             });
         if (readable) continue;
+        clear();
         why = std::string(channel->name) + " is " + channel->format->name +
               ", which OpenCL has no image format for here";
         return false;
     }
-    ImportImages made;
-    const auto create = [&](const Channel& channel, cl::Image2D& image) {
-        if (!channel.texture || !why.empty()) return;
+    const Channel* all[] = {&channels.position, &channels.normal,   &channels.geometric,
+                            &channels.albedo,   &channels.emission, &channels.depth,
+                            &channels.ids};
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+        const Channel& channel = *all[i];
+        Kept& kept = kept_[i];
+        if (kept.texture == channel.texture && kept.format == channel.format &&
+            kept.width == view.width && kept.height == view.height)
+            continue;
+        kept = Kept();  // before a new one is made: its texture may be gone
+        if (!channel.texture) continue;
         cl_int error = CL_SUCCESS;
         const cl_mem object =
             sharing.create(context(), CL_MEM_READ_ONLY, GL_TEXTURE_2D, 0, channel.texture, &error);
-        if (error == CL_SUCCESS && object)
-            image = cl::Image2D(object);
-        else
+        if (error != CL_SUCCESS || !object) {
+            clear();
             why = std::string(channel.name) + " cannot be shared (OpenCL error " +
                   std::to_string(error) + ")";
-    };
-    create(channels.position, made.position);
-    create(channels.normal, made.normal);
-    create(channels.geometric, made.geometric);
-    create(channels.albedo, made.albedo);
-    create(channels.emission, made.emission);
-    create(channels.depth, made.depth);
-    create(channels.ids, made.labels);
-    if (!why.empty()) return false;
-    images = made;
+            return false;
+        }
+        kept = {channel.texture, channel.format, view.width, view.height, cl::Image2D(object)};
+    }
+    images = {kept_[0].image, kept_[1].image, kept_[2].image, kept_[3].image,
+              kept_[4].image, kept_[5].image, kept_[6].image};
     return true;
 }
 

@@ -1,7 +1,8 @@
-// Textures as OpenCL images, without a copy, for the time of one kernel.
+// Textures as OpenCL images, without a copy: made once, handed to OpenCL for each conversion.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <clgi/passes/import.hpp>
 #include <functional>
 #include <string>
@@ -13,11 +14,29 @@ namespace clgi::gl {
 // Formats of two-dimensional images that a context can read.
 std::vector<cl::ImageFormat> readable_formats(const cl::Context& context);
 
-// Makes an image of every texture. Empty with the reason in `why`, and nothing is left behind,
-// where one cannot be shared; nothing has been enqueued then.
-bool share(const Sharing& sharing, const cl::Context& context,
-           const std::vector<cl::ImageFormat>& formats, Channels& channels, ImportImages& images,
-           std::string& why);
+// The images of the textures of one G-buffer, kept from one conversion to the next.
+class SharedImages {
+public:
+    // Images of all given textures. An image is reused if its texture has the same name, size and
+    // format as in the last call; images of textures that are no longer given are released.
+    // False with the reason in `why` if a texture cannot be shared: then no image is kept, and
+    // nothing has been enqueued.
+    bool share(const Sharing& sharing, const cl::Context& context,
+               const std::vector<cl::ImageFormat>& formats, Channels& channels, const View& view,
+               ImportImages& images, std::string& why);
+
+    // Releases all images. Commands that are under way still finish.
+    void clear() { kept_ = {}; }
+
+private:
+    struct Kept {
+        unsigned texture = 0;
+        const TextureFormat* format = nullptr;
+        std::uint32_t width = 0, height = 0;
+        cl::Image2D image;
+    };
+    std::array<Kept, 7> kept_;  // in the order of Channels
+};
 
 // Hands the images to OpenCL after `wait`, enqueues `kernel` with what it must wait for, and hands
 // them back: the returned event is the end of that. They are handed back when `kernel` throws too.

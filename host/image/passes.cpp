@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
 
+#include "lights/emitter_buffers.hpp"
 #include "opencl/launch.hpp"
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
@@ -29,22 +32,23 @@ std::size_t plane_bytes(std::size_t planes, std::size_t stride) {
 
 }  // namespace
 
-ImagePasses::ImagePasses(const cl::Context& context, const cl::Device& device,
-                         const BuildOptions& options) {
-    auto kernels = build_room(
-        context, device, "image",
-        {"gather", "count", "compact", "upsample", "place", "combine", "tonemap"}, options);
-    gather_ = kernels[0];
-    count_ = kernels[1];
-    compact_ = kernels[2];
-    upsample_ = kernels[3];
-    place_ = kernels[4];
-    combine_ = kernels[5];
-    tonemap_ = kernels[6];
-    if (options.environment)
-        environment_ = build_room(context, device, "image", {"environment"}, options)[0];
-    prefer_small_groups(count_, device, options);
-    prefer_small_groups(compact_, device, options);
+ImagePasses::ImagePasses(const Programs& programs, const BuildOptions& options) {
+    const auto kernel = [&](const char* pass) { return programs.kernel("image", pass, options); };
+    const auto few = [&](const char* pass) {
+        return in_small_groups(kernel(pass), programs.device(), options);
+    };
+    gather_ = kernel("gather");
+    count_ = few("count");
+    compact_ = few("compact");
+    upsample_ = kernel("upsample");
+    place_ = kernel("place");
+    combine_ = kernel("combine");
+    tonemap_ = kernel("tonemap");
+    environment_ = kernel("environment");
+}
+
+void ImagePasses::build(std::initializer_list<const char*> passes) const {
+    build_named({gather_, count_, compact_, upsample_, place_, combine_, tonemap_, environment_}, passes);
 }
 
 cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams& params,
@@ -55,8 +59,8 @@ cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams&
     need_stride(gather_, "stride", params.stride, end_of(range));
     need(gather_, "point_count", point_count, sizeof(std::uint32_t));
     need(gather_, "points", points, point_bytes(gather_.storage, params.stride));
-    need(gather_, "lights", lights, params.light_count * sizeof(IndirectLight));
-    need(gather_, "negative", negative, params.negative_count * sizeof(IndirectLight));
+    need(gather_, "lights", lights, params.vpl_count * sizeof(Vpl));
+    need(gather_, "negative", negative, params.negative_count * sizeof(Vpl));
     need(gather_, "irradiance", irradiance, irradiance_bytes(gather_.storage, params.stride));
     return launch(gather_, queue, packets(gather_, range), wait, params, point_count, points,
                   lights, negative, irradiance);
@@ -71,19 +75,19 @@ cl::Event ImagePasses::count(const cl::CommandQueue& queue, std::uint32_t pixels
 }
 
 cl::Event ImagePasses::compact(const cl::CommandQueue& queue, const RefineParams& params,
-                               const cl::Buffer& flags, const cl::Buffer& counts,
+                               const cl::Buffer& flags, const cl::Buffer& offsets,
                                const cl::Buffer& planes, const cl::Buffer& listed,
                                const cl::Buffer& points, const cl::Buffer& point_count,
                                const WaitList& wait) const {
     const std::size_t pixels = pixels_of(params);
     need_stride(compact_, "stride", params.stride, pixels);
     need(compact_, "flags", flags, pixels);
-    need(compact_, "counts", counts, blocks(pixels) * sizeof(std::uint32_t));
+    need(compact_, "offsets", offsets, blocks(pixels) * sizeof(std::uint32_t));
     need(compact_, "planes", planes, point_bytes(compact_.storage, params.stride));
     need(compact_, "listed", listed, plane_bytes(1, params.stride));
     need(compact_, "points", points, point_bytes(compact_.storage, params.stride));
     need(compact_, "point_count", point_count, sizeof(std::uint32_t));
-    return launch(compact_, queue, blocks(pixels), wait, params, flags, counts, planes, listed,
+    return launch(compact_, queue, blocks(pixels), wait, params, flags, offsets, planes, listed,
                   points, point_count);
 }
 
@@ -117,37 +121,55 @@ cl::Event ImagePasses::place(const cl::CommandQueue& queue, const RefineParams& 
 
 cl::Event ImagePasses::combine(const cl::CommandQueue& queue, const CombineParams& params,
                                const View& view, const DeviceScene& scene,
-                               const SourceBuffers& sources, const cl::Buffer& planes,
-                               const cl::Buffer& ids, const cl::Buffer& irradiance,
-                               const cl::Buffer& radiance, const cl::Buffer& non_finite,
-                               const WaitList& wait) const {
+                               const CombineBuffers& buffers, const WaitList& wait) const {
     const std::size_t pixels = static_cast<std::size_t>(params.width) * params.height;
     need_stride(combine_, "stride", params.stride, pixels);
     if (view.width != params.width || view.height != params.height)
         throw Error("image.combine: the view is " + std::to_string(view.width) + "x" +
                     std::to_string(view.height) + ", " + std::to_string(params.width) + "x" +
                     std::to_string(params.height) + " needed");
-    need(combine_, "views", sources.views, sources.view_count * sizeof(View));
-    need(combine_, "visibility", sources.visibility, sources.pixels * sizeof(std::uint64_t));
-    need(combine_, "emitters", sources.emitters, params.emitter_count * sizeof(Emitter));
-    need(combine_, "planes", planes, gbuffer_bytes(combine_.storage, params.stride));
-    need(combine_, "ids", ids, plane_bytes(GBUFFER_ID_PLANES, params.stride));
+    need_depth_words(combine_, params.depth_words, buffers.emitters.kind);
+    need_emitters(combine_, buffers.emitters, params.emitter_count);
+    need(combine_, "planes", buffers.gbuffer.planes,
+         gbuffer_bytes(combine_.storage, params.stride));
+    need(combine_, "ids", buffers.gbuffer.ids, plane_bytes(GBUFFER_ID_PLANES, params.stride));
     if (params.effects & COMBINE_INDIRECT)
-        need(combine_, "irradiance", irradiance, irradiance_bytes(combine_.storage, params.stride));
-    need(combine_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
-    need(combine_, "non_finite", non_finite, sizeof(std::uint32_t));
-    return launch(combine_, queue, packets(combine_, pixels), wait, params, view, sources.emitters,
-                  sources.views, sources.visibility, scene.materials(), planes, ids, irradiance,
-                  radiance, non_finite);
+        need(combine_, "irradiance", buffers.irradiance,
+             irradiance_bytes(combine_.storage, params.stride));
+    need(combine_, "radiance", buffers.radiance, plane_bytes(RADIANCE_PLANES, params.stride));
+    need(combine_, "non_finite", buffers.non_finite, sizeof(std::uint32_t));
+    return launch(combine_, queue, packets(combine_, pixels), wait, params, view,
+                  buffers.emitters.emitters, buffers.emitters.views, buffers.emitters.visibility,
+                  scene.materials(), buffers.gbuffer.planes, buffers.gbuffer.ids,
+                  buffers.irradiance, buffers.radiance, buffers.non_finite);
+}
+
+CombineParams combine_params(const DeviceScene& scene, const View& view, std::uint32_t stride,
+                             std::size_t emitters, Pixels shadow_maps) {
+    CombineParams out{};
+    out.width = view.width;
+    out.height = view.height;
+    out.stride = stride;
+    out.emitter_count = static_cast<std::uint32_t>(emitters);
+    out.exposure = static_cast<float>(scene.frame().exposure);
+    out.texel_bias = 1.0f;
+    out.effects = scene.info().flags & SCENE_HAS_SHARES ? COMBINE_MATERIALS : 0;
+    out.depth_words = shadow_maps == Pixels::depth ? 1 : 2;
+    return out;
+}
+
+EnvironmentParams environment_params(const DeviceScene& scene, std::uint32_t stride) {
+    const Environment& environment = scene.environment().value();
+    const double turns = double{environment.rotation} / glm::two_pi<double>();
+    return {glm::vec4(environment.factor, 0.0f), static_cast<std::uint32_t>(environment.width),
+            static_cast<std::uint32_t>(environment.height), stride,
+            static_cast<float>(turns - std::floor(turns))};
 }
 
 cl::Event ImagePasses::environment(const cl::CommandQueue& queue, const EnvironmentParams& params,
                                    const View& view, const cl::Buffer& texels,
                                    const cl::Buffer& planes, const cl::Buffer& radiance,
                                    const WaitList& wait) const {
-    if (!environment_.kernel())
-        throw Error(
-            "image.environment: the kernels were built without it (BuildOptions::environment)");
     const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
     if (params.environment_width < 1 || params.environment_height < 1)
         throw Error("image.environment: the picture is " +

@@ -168,8 +168,8 @@ std::vector<std::vector<half>> to_half(const Image& image) {
     return planes;
 }
 
-void write_exr(const Image& image, const std::string& name, Storage storage, AtomicFile& file) {
-    const bool is_half = storage == Storage::half;
+void write_exr(const Image& image, const std::string& name, PixelType wanted, AtomicFile& file) {
+    const bool is_half = wanted == PixelType::half;
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [key, text] : image.attributes) {
@@ -214,11 +214,11 @@ Image read_exr(const fs::path& path) {
     }
 }
 
-void save_exr(const Image& image, const fs::path& path, Storage storage) {
+void save_exr(const Image& image, const fs::path& path, PixelType type) {
     check_image(image);
     AtomicFile file(path);
     try {
-        write_exr(image, path.string(), storage, file);
+        write_exr(image, path.string(), type, file);
     } catch (const Iex::BaseExc& error) {
         throw Error("save_exr: " + path.string() + ": " + error.what());
     }

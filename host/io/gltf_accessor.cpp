@@ -5,6 +5,10 @@
 #include <clgi/error.hpp>
 #include <cmath>
 #include <cstring>
+#include <tuple>
+
+#include "io/gltf_source.hpp"
+#include "io/gltf_text.hpp"
 
 namespace clgi::io::gltf {
 
@@ -18,11 +22,11 @@ T load(const std::uint8_t* bytes) {
 }
 
 // Unsigned integer of the type, as indices have it.
-std::uint32_t load_index(const std::uint8_t* bytes, Component component) {
+std::uint32_t load_index(const std::uint8_t* bytes, int component) {
     switch (component) {
-        case Component::uint8:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
             return *bytes;
-        case Component::uint16:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
             return load<std::uint16_t>(bytes);
         default:
             return load<std::uint32_t>(bytes);
@@ -37,8 +41,8 @@ bool all_finite(const std::uint8_t* floats, std::size_t length) {
 }
 
 const std::uint8_t* view_data(const Document& document, int view) {
-    const BufferView& range = document.views[view];
-    return document.buffers[range.buffer].data.data() + range.offset;
+    const BufferView& range = document.model.bufferViews[view];
+    return document.model.buffers[range.buffer].data.data() + range.byteOffset;
 }
 
 // Whether `count` elements of `bytes` each, `stride` apart from `offset` on, end inside `length`.
@@ -51,32 +55,38 @@ bool fits(std::size_t length, std::size_t offset, std::size_t count, std::size_t
 
 void check_range(const Document& document, const std::string& name, int view, std::size_t offset,
                  std::size_t count, std::size_t stride, std::size_t bytes) {
-    const BufferView& range = document.views[view];
-    if (document.buffers[range.buffer].data.empty()) {
+    const BufferView& range = document.model.bufferViews[view];
+    if (document.model.buffers[range.buffer].uri == no_bytes) {
         throw InputError(name +
                          " needs data that only EXT_meshopt_compression gives, which clgi does "
                          "not read");
     }
-    if (!fits(range.length, offset, count, stride, bytes)) {
+    if (!fits(range.byteLength, offset, count, stride, bytes)) {
         throw InputError(name + " reads " + std::to_string(count) + " elements at " +
-                         std::to_string(offset) + ", beyond the " + std::to_string(range.length) +
-                         " bytes of bufferViews[" + std::to_string(view) + "]");
+                         std::to_string(offset) + ", beyond the " +
+                         std::to_string(range.byteLength) + " bytes of bufferViews[" +
+                         std::to_string(view) + "]");
     }
 }
 
 void check_sparse(const Document& document, const std::string& name, const Accessor& accessor) {
-    const Sparse& sparse = *accessor.sparse;
-    const std::size_t index_bytes = byte_size(sparse.index_type);
-    const std::size_t value_bytes = accessor.element_bytes();
-    check_range(document, name + ".sparse.indices", sparse.index_view, sparse.index_offset,
-                sparse.count, index_bytes, index_bytes);
-    check_range(document, name + ".sparse.values", sparse.value_view, sparse.value_offset,
-                sparse.count, value_bytes, value_bytes);
+    const auto& [where, values] = std::tie(accessor.sparse.indices, accessor.sparse.values);
+    const std::size_t count = sparse_count(accessor);
+    if (count > accessor.count) {
+        throw InputError(name + ".sparse replaces " + std::to_string(count) + " of " +
+                         std::to_string(accessor.count) + " elements");
+    }
+    const std::size_t index_bytes = component_bytes(where.componentType);
+    const std::size_t value_bytes = element_bytes(accessor);
+    check_range(document, name + ".sparse.indices", where.bufferView, where.byteOffset, count,
+                index_bytes, index_bytes);
+    check_range(document, name + ".sparse.values", values.bufferView, values.byteOffset, count,
+                value_bytes, value_bytes);
 
-    const std::uint8_t* indices = view_data(document, sparse.index_view) + sparse.index_offset;
+    const std::uint8_t* indices = view_data(document, where.bufferView) + where.byteOffset;
     std::uint32_t previous = 0;
-    for (std::size_t i = 0; i < sparse.count; ++i) {
-        const std::uint32_t index = load_index(indices + i * index_bytes, sparse.index_type);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t index = load_index(indices + i * index_bytes, where.componentType);
         if (index >= accessor.count) {
             throw InputError(name + ".sparse replaces element " + std::to_string(index) +
                              ", there are " + std::to_string(accessor.count));
@@ -90,60 +100,89 @@ void check_sparse(const Document& document, const std::string& name, const Acces
 
 }  // namespace
 
+std::size_t component_bytes(int component) {
+    return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(component));
+}
+
+// tinygltf's types: VEC2 is 2, MAT2 32 + 2, SCALAR 64 + 1.
+std::size_t rows(const Accessor& accessor) { return accessor.type % 32; }
+
+std::size_t columns(const Accessor& accessor) {
+    return accessor.type / 32 == 1 ? rows(accessor) : 1;
+}
+
+std::size_t column_bytes(const Accessor& accessor) {
+    const std::size_t bytes = component_bytes(accessor.componentType) * rows(accessor);
+    return columns(accessor) > 1 ? (bytes + 3) / 4 * 4 : bytes;  // of a matrix: a multiple of 4
+}
+
+std::size_t element_bytes(const Accessor& accessor) {
+    return column_bytes(accessor) * columns(accessor);
+}
+
+std::size_t sparse_count(const Accessor& accessor) {
+    return accessor.sparse.isSparse ? static_cast<std::size_t>(accessor.sparse.count) : 0;
+}
+
 void check_accessors(const Document& document) {
     // Elements that no bytes stand for cost nothing in the file; bound them by what does.
     std::size_t most_zeros = 65536;
-    for (const Buffer& buffer : document.buffers) most_zeros += buffer.data.size();
+    for (const auto& buffer : document.model.buffers) most_zeros += buffer.data.size();
     std::size_t sparse_total = 0;
 
-    for (std::size_t i = 0; i < document.accessors.size(); ++i) {
-        const Accessor& accessor = document.accessors[i];
-        const std::string name = "accessors[" + std::to_string(i) + "]";
-        const std::size_t bytes = accessor.element_bytes();
-        if (accessor.view >= 0) {
-            const std::size_t declared = document.views[accessor.view].stride;
+    for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
+        const Accessor& accessor = document.model.accessors[i];
+        const std::string name = entry("accessors", i);
+        const std::size_t bytes = element_bytes(accessor);
+        if (accessor.bufferView >= 0) {
+            const std::size_t declared = document.model.bufferViews[accessor.bufferView].byteStride;
             const std::size_t stride = declared > 0 ? declared : bytes;
             if (stride < bytes) {
                 throw InputError(name + " has elements of " + std::to_string(bytes) +
                                  " bytes, its view a stride of " + std::to_string(stride));
             }
-            check_range(document, name, accessor.view, accessor.offset, accessor.count, stride,
-                        bytes);
+            check_range(document, name, accessor.bufferView, accessor.byteOffset, accessor.count,
+                        stride, bytes);
         } else if (accessor.count > most_zeros) {
             throw InputError(name + " has " + std::to_string(accessor.count) +
                              " elements and no data");
         }
-        if (!accessor.sparse) continue;
+        if (!accessor.sparse.isSparse) continue;
         // Many accessors may share one list of indices, each check reads all of it.
-        sparse_total += accessor.sparse->count;
+        sparse_total += sparse_count(accessor);
         if (sparse_total > std::size_t{1} << 28) throw InputError(name + ": too much sparse data");
         check_sparse(document, name, accessor);
     }
 }
 
 AccessorReader::AccessorReader(const Document& document, int accessor)
-    : accessor_(document.accessors[accessor]) {
-    if (accessor_.view >= 0) {
-        const std::size_t declared = document.views[accessor_.view].stride;
-        data_ = view_data(document, accessor_.view) + accessor_.offset;
-        stride_ = declared > 0 ? declared : accessor_.element_bytes();
+    : accessor_(document.model.accessors[accessor]),
+      width_(rows(accessor_)),
+      component_bytes_(component_bytes(accessor_.componentType)),
+      column_bytes_(column_bytes(accessor_)),
+      element_bytes_(element_bytes(accessor_)),
+      sparse_count_(sparse_count(accessor_)) {
+    if (accessor_.bufferView >= 0) {
+        const std::size_t declared = document.model.bufferViews[accessor_.bufferView].byteStride;
+        data_ = view_data(document, accessor_.bufferView) + accessor_.byteOffset;
+        stride_ = declared > 0 ? declared : element_bytes_;
     }
-    if (accessor_.sparse) {
-        const Sparse& sparse = *accessor_.sparse;
-        sparse_indices_ = view_data(document, sparse.index_view) + sparse.index_offset;
-        sparse_values_ = view_data(document, sparse.value_view) + sparse.value_offset;
+    if (sparse_count_ > 0) {
+        const auto& [indices, values] = std::tie(accessor_.sparse.indices, accessor_.sparse.values);
+        sparse_indices_ = view_data(document, indices.bufferView) + indices.byteOffset;
+        sparse_values_ = view_data(document, values.bufferView) + values.byteOffset;
     }
 }
 
 std::size_t AccessorReader::sparse_index(std::size_t i) const {
-    const Component type = accessor_.sparse->index_type;
-    return load_index(sparse_indices_ + i * byte_size(type), type);
+    const int type = accessor_.sparse.indices.componentType;
+    return load_index(sparse_indices_ + i * component_bytes(type), type);
 }
 
 const std::uint8_t* AccessorReader::find(std::size_t element) const {
-    if (accessor_.sparse) {
+    if (sparse_count_ > 0) {
         std::size_t low = 0;
-        std::size_t high = accessor_.sparse->count;
+        std::size_t high = sparse_count_;
         while (low < high) {  // first index not below the element; check_accessors saw them sorted
             const std::size_t middle = (low + high) / 2;
             if (sparse_index(middle) < element) {
@@ -152,8 +191,8 @@ const std::uint8_t* AccessorReader::find(std::size_t element) const {
                 high = middle;
             }
         }
-        if (low < accessor_.sparse->count && sparse_index(low) == element) {
-            return sparse_values_ + low * accessor_.element_bytes();
+        if (low < sparse_count_ && sparse_index(low) == element) {
+            return sparse_values_ + low * element_bytes_;
         }
     }
     return data_ ? data_ + element * stride_ : nullptr;
@@ -162,23 +201,22 @@ const std::uint8_t* AccessorReader::find(std::size_t element) const {
 double AccessorReader::number(std::size_t element, std::size_t component) const {
     const std::uint8_t* bytes = find(element);
     if (!bytes) return 0.0;
-    bytes += component / width() * accessor_.column_bytes() +
-             component % width() * byte_size(accessor_.component);
+    bytes += component / width_ * column_bytes_ + component % width_ * component_bytes_;
     const auto signed_unit = [this](double value, double largest) {
         return accessor_.normalized ? std::max(value / largest, -1.0) : value;
     };
-    switch (accessor_.component) {
-        case Component::int8:
+    switch (accessor_.componentType) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
             return signed_unit(load<std::int8_t>(bytes), 127.0);
-        case Component::uint8:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
             return signed_unit(load<std::uint8_t>(bytes), 255.0);
-        case Component::int16:
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
             return signed_unit(load<std::int16_t>(bytes), 32767.0);
-        case Component::uint16:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
             return signed_unit(load<std::uint16_t>(bytes), 65535.0);
-        case Component::uint32:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
             return load<std::uint32_t>(bytes);
-        case Component::float32:
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
             return load<float>(bytes);
     }
     return 0.0;
@@ -187,20 +225,18 @@ double AccessorReader::number(std::size_t element, std::size_t component) const 
 std::uint32_t AccessorReader::integer(std::size_t element, std::size_t component) const {
     const std::uint8_t* bytes = find(element);
     if (!bytes) return 0;
-    return load_index(bytes + component * byte_size(accessor_.component), accessor_.component);
+    return load_index(bytes + component * component_bytes_, accessor_.componentType);
 }
 
 std::size_t AccessorReader::first_not_finite() const {
-    if (accessor_.component != Component::float32) return size();
-    const std::size_t length = accessor_.element_bytes();
-    const std::size_t replaced = accessor_.sparse ? accessor_.sparse->count : 0;
+    if (accessor_.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) return size();
     std::size_t next = 0;  // of those replaced; quicker than to find each
     for (std::size_t element = 0; element < size(); ++element) {
         const std::uint8_t* bytes = data_ ? data_ + element * stride_ : nullptr;
-        if (next < replaced && sparse_index(next) == element) {
-            bytes = sparse_values_ + next++ * length;
+        if (next < sparse_count_ && sparse_index(next) == element) {
+            bytes = sparse_values_ + next++ * element_bytes_;
         }
-        if (bytes && !all_finite(bytes, length)) return element;
+        if (bytes && !all_finite(bytes, element_bytes_)) return element;
     }
     return size();
 }

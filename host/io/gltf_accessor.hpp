@@ -9,6 +9,12 @@
 
 namespace clgi::io::gltf {
 
+std::size_t component_bytes(int component);
+std::size_t rows(const Accessor& accessor);
+std::size_t columns(const Accessor& accessor);  // above 1: a matrix
+std::size_t element_bytes(const Accessor& accessor);
+std::size_t sparse_count(const Accessor& accessor);  // of elements that are replaced
+
 // Throws InputError when an accessor, or its sparse part, would read outside its buffer view,
 // needs data that is not there, or replaces elements out of order. After this no read by an
 // AccessorReader leaves its buffer.
@@ -19,7 +25,7 @@ public:
     AccessorReader(const Document& document, int accessor);
 
     std::size_t size() const { return accessor_.count; }
-    std::size_t width() const { return static_cast<std::size_t>(accessor_.rows); }
+    std::size_t width() const { return width_; }
 
     // element < size(), component < width(). number maps normalised integers to [0,1] or [-1,1].
     double number(std::size_t element, std::size_t component) const;
@@ -38,6 +44,11 @@ private:
     std::size_t sparse_index(std::size_t i) const;
 
     const Accessor& accessor_;
+    std::size_t width_;
+    std::size_t component_bytes_;
+    std::size_t column_bytes_;
+    std::size_t element_bytes_;
+    std::size_t sparse_count_;
     const std::uint8_t* data_ = nullptr;
     std::size_t stride_ = 0;
     const std::uint8_t* sparse_indices_ = nullptr;

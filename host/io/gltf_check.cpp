@@ -3,114 +3,78 @@
 
 #include <algorithm>
 #include <clgi/error.hpp>
-#include <initializer_list>
 #include <optional>
 #include <string_view>
 
 #include "io/gltf_accessor.hpp"
+#include "io/gltf_text.hpp"
 
 namespace clgi::io::gltf {
 
 namespace {
 
-bool is_one_of(Component component, std::initializer_list<Component> allowed) {
-    for (const Component candidate : allowed) {
-        if (component == candidate) return true;
+// Formats of components as bits; which of the two an integer is depends on "normalized".
+constexpr unsigned floats = 1;
+constexpr unsigned unsigned_integers = 2;  // of 8 or 16 bits
+constexpr unsigned unsigned_units = 4;
+constexpr unsigned signed_integers = 8;
+constexpr unsigned signed_units = 16;
+constexpr unsigned any_unit = floats | unsigned_units | signed_units;
+constexpr unsigned any_small = any_unit | unsigned_integers | signed_integers;
+
+unsigned format_of(const Accessor& accessor) {
+    switch (accessor.componentType) {
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return floats;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return accessor.normalized ? unsigned_units : unsigned_integers;
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return accessor.normalized ? signed_units : signed_integers;
+        default:
+            return 0;
     }
-    return false;
 }
 
-bool is_vector(const Accessor& accessor, int rows) {
-    return accessor.columns == 1 && accessor.rows == rows;
-}
-
-bool is_small_integer(Component component) {
-    return is_one_of(component,
-                     {Component::int8, Component::uint8, Component::int16, Component::uint16});
-}
-
-bool is_float(const Accessor& accessor) { return accessor.component == Component::float32; }
-
-bool is_unsigned_unit(const Accessor& accessor) {
-    return is_float(accessor) ||
-           (accessor.normalized &&
-            is_one_of(accessor.component, {Component::uint8, Component::uint16}));
-}
-
-bool is_position(const Accessor& accessor, bool quantized) {
-    return is_vector(accessor, 3) &&
-           (is_float(accessor) || (quantized && is_small_integer(accessor.component)));
-}
-
-bool is_normal(const Accessor& accessor, bool quantized) {
-    const bool signed_unit =
-        accessor.normalized && is_one_of(accessor.component, {Component::int8, Component::int16});
-    return is_vector(accessor, 3) && (is_float(accessor) || (quantized && signed_unit));
-}
-
-bool is_uv(const Accessor& accessor, bool quantized) {
-    return is_vector(accessor, 2) &&
-           (is_unsigned_unit(accessor) || (quantized && is_small_integer(accessor.component)));
-}
-
-bool is_color(const Accessor& accessor, bool) {
-    return (is_vector(accessor, 3) || is_vector(accessor, 4)) && is_unsigned_unit(accessor);
-}
-
-bool is_joints(const Accessor& accessor, bool) {
-    return is_vector(accessor, 4) &&
-           is_one_of(accessor.component, {Component::uint8, Component::uint16});
-}
-
-bool is_weights(const Accessor& accessor, bool) {
-    return is_vector(accessor, 4) && is_unsigned_unit(accessor);
-}
-
-bool is_tangent(const Accessor& accessor, bool quantized) {
-    const bool signed_unit =
-        accessor.normalized && is_one_of(accessor.component, {Component::int8, Component::int16});
-    return is_vector(accessor, 4) && (is_float(accessor) || (quantized && signed_unit));
-}
-
-// Differences may be signed and, in KHR_mesh_quantization, of small integers.
-bool is_difference(const Accessor& accessor, bool) {
-    return is_vector(accessor, 3) && (is_float(accessor) || is_small_integer(accessor.component));
-}
-
-bool is_uv_difference(const Accessor& accessor, bool) {
-    return is_vector(accessor, 2) && (is_float(accessor) || is_small_integer(accessor.component));
-}
-
-bool is_color_difference(const Accessor& accessor, bool) {
-    const bool unit = accessor.normalized && is_small_integer(accessor.component);
-    return (is_vector(accessor, 3) || is_vector(accessor, 4)) && (is_float(accessor) || unit);
-}
-
-using Format = bool (*)(const Accessor&, bool quantized);
-
-struct Formats {
+struct Format {
     std::string_view name;  // with '_' at its end: followed by a number
-    Format vertex;
-    Format target;  // null: not in morph targets
+    std::size_t rows;
+    unsigned plain;
+    unsigned quantized;  // with KHR_mesh_quantization
+    unsigned target;     // of the differences in a morph target; 0: not there
+    std::size_t target_rows;
 };
-constexpr Formats formats[] = {
-    {"POSITION", is_position, is_difference},  {"NORMAL", is_normal, is_difference},
-    {"TANGENT", is_tangent, is_difference},    {"TEXCOORD_", is_uv, is_uv_difference},
-    {"COLOR_", is_color, is_color_difference}, {"JOINTS_", is_joints, nullptr},
-    {"WEIGHTS_", is_weights, nullptr}};
+constexpr Format formats[] = {
+    {"POSITION", 3, floats, any_small, any_small, 3},
+    {"NORMAL", 3, floats, floats | signed_units, any_small, 3},
+    {"TANGENT", 4, floats, floats | signed_units, any_small, 3},
+    {"TEXCOORD_", 2, floats | unsigned_units, any_small, any_small, 2},
+    {"COLOR_", 4, floats | unsigned_units, floats | unsigned_units, any_unit, 4},
+    {"JOINTS_", 4, unsigned_integers | unsigned_units, unsigned_integers | unsigned_units, 0, 0},
+    {"WEIGHTS_", 4, floats | unsigned_units, floats | unsigned_units, 0, 0}};
 
-// Null for names that are not of the specification.
-const Formats* find_formats(std::string_view name) {
-    for (const Formats& entry : formats) {
-        const bool numbered = entry.name.back() == '_' && name.starts_with(entry.name);
-        if (numbered || name == entry.name) return &entry;
+// Null for names that are not of the specification, which may look like anything.
+const Format* find_format(std::string_view name, bool target) {
+    for (const Format& format : formats) {
+        const bool numbered = format.name.back() == '_' && name.starts_with(format.name);
+        if (numbered || name == format.name) return target && !format.target ? nullptr : &format;
     }
     return nullptr;
 }
 
+bool is_allowed(const Format& format, const Accessor& accessor, bool target, bool quantized) {
+    const std::size_t expected = target ? format.target_rows : format.rows;
+    const bool without_alpha = format.name == "COLOR_" && rows(accessor) == 3;
+    const unsigned allowed = target ? format.target : quantized ? format.quantized : format.plain;
+    return columns(accessor) == 1 && (rows(accessor) == expected || without_alpha) &&
+           (format_of(accessor) & allowed) != 0;
+}
+
 bool is_indices(const Accessor& accessor) {
-    return is_vector(accessor, 1) &&
-           is_one_of(accessor.component, {Component::uint8, Component::uint16, Component::uint32});
+    return accessor.type == TINYGLTF_TYPE_SCALAR &&
+           (format_of(accessor) == unsigned_integers || format_of(accessor) == unsigned_units ||
+            accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
 }
 
 // Elements to look through, more than scenes within max_triangles have. Accessors may overlap: a
@@ -122,61 +86,58 @@ class MeshChecker {
 public:
     explicit MeshChecker(const Document& document)
         : document_(document),
-          largest_index_(document.accessors.size()),
-          finite_(document.accessors.size()),
-          mended_(document.accessors.size()) {}
+          accessors_(document.model.accessors),
+          largest_index_(accessors_.size()),
+          finite_(accessors_.size()),
+          mended_(accessors_.size()) {}
 
     void check(const Primitive& primitive, const std::string& name) {
-        const Attributes& attributes = primitive.attributes;
-        if (attributes.all.empty()) return;
-        const int first =
-            attributes.position >= 0 ? attributes.position : attributes.all[0].accessor;
-        const std::size_t vertices = document_.accessors[first].count;
+        if (primitive.attributes.empty()) return;
+        const int position = attribute(primitive.attributes, "POSITION");
+        const int first = position >= 0 ? position : primitive.attributes.begin()->second;
+        const std::size_t vertices = accessors_[first].count;
 
-        for (const Attribute& each : attributes.all) {
-            const Formats* allowed = find_formats(each.name);
-            attribute(name + " ", each, vertices, allowed ? allowed->vertex : nullptr);
+        check_attributes(name, primitive.attributes, vertices, false);
+        for (const auto& target : primitive.targets) {
+            check_attributes(name + " target", target, vertices, true);
+            require_finite(name + " target POSITION of vertex ", attribute(target, "POSITION"));
         }
-        for (const MorphTarget& target : primitive.targets) {
-            for (const Attribute& each : target.all) {
-                const Formats* allowed = find_formats(each.name);
-                attribute(name + " target ", each, vertices, allowed ? allowed->target : nullptr);
-            }
-            require_finite(name + " target POSITION of vertex ", target.position);
-        }
-        if (attributes.position < 0) return;  // nothing will be drawn
-        require_finite(name + " POSITION of vertex ", attributes.position);
-        indices(name, primitive.indices, vertices);
+        if (position < 0) return;  // nothing will be drawn
+        require_finite(name + " POSITION of vertex ", position);
+        check_indices(name, primitive.indices, vertices);
     }
 
     // Accessors of animations and skins, and those that nothing uses.
     void check_others() {
-        for (std::size_t i = 0; i < document_.accessors.size(); ++i) {
+        for (std::size_t i = 0; i < accessors_.size(); ++i) {
             if (mended_[i]) continue;
-            require_finite("accessors[" + std::to_string(i) + "] element ", static_cast<int>(i));
+            require_finite(entry("accessors", i) + " element ", static_cast<int>(i));
         }
     }
 
 private:
-    void attribute(const std::string& owner, const Attribute& each, std::size_t vertices,
-                   Format is_allowed) {
-        if (each.name != "POSITION") mended_[each.accessor] = true;
-        if (!is_allowed) return;
-        const Accessor& found = document_.accessors[each.accessor];
-        const std::string reference =
-            owner + each.name + " (accessors[" + std::to_string(each.accessor) + "])";
-        if (!is_allowed(found, document_.quantized)) {
-            throw InputError(reference + " has a format that is not allowed there");
-        }
-        if (found.count != vertices) {
-            throw InputError(reference + " has " + std::to_string(found.count) +
-                             " elements, there are " + std::to_string(vertices) + " vertices");
+    void check_attributes(const std::string& owner, const std::map<std::string, int>& attributes,
+                          std::size_t vertices, bool target) {
+        for (const auto& [key, accessor] : attributes) {
+            if (key != "POSITION") mended_[accessor] = true;
+            const Format* format = find_format(key, target);
+            if (!format) continue;
+            const Accessor& found = accessors_[accessor];
+            const std::string reference =
+                owner + " " + printable(key) + " (" + entry("accessors", accessor) + ")";
+            if (!is_allowed(*format, found, target, document_.quantized)) {
+                throw InputError(reference + " has a format that is not allowed there");
+            }
+            if (found.count != vertices) {
+                throw InputError(reference + " has " + std::to_string(found.count) +
+                                 " elements, there are " + std::to_string(vertices) + " vertices");
+            }
         }
     }
 
-    void indices(const std::string& name, int accessor, std::size_t vertices) {
+    void check_indices(const std::string& name, int accessor, std::size_t vertices) {
         if (accessor < 0) return;
-        if (!is_indices(document_.accessors[accessor])) {
+        if (!is_indices(accessors_[accessor])) {
             throw InputError(name + " has indices that are not unsigned integers");
         }
         std::optional<std::uint32_t>& largest = largest_index_[accessor];
@@ -199,12 +160,12 @@ private:
     void require_finite(const std::string& name, int accessor) {
         if (accessor < 0 || finite_[accessor]) return;
         finite_[accessor] = true;
-        const Accessor& declared = document_.accessors[accessor];
-        const bool zeros = declared.view < 0 && !declared.sparse;
-        if (zeros || !is_float(declared)) return;
+        const Accessor& declared = accessors_[accessor];
+        const bool zeros = declared.bufferView < 0 && !declared.sparse.isSparse;
+        if (zeros || format_of(declared) != floats) return;
         // check_accessors has bounded the count by the bytes that there are.
-        const std::size_t floats = declared.count * (declared.element_bytes() / sizeof(float));
-        spend(floats, most_floats, floats_read_, "accessors[" + std::to_string(accessor) + "]");
+        const std::size_t read = declared.count * (element_bytes(declared) / sizeof(float));
+        spend(read, most_floats, floats_read_, entry("accessors", accessor));
         const std::size_t bad = AccessorReader(document_, accessor).first_not_finite();
         if (bad < declared.count) throw InputError(name + std::to_string(bad) + " is not finite");
     }
@@ -216,6 +177,7 @@ private:
     }
 
     const Document& document_;
+    const std::vector<Accessor>& accessors_;
     std::size_t indices_read_ = 0;
     std::size_t floats_read_ = 0;
     // Known once an accessor was read: thousands of primitives may share it.
@@ -228,11 +190,10 @@ private:
 
 void check_meshes(const Document& document) {
     MeshChecker checker(document);
-    for (std::size_t i = 0; i < document.meshes.size(); ++i) {
-        for (std::size_t k = 0; k < document.meshes[i].primitives.size(); ++k) {
-            checker.check(
-                document.meshes[i].primitives[k],
-                "meshes[" + std::to_string(i) + "].primitives[" + std::to_string(k) + "]");
+    for (std::size_t i = 0; i < document.model.meshes.size(); ++i) {
+        const std::vector<Primitive>& primitives = document.model.meshes[i].primitives;
+        for (std::size_t k = 0; k < primitives.size(); ++k) {
+            checker.check(primitives[k], entry("meshes", i) + entry(".primitives", k));
         }
     }
     checker.check_others();

@@ -10,7 +10,9 @@ namespace clgi::io::gltf {
 std::size_t instance_count(const Document& document, const Node& node);
 
 // World matrices, instance < instance_count.
-glm::dmat4 instance_matrix(const Document& document, const Node& node, std::size_t instance);
+glm::dmat4 instance_matrix(const Document& document, int node, std::size_t instance);
+
+bool is_instanced(const Node& node);
 
 // Throws InputError for attributes of the wrong format or of unequal length.
 void check_instancing(const Document& document);

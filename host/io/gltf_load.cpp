@@ -3,14 +3,12 @@
 #include <clgi/error.hpp>
 #include <clgi/io/gltf.hpp>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "io/gltf_accessor.hpp"
-#include "io/gltf_buffer.hpp"
 #include "io/gltf_check.hpp"
-#include "io/gltf_document.hpp"
 #include "io/gltf_material.hpp"
+#include "io/gltf_parse.hpp"
 #include "io/gltf_place.hpp"
 #include "io/gltf_tree.hpp"
 
@@ -19,30 +17,22 @@ namespace clgi::io {
 namespace {
 
 // Everything the document says is checked before anything is built from it.
-gltf::Document open_document(const std::filesystem::path& path, std::vector<std::uint8_t>& file) {
-    file = gltf::read_file(path);
-    const gltf::Container container = gltf::open_container(file);
-    gltf::Document document;
-    {
-        const nlohmann::json json = gltf::parse_json(container.json);
-        document = gltf::read_document(gltf::Value(json));
-    }  // the tree is several times the size of its text
-    gltf::load_buffers(document, container.binary, path.parent_path());
-    if (!container.binary) std::vector<std::uint8_t>().swap(file);
+gltf::Document open_document(const std::filesystem::path& path) {
+    gltf::Document document = gltf::parse(path);
+    gltf::check_links(document.model);
     gltf::check_accessors(document);
     gltf::check_meshes(document);
+    gltf::read_lights(document);
     gltf::place_nodes(document);
     return document;
 }
 
 Scene load(const std::filesystem::path& path, const GltfOptions& options) {
-    std::vector<std::uint8_t> file;  // the document points into it
-    gltf::Document document = open_document(path, file);
-    const std::vector<int> nodes = gltf::scene_nodes(document, options.scene);
-
+    gltf::Document document = open_document(path);
     Scene scene;
     scene.name = path.stem().string();
     gltf::load_materials(document, path.parent_path(), options, scene);
+    const std::vector<int> nodes = gltf::scene_nodes(document, options.scene);
     gltf::place_meshes(document, nodes, options, scene);
     gltf::place_lights(document, nodes, scene);
     gltf::place_cameras(document, nodes, scene);

@@ -11,7 +11,9 @@ namespace clgi::io::gltf {
 
 namespace {
 
-std::optional<AccessorReader> reader_of(const Document& document, int accessor) {
+std::optional<AccessorReader> reader_of(const Document& document, const Primitive& primitive,
+                                        const char* name) {
+    const int accessor = attribute(primitive.attributes, name);
     if (accessor < 0) return std::nullopt;
     return AccessorReader(document, accessor);
 }
@@ -30,8 +32,8 @@ bool append_looks(const Document& document, const Primitive& primitive,
     bool mended = false;
     if (textured) {
         const std::optional<AccessorReader> sets[2] = {
-            reader_of(document, primitive.attributes.uv[0]),
-            reader_of(document, primitive.attributes.uv[1])};
+            reader_of(document, primitive, "TEXCOORD_0"),
+            reader_of(document, primitive, "TEXCOORD_1")};
         for (const std::uint32_t vertex : vertices) {
             glm::vec4 uv(0.0f);
             for (int i = 0; i < 4; ++i) {
@@ -42,7 +44,7 @@ bool append_looks(const Document& document, const Primitive& primitive,
         }
     }
     if (colored) {
-        const auto colors = reader_of(document, primitive.attributes.color);
+        const auto colors = reader_of(document, primitive, "COLOR_0");
         const int channels = colors ? static_cast<int>(colors->width()) : 0;
         for (const std::uint32_t vertex : vertices) {
             glm::vec4 color(1.0f);

@@ -11,7 +11,6 @@ namespace clgi::io::gltf {
 // Fills scene.materials, one for one, and scene.textures. Only images that a base color, an
 // emission or a metallic-roughness texture needs are decoded; of the others only the start is
 // looked at.
-// Expects load_buffers to have passed.
 void load_materials(Document& document, const std::filesystem::path& folder,
                     const GltfOptions& options, Scene& scene);
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "io/gltf_place.hpp"
+#include "io/gltf_text.hpp"
 
 namespace clgi::io::gltf {
 
@@ -41,17 +42,19 @@ bool is_near_enough(const glm::dmat4& matrix) {
 
 void place_lights(Document& document, const std::vector<int>& nodes, Scene& scene) {
     for (const int index : nodes) {
-        const Node& node = document.nodes[index];
-        if (node.light < 0) continue;
-        Light light = document.lights[node.light];
-        if (light.name.empty()) light.name = node.name;
-        const glm::dvec3 back(node.matrix[2]);
+        const Node& node = document.model.nodes[index];
+        const tinygltf::Value* carried = extension(node.extensions, "KHR_lights_punctual");
+        if (!carried) continue;
+        Light light = document.lights[index_in(*carried, "light")];
+        if (light.name.empty()) light.name = short_name(node.name);
+        const glm::dmat4& matrix = document.matrices[index];
+        const glm::dvec3 back(matrix[2]);
         const bool directed = light.kind != Light::Kind::point;
-        if (!is_near_enough(node.matrix) || (directed && !(glm::length(back) > 1e-30))) {
+        if (!is_near_enough(matrix) || (directed && !(glm::length(back) > 1e-30))) {
             document.warnings.add("a light whose node has no direction or place is left out");
             continue;
         }
-        light.position = glm::dvec3(node.matrix[3]);
+        light.position = glm::dvec3(matrix[3]);
         if (directed) light.direction = glm::vec3(-glm::normalize(back));
         scene.lights.push_back(std::move(light));
     }
@@ -59,16 +62,17 @@ void place_lights(Document& document, const std::vector<int>& nodes, Scene& scen
 
 void place_cameras(Document& document, const std::vector<int>& nodes, Scene& scene) {
     for (const int index : nodes) {
-        const Node& node = document.nodes[index];
+        const Node& node = document.model.nodes[index];
         if (node.camera < 0) continue;
-        const auto axes = axes_of(node.matrix);
-        if (!axes || !is_near_enough(node.matrix)) {
+        const glm::dmat4& matrix = document.matrices[index];
+        const auto axes = axes_of(matrix);
+        if (!axes || !is_near_enough(matrix)) {
             document.warnings.add("a camera whose node has no direction or place is left out");
             continue;
         }
         Camera camera = document.cameras[node.camera];
-        if (camera.name.empty()) camera.name = node.name;
-        camera.position = glm::dvec3(node.matrix[3]);
+        if (camera.name.empty()) camera.name = short_name(node.name);
+        camera.position = glm::dvec3(matrix[3]);
         camera.right = glm::vec3(axes->right);
         camera.up = glm::vec3(axes->up);
         camera.forward = glm::vec3(axes->forward);

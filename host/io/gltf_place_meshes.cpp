@@ -11,6 +11,7 @@
 #include "io/gltf_normals.hpp"
 #include "io/gltf_place.hpp"
 #include "io/gltf_pose.hpp"
+#include "io/gltf_text.hpp"
 #include "io/gltf_topology.hpp"
 
 namespace clgi::io::gltf {
@@ -34,7 +35,7 @@ public:
         std::map<int, std::size_t> in_mesh;
         std::size_t total = 0;
         for (const int index : nodes) {
-            const Node& node = document_.nodes[index];
+            const Node& node = document_.model.nodes[index];
             if (node.mesh < 0) continue;
             const auto [counted, fresh] = in_mesh.try_emplace(node.mesh, 0);
             if (fresh) counted->second = count_mesh(node.mesh);
@@ -46,14 +47,15 @@ public:
                                  " triangles that are allowed");
             }
             total += copies * triangles;
-            if (node.instancing >= 0 && node.skin >= 0) {
+            if (is_instanced(node) && node.skin >= 0) {
                 document_.warnings.add("copies of a skinned mesh all stand in the same place");
             }
         }
     }
 
-    void place(const Node& node) {
-        const Mesh& mesh = document_.meshes[node.mesh];
+    void place(int index) {
+        const Node& node = document_.model.nodes[index];
+        const Mesh& mesh = document_.model.meshes[node.mesh];
         const std::size_t copies = instance_count(document_, node);
         for (const std::size_t p : drawn_[node.mesh]) {
             const Primitive& primitive = mesh.primitives[p];
@@ -62,7 +64,7 @@ public:
             if (found->second.triangles.empty()) continue;
             warn_of_missing_uv(primitive);
             for (std::size_t copy = 0; copy < copies; ++copy) {
-                place(node, primitive, found->second, instance_matrix(document_, node, copy));
+                place(node, primitive, found->second, instance_matrix(document_, index, copy));
             }
         }
     }
@@ -70,20 +72,20 @@ public:
 private:
     // Also notes which primitives have triangles: a mesh may have a million that have none.
     std::size_t count_mesh(int index) {
-        const Mesh& mesh = document_.meshes[index];
+        const Mesh& mesh = document_.model.meshes[index];
         std::size_t total = 0;
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
             const Primitive& primitive = mesh.primitives[p];
-            if (primitive.attributes.position < 0) {
+            if (attribute(primitive.attributes, "POSITION") < 0) {
                 document_.warnings.add("a primitive without positions is skipped");
-            } else if (primitive.mode < Mode::triangles) {
+            } else if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
                 document_.warnings.add("a primitive of points or lines is skipped");
             }
             const std::size_t triangles = triangle_count(document_, primitive);
             if (triangles == 0) continue;
             total += std::min(triangles, SIZE_MAX - total);
             drawn_[index].push_back(p);
-            colored_ = colored_ || primitive.attributes.color >= 0;
+            colored_ = colored_ || attribute(primitive.attributes, "COLOR_0") >= 0;
         }
         return total;
     }
@@ -114,8 +116,8 @@ private:
         if (topology.vertices.size() > UINT32_MAX - scene_.positions.size()) {
             throw InputError("has more than 2^32 vertices");
         }
-        const std::string& mesh_name = document_.meshes[node.mesh].name;
-        scene_.parts.push_back({node.name.empty() ? mesh_name : node.name,
+        const std::string& mesh_name = document_.model.meshes[node.mesh].name;
+        scene_.parts.push_back({short_name(node.name.empty() ? mesh_name : node.name),
                                 static_cast<std::uint32_t>(scene_.triangles.size()),
                                 static_cast<std::uint32_t>(topology.triangles.size())});
 
@@ -140,7 +142,8 @@ private:
         if (primitive.material < 0) return;
         const Material& material = scene_.materials[primitive.material];
         for (const TextureSlot& slot : {material.base_texture, material.emission_texture}) {
-            if (slot.texture >= 0 && primitive.attributes.uv[slot.uv_set] < 0) {
+            const char* uv = slot.uv_set == 0 ? "TEXCOORD_0" : "TEXCOORD_1";
+            if (slot.texture >= 0 && attribute(primitive.attributes, uv) < 0) {
                 document_.warnings.add("a textured primitive has no texture coordinates");
             }
         }
@@ -175,7 +178,7 @@ void place_meshes(Document& document, const std::vector<int>& nodes, const GltfO
     MeshPlacer placer(document, options.lightmaps, scene);
     placer.count(nodes, std::min<std::size_t>(options.max_triangles, UINT32_MAX / 3));
     for (const int node : nodes) {
-        if (document.nodes[node].mesh >= 0) placer.place(document.nodes[node]);
+        if (document.model.nodes[node].mesh >= 0) placer.place(node);
     }
 }
 

@@ -48,12 +48,16 @@ struct Placement {
 // The joints of one vertex with their weights, added up and made to sum to 1.
 class SkinReader {
 public:
-    SkinReader(const Document& document, const Attributes& attributes,
+    SkinReader(const Document& document, const Primitive& primitive,
                const std::vector<glm::dmat4>& joints)
         : joints_(joints) {
-        for (std::size_t set = 0; set < attributes.joints.size(); ++set) {
-            joint_sets_.emplace_back(document, attributes.joints[set]);
-            weight_sets_.emplace_back(document, attributes.weights[set]);
+        for (int set = 0;; ++set) {
+            const std::string number = std::to_string(set);
+            const int joint_set = attribute(primitive.attributes, "JOINTS_" + number);
+            if (joint_set < 0) return;
+            joint_sets_.emplace_back(document, joint_set);
+            weight_sets_.emplace_back(document,
+                                      attribute(primitive.attributes, "WEIGHTS_" + number));
         }
     }
 
@@ -88,12 +92,13 @@ const std::vector<glm::dmat4>& Poser::joint_matrices(int skin) {
     const auto known = joint_matrices_.find(skin);
     if (known != joint_matrices_.end()) return known->second;
 
-    const Skin& source = document_.skins[skin];
+    const Skin& source = document_.model.skins[skin];
     std::optional<AccessorReader> inverse_bind;
-    if (source.inverse_bind >= 0) inverse_bind.emplace(document_, source.inverse_bind);
+    if (source.inverseBindMatrices >= 0)
+        inverse_bind.emplace(document_, source.inverseBindMatrices);
     std::vector<glm::dmat4> matrices;
     for (std::size_t i = 0; i < source.joints.size(); ++i) {
-        const glm::dmat4& joint = document_.nodes[source.joints[i]].matrix;
+        const glm::dmat4& joint = document_.matrices[source.joints[i]];
         matrices.push_back(inverse_bind ? joint * inverse_bind->mat4(i) : joint);
     }
     return joint_matrices_[skin] = std::move(matrices);
@@ -102,7 +107,7 @@ const std::vector<glm::dmat4>& Poser::joint_matrices(int skin) {
 void Poser::morph(const Primitive& primitive, const Node& node,
                   const std::vector<std::uint32_t>& vertices, Pose& pose) {
     const std::vector<double>& weights =
-        node.weights.empty() ? document_.meshes[node.mesh].weights : node.weights;
+        node.weights.empty() ? document_.model.meshes[node.mesh].weights : node.weights;
     for (std::size_t t = 0; t < weights.size(); ++t) {
         if (weights[t] == 0.0) continue;
         differences_read_ += vertices.size();
@@ -115,19 +120,19 @@ void Poser::morph(const Primitive& primitive, const Node& node,
                 values[i] += weights[t] * difference.vec3(vertices[i]);
             }
         };
-        add(primitive.targets[t].position, pose.positions);
-        add(primitive.targets[t].normal, pose.normals);
+        add(attribute(primitive.targets[t], "POSITION"), pose.positions);
+        add(attribute(primitive.targets[t], "NORMAL"), pose.normals);
     }
 }
 
 Pose Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4& matrix,
                  const std::vector<std::uint32_t>& vertices) {
-    const Attributes& attributes = primitive.attributes;
     Pose pose;
-    const AccessorReader positions(document_, attributes.position);
+    const AccessorReader positions(document_, attribute(primitive.attributes, "POSITION"));
     for (const std::uint32_t vertex : vertices) pose.positions.push_back(positions.vec3(vertex));
-    if (attributes.normal >= 0) {
-        const AccessorReader normals(document_, attributes.normal);
+    const int normal = attribute(primitive.attributes, "NORMAL");
+    if (normal >= 0) {
+        const AccessorReader normals(document_, normal);
         for (const std::uint32_t vertex : vertices) pose.normals.push_back(normals.vec3(vertex));
     }
     morph(primitive, node, vertices, pose);
@@ -139,12 +144,12 @@ Pose Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4&
         pose.mirrored[i] = placement.mirrored;
     };
     const Placement rigid(matrix);
-    if (node.skin < 0 || attributes.joints.empty()) {
+    if (node.skin < 0 || attribute(primitive.attributes, "JOINTS_0") < 0) {
         for (std::size_t i = 0; i < vertices.size(); ++i) place(i, rigid);
         return pose;
     }
     // The skin alone places its vertices; the node's own matrix has no say.
-    const SkinReader skin(document_, attributes, joint_matrices(node.skin));
+    const SkinReader skin(document_, primitive, joint_matrices(node.skin));
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const auto blended = skin.blended(vertices[i]);
         if (!blended) document_.warnings.add("a skinned vertex without weights stays in place");

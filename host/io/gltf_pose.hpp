@@ -16,7 +16,7 @@ struct Pose {
     std::vector<std::uint8_t> mirrored;  // 1 where the transform turns triangles inside out
 };
 
-// Expects place_nodes to have passed: Node::matrix leads to the world.
+// Expects place_nodes to have passed.
 class Poser {
 public:
     explicit Poser(Document& document) : document_(document) {}

@@ -47,14 +47,12 @@ void renumber(Topology& topology, std::size_t vertex_count) {
 }  // namespace
 
 std::size_t triangle_count(const Document& document, const Primitive& primitive) {
-    const int source = primitive.indices >= 0 ? primitive.indices : primitive.attributes.position;
-    if (source < 0 || primitive.attributes.position < 0) return 0;
-    const std::size_t corners = document.accessors[source].count;
-    if (primitive.mode == Mode::triangles) return corners / 3;
-    if (primitive.mode == Mode::strip || primitive.mode == Mode::fan) {
-        return std::max<std::size_t>(corners, 2) - 2;
-    }
-    return 0;
+    const int position = attribute(primitive.attributes, "POSITION");
+    if (position < 0 || primitive.mode < TINYGLTF_MODE_TRIANGLES) return 0;
+    const int source = primitive.indices >= 0 ? primitive.indices : position;
+    const std::size_t corners = document.model.accessors[source].count;
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) return corners / 3;
+    return std::max<std::size_t>(corners, 2) - 2;  // of a strip or a fan
 }
 
 Topology triangles_of(const Document& document, const Primitive& primitive) {
@@ -69,9 +67,9 @@ Topology triangles_of(const Document& document, const Primitive& primitive) {
     topology.triangles.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         std::array<std::uint32_t, 3> triangle;
-        if (primitive.mode == Mode::triangles) {
+        if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
             triangle = {corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)};
-        } else if (primitive.mode == Mode::strip) {
+        } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
             triangle = {corner(i), corner(i + 1 + i % 2), corner(i + 2 - i % 2)};
         } else {
             triangle = {corner(i + 1), corner(i + 2), corner(0)};
@@ -79,7 +77,8 @@ Topology triangles_of(const Document& document, const Primitive& primitive) {
         const auto [a, b, c] = triangle;
         if (a != b && b != c && c != a) topology.triangles.push_back(triangle);
     }
-    renumber(topology, document.accessors[primitive.attributes.position].count);
+    const int position = attribute(primitive.attributes, "POSITION");
+    renumber(topology, document.model.accessors[position].count);
     return topology;
 }
 

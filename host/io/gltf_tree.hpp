@@ -7,7 +7,7 @@
 
 namespace clgi::io::gltf {
 
-// Sets parents and turns every node's matrix into its world matrix. Throws InputError for a node
+// Sets the nodes' parents and matrices. Throws InputError for a node
 // with two parents, for a cycle, and for a transform that overflows.
 void place_nodes(Document& document);
 

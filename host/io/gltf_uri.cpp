@@ -2,12 +2,11 @@
 #include "io/gltf_uri.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <clgi/error.hpp>
 #include <system_error>
 
-#include "io/gltf_json.hpp"
+#include "io/gltf_text.hpp"
 
 namespace clgi::io::gltf {
 
@@ -15,42 +14,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int not_base64 = -1;
-
-constexpr std::array<std::int8_t, 256> base64_values() {
-    std::array<std::int8_t, 256> values{};
-    for (auto& value : values) value = not_base64;
-    for (int i = 0; i < 26; ++i) {
-        values['A' + i] = static_cast<std::int8_t>(i);
-        values['a' + i] = static_cast<std::int8_t>(26 + i);
-    }
-    for (int i = 0; i < 10; ++i) values['0' + i] = static_cast<std::int8_t>(52 + i);
-    values['+'] = 62;
-    values['/'] = 63;
-    return values;
-}
-
-std::vector<std::uint8_t> decode_base64(std::string_view text) {
-    static constexpr std::array<std::int8_t, 256> values = base64_values();
-    for (int padding = 0; padding < 2 && !text.empty() && text.back() == '='; ++padding) {
-        text.remove_suffix(1);
-    }
-    if (text.size() % 4 == 1) throw InputError("a data uri that ends inside a byte");
-
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(text.size() / 4 * 3 + 2);
-    std::uint32_t bits = 0;
-    int held = 0;
-    for (const char c : text) {
-        const int value = values[static_cast<unsigned char>(c)];
-        if (value == not_base64) throw InputError("a data uri with a character outside base64");
-        bits = bits << 6 | static_cast<std::uint32_t>(value);
-        held += 6;
-        if (held < 8) continue;
-        held -= 8;
-        bytes.push_back(static_cast<std::uint8_t>(bits >> held));
-    }
-    return bytes;
+bool is_base64(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '+' ||
+           c == '/';
 }
 
 int hex_digit(char c) {
@@ -97,7 +63,7 @@ std::string_view data_uri_type(std::string_view uri) {
     return uri.substr(5, uri.find_first_of(";,") - 5);
 }
 
-std::vector<std::uint8_t> decode_data_uri(std::string_view uri) {
+std::string_view data_uri_base64(std::string_view uri) {
     const std::size_t comma = uri.find(',');
     constexpr std::string_view marker = ";base64";
     if (comma == std::string_view::npos || comma < marker.size() ||
@@ -107,7 +73,13 @@ std::vector<std::uint8_t> decode_data_uri(std::string_view uri) {
     if (uri.substr(0, comma).find(";;") != std::string_view::npos) {
         throw InputError("a data uri with an empty parameter");
     }
-    return decode_base64(uri.substr(comma + 1));
+    std::string_view text = uri.substr(comma + 1);
+    for (int padding = 0; padding < 2 && text.ends_with('='); ++padding) text.remove_suffix(1);
+    if (text.size() % 4 == 1) throw InputError("a data uri that ends inside a byte");
+    if (!std::all_of(text.begin(), text.end(), is_base64)) {
+        throw InputError("a data uri with a character outside base64");
+    }
+    return text;
 }
 
 fs::path resolve_uri(const fs::path& folder, const std::string& uri) {

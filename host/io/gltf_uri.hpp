@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace clgi::io::gltf {
 
@@ -15,8 +13,9 @@ bool is_data_uri(std::string_view uri);
 // The media type of a data uri, "" when it names none.
 std::string_view data_uri_type(std::string_view uri);
 
-// The bytes of "data:<type>;base64,<text>". Throws InputError.
-std::vector<std::uint8_t> decode_data_uri(std::string_view uri);
+// The text of "data:<type>;base64,<text>" without its padding. Throws InputError for a uri of
+// another form and for text that is not base64.
+std::string_view data_uri_base64(std::string_view uri);
 
 // The existing file that a relative uri names. Throws InputError for any other scheme, for a file
 // that does not exist, and for one that is, links followed, outside the folder.

@@ -1,4 +1,4 @@
-// save_glb: the parts of a scene, then the container, then the file.
+// save_glb: the parts of a scene, then the file.
 // SPDX-License-Identifier: MIT
 #include "io/gltf_write.hpp"
 
@@ -6,6 +6,9 @@
 #include <clgi/error.hpp>
 #include <clgi/io/gltf.hpp>
 #include <cstring>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <streambuf>
 
 #include "io/atomic_file.hpp"
 
@@ -13,89 +16,93 @@ namespace clgi::io {
 
 namespace gltf {
 
-int GlbDraft::add(const char* array, nlohmann::json entry) {
-    nlohmann::json& entries = json[array];
-    entries.push_back(std::move(entry));
-    return static_cast<int>(entries.size()) - 1;
-}
-
 int GlbDraft::add_view(const void* data, std::size_t bytes, int target, std::size_t stride) {
-    const std::size_t offset = binary.size();
-    binary.resize(offset + (bytes + 3) / 4 * 4);
-    std::memcpy(binary.data() + offset, data, bytes);
-    nlohmann::json view = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}};
-    if (target != 0) view["target"] = target;
-    if (stride != 0) view["byteStride"] = stride;
-    return add("bufferViews", std::move(view));
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = binary.size();
+    view.byteLength = bytes;
+    view.byteStride = stride;
+    view.target = target;
+    binary.resize(view.byteOffset + (bytes + 3) / 4 * 4);
+    std::memcpy(binary.data() + view.byteOffset, data, bytes);
+    return add(model.bufferViews, std::move(view));
 }
 
 void GlbDraft::declare_extension(const char* name) {
-    nlohmann::json& used = json["extensionsUsed"];
+    std::vector<std::string>& used = model.extensionsUsed;
     if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
+std::string utf8(const std::string& name) {
+    using nlohmann::json;
+    return json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace gltf
 
 namespace {
 
-void append_word(std::string& bytes, std::size_t value) {
-    for (int shift = 0; shift < 32; shift += 8) {
-        bytes.push_back(static_cast<char>(value >> shift & 0xFF));
-    }
-}
-
 gltf::GlbDraft draft_of(const Scene& scene) {
     gltf::GlbDraft draft;
-    draft.json["asset"] = {{"version", "2.0"}, {"generator", "clgi"}};
-    std::vector<int> roots;
+    draft.model.asset.generator = "clgi";
     gltf::write_materials(scene, draft);
-    gltf::write_meshes(scene, draft, roots);
-    gltf::write_lights(scene, draft, roots);
-    gltf::write_cameras(scene, draft, roots);
+    gltf::write_meshes(scene, draft);
+    gltf::write_lights(scene, draft);
+    gltf::write_cameras(scene, draft);
 
-    nlohmann::json listed = {{"name", scene.name}};
-    if (!roots.empty()) listed["nodes"] = roots;
-    draft.json["scene"] = draft.add("scenes", std::move(listed));
-    if (!draft.binary.empty()) draft.add("buffers", {{"byteLength", draft.binary.size()}});
+    if (!draft.roots.empty()) {  // tinygltf writes null for a scene of nothing
+        tinygltf::Scene listed;
+        listed.name = gltf::utf8(scene.name);
+        listed.nodes = draft.roots;
+        draft.model.defaultScene = gltf::add(draft.model.scenes, std::move(listed));
+    }
+    if (!draft.binary.empty()) {
+        draft.model.buffers.emplace_back();
+        draft.model.buffers[0].data = std::move(draft.binary);
+    }
     return draft;
 }
 
-// Everything before the binary chunk's contents.
-std::string head_of_glb(const gltf::GlbDraft& draft) {
-    // Names may come from anywhere; what is not UTF-8 in them is replaced.
-    std::string json = draft.json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    const std::size_t binary = draft.binary.size();
-    const std::size_t total = 12 + 8 + json.size() + (binary > 0 ? 8 + binary : 0);
-    if (total > UINT32_MAX) throw InputError("the scene is larger than the 4 GiB of a GLB");
+// Counts, since tinygltf cuts the length of a file to 32 bits.
+class FileStream : public std::streambuf {
+public:
+    explicit FileStream(AtomicFile& file) : file_(file) {}
 
-    std::string head = "glTF";
-    append_word(head, 2);
-    append_word(head, total);
-    append_word(head, json.size());
-    head += "JSON" + json;
-    if (binary > 0) {
-        append_word(head, binary);
-        head += std::string("BIN\0", 4);
+    bool is_too_long() const { return written_ > UINT32_MAX; }
+
+private:
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+        written_ += static_cast<std::uint64_t>(count);
+        if (!is_too_long()) file_.write(bytes, static_cast<std::size_t>(count));
+        return count;
     }
-    return head;
-}
+    int overflow(int byte) override {
+        const char one = static_cast<char>(byte);
+        return xsputn(&one, 1) == 1 ? byte : traits_type::eof();
+    }
+
+    AtomicFile& file_;
+    std::uint64_t written_ = 0;
+};
 
 }  // namespace
 
 void save_glb(const Scene& scene, const std::filesystem::path& path) {
     gltf::GlbDraft draft;
-    std::string head;
     try {
         validate(scene);
         draft = draft_of(scene);
-        head = head_of_glb(draft);
     } catch (const InputError& error) {
         throw InputError(path.string() + ": " + error.what());
     }
     AtomicFile file(path);
-    file.write(head.data(), head.size());
-    file.write(draft.binary.data(), draft.binary.size());
+    FileStream buffer(file);
+    std::ostream stream(&buffer);
+    stream.exceptions(std::ios::badbit);  // what AtomicFile throws passes through
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&draft.model, stream, false, true);
+    if (buffer.is_too_long()) {
+        throw InputError(path.string() + ": the scene is larger than the 4 GiB of a GLB");
+    }
     file.commit();
 }
 

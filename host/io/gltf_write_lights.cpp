@@ -10,9 +10,11 @@ namespace clgi::io::gltf {
 
 namespace {
 
-nlohmann::json node_at(const glm::dvec3& position, const glm::dquat& rotation) {
-    return {{"translation", {position.x, position.y, position.z}},
-            {"rotation", {rotation.x, rotation.y, rotation.z, rotation.w}}};
+tinygltf::Node node_at(const glm::dvec3& position, const glm::dquat& rotation) {
+    tinygltf::Node node;
+    node.translation = {position.x, position.y, position.z};
+    node.rotation = {rotation.x, rotation.y, rotation.z, rotation.w};
+    return node;
 }
 
 // A rotation that takes -Z to a direction.
@@ -24,72 +26,68 @@ glm::dquat turn_to(const glm::dvec3& direction) {
     return glm::quat_cast(glm::dmat3(right, glm::cross(right, forward), -forward));
 }
 
-nlohmann::json light_json(const Light& light) {
+tinygltf::Light light_of(const Light& light) {
     const glm::dvec3 intensity(light.intensity);
     const double brightest = std::max({intensity.r, intensity.g, intensity.b});
     const glm::dvec3 color = brightest > 0.0 ? intensity / brightest : glm::dvec3(1.0);
-    nlohmann::json json = {{"color", {color.r, color.g, color.b}}, {"intensity", brightest}};
-    if (!light.name.empty()) json["name"] = light.name;
-    if (light.range > 0.0f && light.kind != Light::Kind::directional) json["range"] = light.range;
-    switch (light.kind) {
-        case Light::Kind::directional:
-            json["type"] = "directional";
-            break;
-        case Light::Kind::point:
-            json["type"] = "point";
-            break;
-        case Light::Kind::spot:
-            json["type"] = "spot";
-            json["spot"] = {{"innerConeAngle", light.inner_angle},
-                            {"outerConeAngle", light.outer_angle}};
-            break;
+    tinygltf::Light written;
+    written.name = utf8(light.name);
+    written.color = {color.r, color.g, color.b};
+    written.intensity = brightest;
+    if (light.kind == Light::Kind::directional) {
+        written.type = "directional";
+        return written;
     }
-    return json;
+    written.type = light.kind == Light::Kind::spot ? "spot" : "point";
+    written.range = light.range;
+    written.spot.innerConeAngle = light.inner_angle;
+    written.spot.outerConeAngle = light.outer_angle;
+    return written;
 }
 
-nlohmann::json camera_json(const Camera& camera, double scene_size) {
-    nlohmann::json json;
-    if (!camera.name.empty()) json["name"] = camera.name;
+tinygltf::Camera camera_of(const Camera& camera, double scene_size) {
+    tinygltf::Camera written;
+    written.name = utf8(camera.name);
+    // tinygltf writes a far distance in any case. Nobody reads this one.
+    const double far = 2.0 * camera.near + 10.0 * scene_size;
     if (camera.kind == Camera::Kind::perspective) {
+        written.type = "perspective";
+        written.perspective.yfov = camera.vertical_fov;
         // glTF wants a near distance above 0; 0 here means that it is for the reader to choose.
-        const double near = camera.near > 0.0f ? camera.near : 1e-3 * scene_size;
-        json["type"] = "perspective";
-        json["perspective"] = {{"yfov", camera.vertical_fov}, {"znear", near}};
-        return json;
+        written.perspective.znear = camera.near > 0.0f ? camera.near : 1e-3 * scene_size;
+        written.perspective.zfar = far;
+        return written;
     }
-    json["type"] = "orthographic";
-    json["orthographic"] = {{"xmag", camera.half_height},
-                            {"ymag", camera.half_height},
-                            {"znear", camera.near},
-                            {"zfar", 2.0 * camera.near + 10.0 * scene_size}};
-    return json;
+    written.type = "orthographic";
+    written.orthographic.xmag = camera.half_height;
+    written.orthographic.ymag = camera.half_height;
+    written.orthographic.znear = camera.near;
+    written.orthographic.zfar = far;
+    return written;
 }
 
 }  // namespace
 
-void write_lights(const Scene& scene, GlbDraft& draft, std::vector<int>& roots) {
-    if (scene.lights.empty()) return;
-    draft.declare_extension("KHR_lights_punctual");
-    nlohmann::json lights = nlohmann::json::array();
+void write_lights(const Scene& scene, GlbDraft& draft) {
     for (const Light& light : scene.lights) {
         const bool directed = light.kind != Light::Kind::point;
-        nlohmann::json node =
+        tinygltf::Node node =
             node_at(light.position, directed ? turn_to(light.direction) : glm::dquat(1, 0, 0, 0));
-        node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
-        lights.push_back(light_json(light));
-        roots.push_back(draft.add("nodes", std::move(node)));
+        const int index = add(draft.model.lights, light_of(light));
+        node.extensions["KHR_lights_punctual"] =
+            tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(index)}});
+        draft.roots.push_back(add(draft.model.nodes, std::move(node)));
     }
-    draft.json["extensions"]["KHR_lights_punctual"]["lights"] = std::move(lights);
 }
 
-void write_cameras(const Scene& scene, GlbDraft& draft, std::vector<int>& roots) {
+void write_cameras(const Scene& scene, GlbDraft& draft) {
     const Bounds box = bounds(scene);
     const double size = glm::length(box.high - box.low);
     for (const Camera& camera : scene.cameras) {
         const glm::dmat3 axes(camera.right, camera.up, -camera.forward);
-        nlohmann::json node = node_at(camera.position, glm::normalize(glm::quat_cast(axes)));
-        node["camera"] = draft.add("cameras", camera_json(camera, size > 0.0 ? size : 1.0));
-        roots.push_back(draft.add("nodes", std::move(node)));
+        tinygltf::Node node = node_at(camera.position, glm::normalize(glm::quat_cast(axes)));
+        node.camera = add(draft.model.cameras, camera_of(camera, size > 0.0 ? size : 1.0));
+        draft.roots.push_back(add(draft.model.nodes, std::move(node)));
     }
 }
 

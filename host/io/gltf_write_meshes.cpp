@@ -1,7 +1,6 @@
 // Geometry of a GLB: a node at the centre of the scene, below it a mesh for every part.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "io/gltf_write.hpp"
@@ -9,11 +8,6 @@
 namespace clgi::io::gltf {
 
 namespace {
-
-constexpr int array_buffer = 34962;
-constexpr int element_array_buffer = 34963;
-constexpr int uint32_type = 5125;
-constexpr int float_type = 5126;
 
 // More meshes than this make a file that readers choke on; the parts are then given up.
 constexpr std::size_t most_parts = 100'000;
@@ -49,31 +43,29 @@ std::vector<Range> ranges_of(const Scene& scene) {
     return ranges;
 }
 
-// All vertices and indices of the file, attribute by attribute.
-struct Arrays {
-    std::vector<std::array<float, 3>> positions;
-    std::vector<std::array<float, 3>> normals;
-    std::vector<std::array<float, 2>> uvs[2];
-    std::vector<std::array<float, 4>> colors;
-    std::vector<std::uint32_t> indices;
-};
+// Each array gets a view of its own: tinygltf writes the offsets of accessors with 32 bits.
+template <typename T>
+int add_array(GlbDraft& draft, const std::vector<T>& values, int type, int component, int target) {
+    const bool vertices = target == TINYGLTF_TARGET_ARRAY_BUFFER;
+    tinygltf::Accessor accessor;
+    accessor.bufferView =
+        draft.add_view(values.data(), values.size() * sizeof(T), target, vertices ? sizeof(T) : 0);
+    accessor.count = values.size();
+    accessor.type = type;
+    accessor.componentType = component;
+    return add(draft.model.accessors, std::move(accessor));
+}
 
-// Views are added at the end; until then accessors name them by what they will hold.
-enum ViewSlot { positions_view, normals_view, uv0_view, uv1_view, colors_view, indices_view };
-
-int add_accessor(GlbDraft& draft, ViewSlot slot, std::size_t offset, std::size_t count,
-                 const char* type, int component) {
-    return draft.add("accessors", {{"bufferView", static_cast<int>(slot)},
-                                   {"byteOffset", offset},
-                                   {"count", count},
-                                   {"componentType", component},
-                                   {"type", type}});
+template <typename T>
+int add_vertices(GlbDraft& draft, const std::vector<T>& values) {
+    // tinygltf's types: VEC2 is 2, VEC3 is 3, VEC4 is 4.
+    return add_array(draft, values, T::length(), TINYGLTF_COMPONENT_TYPE_FLOAT,
+                     TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
 // The triangles of one material as a primitive with vertices of its own.
-nlohmann::json write_primitive(const Scene& scene, const glm::dvec3& centre,
-                               const std::vector<std::size_t>& triangles, Arrays& arrays,
-                               GlbDraft& draft) {
+tinygltf::Primitive write_primitive(const Scene& scene, const glm::dvec3& centre,
+                                    const std::vector<std::size_t>& triangles, GlbDraft& draft) {
     std::vector<std::uint32_t> vertices;
     for (const std::size_t t : triangles) {
         const auto& corner = scene.triangles[t].vertex;
@@ -82,102 +74,75 @@ nlohmann::json write_primitive(const Scene& scene, const glm::dvec3& centre,
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 
-    const std::size_t first = arrays.positions.size();
-    std::array<float, 3> low{};
-    std::array<float, 3> high{};
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const std::uint32_t v = vertices[i];
-        const glm::vec3 p(scene.positions[v] - centre);
-        const glm::vec3 n = glm::normalize(scene.normals[v]);
-        arrays.positions.push_back({p.x, p.y, p.z});
-        arrays.normals.push_back({n.x, n.y, n.z});
-        for (int c = 0; c < 3; ++c) {
-            low[c] = i == 0 ? p[c] : std::min(low[c], p[c]);
-            high[c] = i == 0 ? p[c] : std::max(high[c], p[c]);
-        }
-        if (!scene.uvs.empty()) {
-            const glm::vec4& uv = scene.uvs[v];
-            arrays.uvs[0].push_back({uv.x, uv.y});
-            arrays.uvs[1].push_back({uv.z, uv.w});
-        }
-        if (!scene.colors.empty()) {
-            const glm::vec4& color = scene.colors[v];
-            arrays.colors.push_back({color.r, color.g, color.b, color.a});
-        }
-    }
-    const std::size_t first_index = arrays.indices.size();
+    std::vector<std::uint32_t> indices;
     for (const std::size_t t : triangles) {
         for (const std::uint32_t v : scene.triangles[t].vertex) {
             const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
-            arrays.indices.push_back(static_cast<std::uint32_t>(found - vertices.begin()));
+            indices.push_back(static_cast<std::uint32_t>(found - vertices.begin()));
         }
     }
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> uvs[2];
+    std::vector<glm::vec4> colors;
+    for (const std::uint32_t v : vertices) {
+        positions.emplace_back(scene.positions[v] - centre);
+        normals.push_back(glm::normalize(scene.normals[v]));
+        if (!scene.uvs.empty()) {
+            uvs[0].emplace_back(scene.uvs[v].x, scene.uvs[v].y);
+            uvs[1].emplace_back(scene.uvs[v].z, scene.uvs[v].w);
+        }
+        if (!scene.colors.empty()) colors.push_back(scene.colors[v]);
+    }
+    glm::vec3 low = positions[0];
+    glm::vec3 high = positions[0];
+    for (const glm::vec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
 
-    const std::size_t count = vertices.size();
-    const auto attribute = [&](ViewSlot slot, const char* type, std::size_t floats) {
-        return add_accessor(draft, slot, first * floats * 4, count, type, float_type);
-    };
-    nlohmann::json attributes;
-    attributes["POSITION"] = attribute(positions_view, "VEC3", 3);
-    draft.json["accessors"].back()["min"] = low;
-    draft.json["accessors"].back()["max"] = high;
-    attributes["NORMAL"] = attribute(normals_view, "VEC3", 3);
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = static_cast<int>(scene.triangles[triangles[0]].material);
+    primitive.attributes["POSITION"] = add_vertices(draft, positions);
+    draft.model.accessors.back().minValues = {low.x, low.y, low.z};
+    draft.model.accessors.back().maxValues = {high.x, high.y, high.z};
+    primitive.attributes["NORMAL"] = add_vertices(draft, normals);
     if (!scene.uvs.empty()) {
-        attributes["TEXCOORD_0"] = attribute(uv0_view, "VEC2", 2);
-        attributes["TEXCOORD_1"] = attribute(uv1_view, "VEC2", 2);
+        primitive.attributes["TEXCOORD_0"] = add_vertices(draft, uvs[0]);
+        primitive.attributes["TEXCOORD_1"] = add_vertices(draft, uvs[1]);
     }
-    if (!scene.colors.empty()) attributes["COLOR_0"] = attribute(colors_view, "VEC4", 4);
-    return {{"attributes", attributes},
-            {"material", scene.triangles[triangles[0]].material},
-            {"indices", add_accessor(draft, indices_view, first_index * 4, triangles.size() * 3,
-                                     "SCALAR", uint32_type)}};
-}
-
-// Appends the arrays and points the accessors at them.
-void add_views(const Arrays& arrays, GlbDraft& draft) {
-    int views[6] = {};
-    const auto add = [&](ViewSlot slot, const auto& array, int target) {
-        if (array.empty()) return;
-        const std::size_t bytes = sizeof(array[0]);
-        views[slot] = draft.add_view(array.data(), array.size() * bytes, target,
-                                     target == array_buffer ? bytes : 0);
-    };
-    add(positions_view, arrays.positions, array_buffer);
-    add(normals_view, arrays.normals, array_buffer);
-    add(uv0_view, arrays.uvs[0], array_buffer);
-    add(uv1_view, arrays.uvs[1], array_buffer);
-    add(colors_view, arrays.colors, array_buffer);
-    add(indices_view, arrays.indices, element_array_buffer);
-    for (nlohmann::json& accessor : draft.json["accessors"]) {
-        accessor["bufferView"] = views[accessor["bufferView"].get<int>()];
-    }
+    if (!scene.colors.empty()) primitive.attributes["COLOR_0"] = add_vertices(draft, colors);
+    primitive.indices =
+        add_array(draft, indices, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                  TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    return primitive;
 }
 
 }  // namespace
 
-void write_meshes(const Scene& scene, GlbDraft& draft, std::vector<int>& roots) {
+void write_meshes(const Scene& scene, GlbDraft& draft) {
     if (scene.triangles.empty()) return;
     const Bounds box = bounds(scene);
     const glm::dvec3 centre = (box.low + box.high) * 0.5;
 
-    Arrays arrays;
-    std::vector<int> children;
+    tinygltf::Node root;
+    root.translation = {centre.x, centre.y, centre.z};
     for (const Range& range : ranges_of(scene)) {
         std::map<std::uint32_t, std::vector<std::size_t>> by_material;
         for (std::size_t t = range.begin; t < range.end; ++t) {
             by_material[scene.triangles[t].material].push_back(t);
         }
-        nlohmann::json primitives = nlohmann::json::array();
+        tinygltf::Mesh mesh;
         for (const auto& [material, triangles] : by_material) {
-            primitives.push_back(write_primitive(scene, centre, triangles, arrays, draft));
+            mesh.primitives.push_back(write_primitive(scene, centre, triangles, draft));
         }
-        nlohmann::json node = {{"mesh", draft.add("meshes", {{"primitives", primitives}})}};
-        if (!range.name.empty()) node["name"] = range.name;
-        children.push_back(draft.add("nodes", std::move(node)));
+        tinygltf::Node node;
+        node.name = utf8(range.name);
+        node.mesh = add(draft.model.meshes, std::move(mesh));
+        root.children.push_back(add(draft.model.nodes, std::move(node)));
     }
-    add_views(arrays, draft);
-    roots.push_back(draft.add(
-        "nodes", {{"translation", {centre.x, centre.y, centre.z}}, {"children", children}}));
+    draft.roots.push_back(add(draft.model.nodes, std::move(root)));
 }
 
 }  // namespace clgi::io::gltf

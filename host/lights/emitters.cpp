@@ -11,13 +11,13 @@
 #include <string>
 
 #include "lights/replicate.hpp"
+#include "opencl/check.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
 namespace {
 
 constexpr float widest_single_view = 1.0472f;              // 60 degrees
-constexpr double most_candidates = 4194304.0;              // 2^22: a millisecond or two
 constexpr std::size_t most_pixels = std::size_t{1} << 30;  // kernels count view pixels in ints
 constexpr double pi = glm::pi<double>();
 
@@ -98,7 +98,10 @@ Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterO
     // sin^2 of half the angle keeps what 1 - cos loses for narrow cones.
     out.acceptance = std::pow(std::sin(0.5 * outer), 2);
     e.measure = static_cast<float>(4.0 * pi * out.acceptance);
-    out.power = luminance(intensity) * e.measure;
+    // Between inner and outer angle the intensity falls as the square of a linear function of the
+    // cosine, whose mean is a third.
+    const double full = std::pow(std::sin(0.5 * inner), 2);
+    out.power = luminance(intensity) * 4.0 * pi * (full + (out.acceptance - full) / 3.0);
     if (spot && outer <= widest_single_view) {
         const float extent = static_cast<float>(std::tan(outer));
         out.views = {window(eye, right, glm::cross(right, axis), axis, extent, extent, near,
@@ -237,20 +240,14 @@ std::uint32_t candidate_count(const Source& source, std::uint32_t share) {
     return (static_cast<std::uint32_t>(tried) + 31) / 32 * 32;
 }
 
-void check(const char* what, int value, int low, int high) {
-    if (value < low || value > high)
-        throw Error(std::string("emitters: ") + what + " is " + std::to_string(value) + ", " +
-                    std::to_string(low) + " to " + std::to_string(high) + " needed");
-}
-
 }  // namespace
 
 EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options) {
-    check("lights", options.lights, 0, 1 << 20);
-    check("shadow_size", options.shadow_size, 1, 8192);
-    check("face_size", options.face_size, 1, 4096);
-    check("area_samples", options.area_samples, 0, 4096);
-    check("environment_lights", options.environment_lights, 0, 4096);
+    need_range("emitters", "vpls", options.vpls, 0, 1 << 20);
+    need_range("emitters", "shadow_size", options.shadow_size, 1, 8192);
+    need_range("emitters", "face_size", options.face_size, 1, 4096);
+    need_range("emitters", "area_samples", options.area_samples, 0, 4096);
+    need_range("emitters", "environment_lights", options.environment_lights, 0, 4096);
 
     std::vector<Source> sources;
     if (scene.info().triangle_count > 0) {
@@ -261,11 +258,20 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         for (const auto& more : {area_samples(scene, options), environment_lights(scene, options)})
             sources.insert(sources.end(), more.begin(), more.end());
     }
-    std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
-
     EmitterSet out;
+    for (const Source& source : sources) {
+        ++out.room.emitters;
+        out.room.views += source.views.size();
+        for (const View& view : source.views)
+            out.room.pixels += static_cast<std::size_t>(view.width) * view.height;
+    }
+    if (out.room.pixels > most_pixels)
+        throw Error(
+            "emitters: the sources' views have more than 2^30 pixels; fewer "
+            "area_samples or environment_lights, or smaller shadow_size and face_size needed");
+    std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
     if (sources.empty()) return out;
-    const std::vector<std::uint32_t> shares = divide(sources, options.lights);
+    const std::vector<std::uint32_t> shares = divide(sources, options.vpls);
     const std::array<double, group_count> factor = taken_over(sources, shares);
     // All directions of the environment spread their lights over one disc together, and all samples
     // of the emissive surfaces theirs over what they light: points of one sequence, as each alone
@@ -287,11 +293,11 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         source.emitter.taken_over = static_cast<float>(factor[source.group]);
         source.emitter.first_view = static_cast<std::uint32_t>(out.views.size());
         source.emitter.view_count = static_cast<std::uint32_t>(source.views.size());
-        source.emitter.first_light = static_cast<std::uint32_t>(out.light_count);
-        source.emitter.light_count = shares[i];
+        source.emitter.first_vpl = static_cast<std::uint32_t>(out.vpl_count);
+        source.emitter.vpl_count = shares[i];
         for (int d = 0; d < 4; ++d)
             source.emitter.shift[d] = replicate_shift(options.replicate, ShiftUse::light, d);
-        out.light_count += shares[i];
+        out.vpl_count += shares[i];
         out.candidates.push_back(candidate_count(source, shares[i]));
         if (source.emitter.kind == EMITTER_SPOT && out.candidates.back() == 0)
             source.emitter.kind |= EMITTER_MAPPED;
@@ -301,10 +307,6 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
             out.pixels += static_cast<std::size_t>(view.width) * view.height;
             out.views.push_back(view);
         }
-        if (out.pixels > most_pixels)
-            throw Error(
-                "emitters: the sources' views have more than 2^30 pixels; fewer "
-                "area_samples or environment_lights, or smaller shadow_size and face_size needed");
     }
     return out;
 }

@@ -3,25 +3,31 @@
 #include <clgi/passes/lights.hpp>
 #include <clgi/planes.hpp>
 
+#include "lights/emitter_buffers.hpp"
 #include "opencl/launch.hpp"
+#include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 
 namespace clgi {
 
-LightPasses::LightPasses(const cl::Context& context, const cl::Device& device,
-                         const BuildOptions& options) {
+LightPasses::LightPasses(const Programs& programs, const BuildOptions& options)
+    : textures_(options.textures) {
     // A work-item is a light here, not a packet: one lane serves, and compiles in half the time.
     BuildOptions scalar = options;
     scalar.packet_width = 1;
-    auto kernels = build_room(context, device, "lights",
-                              {"accept_mask", "accept_list", "fetch", "negative"}, scalar);
-    accept_mask_ = kernels[0];
-    accept_list_ = kernels[1];
-    fetch_ = kernels[2];
-    negative_ = kernels[3];
-    textures_ = options.textures;
-    for (PassKernel* pass : {&accept_mask_, &fetch_, &negative_})
-        prefer_small_groups(*pass, device, options);
+    const auto kernel = [&](const char* pass) { return programs.kernel("lights", pass, scalar); };
+    const auto few = [&](const char* pass) {
+        return in_small_groups(kernel(pass), programs.device(), options);
+    };
+    accept_mask_ = few("accept_mask");
+    accept_list_ = kernel("accept_list");
+    fetch_ = few("fetch");
+    negative_ = few("negative");
+    direct_ = programs.kernel("lights", "direct", options);
+}
+
+void LightPasses::build(std::initializer_list<const char*> passes) const {
+    build_named({accept_mask_, accept_list_, fetch_, negative_, direct_}, passes);
 }
 
 cl::Event LightPasses::accept_mask(const cl::CommandQueue& queue, const AcceptParams& params,
@@ -41,25 +47,26 @@ cl::Event LightPasses::accept_list(const cl::CommandQueue& queue, const AcceptPa
     need(accept_list_, "emitters", emitters, (std::size_t{params.emitter} + 1) * sizeof(Emitter));
     need(accept_list_, "mask", mask, params.candidate_count / 8);
     need(accept_list_, "accepted", accepted,
-         std::max(params.light_count, 1u) * sizeof(std::uint32_t));
-    return launch(accept_list_, queue, accept_list_.local_size, wait, params, emitters, mask,
-                  accepted, cl::Local(accept_list_.local_size * sizeof(std::uint32_t)));
+         std::max(params.vpl_count, 1u) * sizeof(std::uint32_t));
+    const std::size_t items = group_size(accept_list_);
+    return launch(accept_list_, queue, items, wait, params, emitters, mask, accepted,
+                  cl::Local(items * sizeof(std::uint32_t)));
 }
 
 cl::Event LightPasses::fetch(const cl::CommandQueue& queue, const FetchParams& params,
-                             const DeviceScene& scene, const SourceBuffers& sources,
+                             const DeviceScene& scene, const EmitterBuffers& sources,
                              const cl::Buffer& accepted, const cl::Buffer& lights,
                              const WaitList& wait) const {
     if (scene.needs_textures() && !textures_)
         throw Error(
             "lights.fetch: the scene has textures or alpha masks, the kernels were built "
             "without (BuildOptions::textures)");
-    need(fetch_, "views", sources.views, sources.view_count * sizeof(View));
-    need(fetch_, "visibility", sources.visibility, sources.pixels * sizeof(std::uint64_t));
-    need(fetch_, "emitters", sources.emitters, params.emitter_count * sizeof(Emitter));
-    need(fetch_, "accepted", accepted, params.light_count * sizeof(std::uint32_t));
-    need(fetch_, "lights", lights, params.light_count * sizeof(IndirectLight));
-    return launch(fetch_, queue, params.light_count, wait, params, scene.info(), sources.emitters,
+    if (sources.kind != Pixels::visibility)
+        throw Error("lights.fetch: the shadow maps hold depth alone, visibility needed");
+    need_emitters(fetch_, sources, params.emitter_count);
+    need(fetch_, "accepted", accepted, params.vpl_count * sizeof(std::uint32_t));
+    need(fetch_, "lights", lights, params.vpl_count * sizeof(Vpl));
+    return launch(fetch_, queue, params.vpl_count, wait, params, scene.info(), sources.emitters,
                   sources.views, sources.visibility, accepted, scene, lights);
 }
 
@@ -84,9 +91,25 @@ cl::Event LightPasses::negative(const cl::CommandQueue& queue, const NegativePar
                     std::to_string(view.width * view.height) + " needed");
     need(negative_, "planes", planes,
          gbuffer_bytes(negative_.storage, params.stride, GBUFFER_GEOMETRIC + 3));
-    need(negative_, "lights", lights, params.light_count * sizeof(IndirectLight));
-    need(negative_, "negative", negative, params.negative_count * sizeof(IndirectLight));
+    need(negative_, "lights", lights, params.vpl_count * sizeof(Vpl));
+    need(negative_, "negative", negative, params.negative_count * sizeof(Vpl));
     return launch(negative_, queue, samples, wait, params, view, planes, lights, negative);
+}
+
+cl::Event LightPasses::direct(const cl::CommandQueue& queue, const DirectParams& params,
+                              const EmitterBuffers& sources, const cl::Buffer& planes,
+                              const cl::Buffer& irradiance, const cl::Buffer& non_finite,
+                              const WaitList& wait) const {
+    need_stride(direct_, "stride", params.stride, params.point_count);
+    need_depth_words(direct_, params.depth_words, sources.kind);
+    need_emitters(direct_, sources, params.emitter_count);
+    need(direct_, "planes", planes,
+         gbuffer_bytes(direct_.storage, params.stride, GBUFFER_GEOMETRIC + 3));
+    need(direct_, "irradiance", irradiance, irradiance_bytes(direct_.storage, params.stride));
+    need(direct_, "non_finite", non_finite, sizeof(std::uint32_t));
+    return launch(direct_, queue, packets(direct_, params.point_count), wait, params,
+                  sources.emitters, sources.views, sources.visibility, planes, irradiance,
+                  non_finite);
 }
 
 }  // namespace clgi

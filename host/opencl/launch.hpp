@@ -9,6 +9,7 @@
 #include <string>
 
 #include "opencl/error_text.hpp"
+#include "opencl/kernel_slot.hpp"
 
 namespace clgi {
 
@@ -23,33 +24,40 @@ void set_argument(cl::Kernel& kernel, cl_uint& index, const T& value) {
 
 // The largest group, up to the pass's size, that work-items of a part fill exactly: what lies
 // beside the part is not touched.
-inline std::size_t dividing_group(const PassKernel& pass, std::size_t items) {
+inline std::size_t dividing_group(std::size_t most, std::size_t items) {
     std::size_t size = 1;
-    while (2 * size <= pass.local_size && items % (2 * size) == 0) size *= 2;
+    while (2 * size <= most && items % (2 * size) == 0) size *= 2;
     return size;
 }
 
 // Enqueues work-items in groups of the pass's size, at least as many as a whole range has and
-// exactly those of a part; none at all for an empty range, where the event only stands for the
-// wait list.
+// exactly those of a part, once for each of `rows` (the second dimension); none at all for an empty
+// range, where the event only stands for the wait list.
 template <typename... Arguments>
-cl::Event launch(const PassKernel& pass, const cl::CommandQueue& queue, const Range& range,
-                 const WaitList& wait, const Arguments&... arguments) {
+cl::Event launch_rows(const PassKernel& pass, const cl::CommandQueue& queue, const Range& range,
+                      std::size_t rows, const WaitList& wait, const Arguments&... arguments) {
     const std::size_t items = range.count;
     cl::Event event;
     const WaitList* waits = wait.empty() ? nullptr : &wait;
     try {
-        if (items == 0) {
+        if (items == 0 || rows == 0) {
             queue.enqueueMarkerWithWaitList(waits, &event);
             return event;
         }
-        cl::Kernel kernel = pass.kernel;  // a second handle: arguments live in the kernel itself
-        cl_uint index = 0;
-        (set_argument(kernel, index, arguments), ...);
-        const std::size_t group = range.whole ? pass.local_size : dividing_group(pass, items);
-        const std::size_t groups = (items + group - 1) / group;
-        queue.enqueueNDRangeKernel(kernel, cl::NDRange(range.first), cl::NDRange(groups * group),
-                                   cl::NDRange(group), waits, &event);
+        const std::size_t most = group_size(pass);
+        const std::size_t group = range.whole ? most : dividing_group(most, items);
+        const std::size_t whole = (items + group - 1) / group * group;
+        pass.slot->with_kernel([&](cl::Kernel& kernel) {
+            cl_uint index = 0;
+            (set_argument(kernel, index, arguments), ...);
+            if (rows == 1)
+                queue.enqueueNDRangeKernel(kernel, cl::NDRange(range.first), cl::NDRange(whole),
+                                           cl::NDRange(group), waits, &event);
+            else
+                queue.enqueueNDRangeKernel(kernel, cl::NDRange(range.first, 0),
+                                           cl::NDRange(whole, rows), cl::NDRange(group, 1), waits,
+                                           &event);
+        });
     } catch (const cl::Error& error) {
         const std::string text =
             pass.name + ": " + error.what() + " failed: " + error_text(error.err());
@@ -57,6 +65,12 @@ cl::Event launch(const PassKernel& pass, const cl::CommandQueue& queue, const Ra
         throw DeviceError(text);
     }
     return event;
+}
+
+template <typename... Arguments>
+cl::Event launch(const PassKernel& pass, const cl::CommandQueue& queue, const Range& range,
+                 const WaitList& wait, const Arguments&... arguments) {
+    return launch_rows(pass, queue, range, 1, wait, arguments...);
 }
 
 // Throws unless a buffer holds at least `needed` bytes.

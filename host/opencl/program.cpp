@@ -6,9 +6,11 @@
 #include <clgi/error.hpp>
 #include <clgi/kernel_source.hpp>
 #include <future>
+#include <map>
+#include <mutex>
 
 #include "opencl/embedded.hpp"
-#include "opencl/error_text.hpp"
+#include "opencl/kernel_slot.hpp"
 
 namespace clgi {
 namespace {
@@ -20,47 +22,19 @@ int width_of(const cl::Device& device, const BuildOptions& options) {
     return width;
 }
 
-// oclgrind's compiler breaks when two threads call it, though OpenCL lets them.
+// oclgrind's compiler breaks when two threads call it, though OpenCL allows it.
 bool builds_from_threads(const cl::Device& device) {
     return cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>() !=
            "Oclgrind";
 }
 
-// What the compiler said; empty where there is no program or nobody to ask any more.
-std::string build_log(const cl::Program& program, const cl::Device& device) {
-    if (!program()) return "";
-    try {
-        return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
-    } catch (const cl::Error&) {
-        return "";
-    }
-}
+}  // namespace
 
-PassKernel build_pass(const cl::Context& context, const cl::Device& device, const std::string& room,
-                      const std::string& pass, const BuildOptions& options) {
-    const int width = width_of(device, options);
-    const std::string build = compiler_options(device, options);
-    const std::string source = kernel_source(room + "/" + pass);
-    cl::Program program;
-    PassKernel out;
-    try {
-        program = cl::Program(context, source);
-        program.build(device, build.c_str());
-        out.kernel = cl::Kernel(program, (room + "_" + pass).c_str());
-    } catch (const cl::Error& error) {
-        throw DeviceError("program: " + room + "/" + pass + ".cl does not build on " +
-                          describe(device) + ": " + error_text(error.err()) + "\n" +
-                          build_log(program, device));
-    }
-    out.name = room + "." + pass;
-    const std::size_t most = out.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device);
-    out.local_size = std::min(options.local_size > 0 ? options.local_size : 64, most);
-    out.packet_width = width;
-    out.storage = options.storage;
+std::vector<std::string> kernel_names() {
+    std::vector<std::string> out;
+    for (unsigned i = 0; i < embedded_kernel_count; ++i) out.push_back(embedded_kernels[i].name);
     return out;
 }
-
-}  // namespace
 
 const char* kernel_source(const std::string& name) {
     for (unsigned i = 0; i < embedded_kernel_count; ++i)
@@ -86,27 +60,71 @@ bool uses_atomics64(const cl::Device& device, const BuildOptions& options) {
                                     "cl_khr_int64_extended_atomics") != std::string::npos;
 }
 
-void prefer_small_groups(PassKernel& pass, const cl::Device& device, const BuildOptions& options) {
+PassKernel in_small_groups(PassKernel pass, const cl::Device& device, const BuildOptions& options) {
     constexpr std::size_t few = 4;
     if (options.local_size == 0 && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU))
-        pass.local_size = std::min(pass.local_size, few);
+        pass.local_size = few;
+    return pass;
 }
 
-std::vector<PassKernel> build_room(const cl::Context& context, const cl::Device& device,
-                                   const std::string& room,
-                                   std::initializer_list<const char*> passes,
-                                   const BuildOptions& options) {
-    const bool parallel = options.parallel && builds_from_threads(device);
-    const auto how = parallel ? std::launch::async : std::launch::deferred;
-    std::vector<std::future<PassKernel>> builds;
-    for (const char* pass : passes)
-        builds.push_back(std::async(how, [&, name = std::string(pass)] {
-            return build_pass(context, device, room, name, options);
-        }));
-    for (auto& build : builds) build.wait();  // context and device outlive every thread
-    std::vector<PassKernel> kernels;
-    for (auto& build : builds) kernels.push_back(build.get());
-    return kernels;
+struct Programs::Store {
+    std::mutex mutex;
+    std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file and options
+};
+
+Programs::Programs(const cl::Context& context, const cl::Device& device)
+    : context_(context), device_(device), store_(std::make_shared<Store>()) {}
+
+PassKernel Programs::kernel(const std::string& room, const std::string& pass,
+                            const BuildOptions& options, const std::string& defines) const {
+    const std::string file = room + "/" + pass;
+    kernel_source(file);  // throws when there is none
+    std::string text = compiler_options(device_, options);
+    if (!defines.empty()) text += " " + defines;
+    PassKernel out;
+    out.name = room + "." + pass;
+    out.local_size = options.local_size > 0 ? options.local_size : 64;
+    out.packet_width = width_of(device_, options);
+    out.storage = options.storage;
+    out.parallel = options.parallel && builds_from_threads(device_);
+    const std::lock_guard lock(store_->mutex);
+    std::shared_ptr<KernelSlot>& slot = store_->slots[file + " " + text];
+    if (!slot)
+        slot = std::make_shared<KernelSlot>(context_, device_, file, room + "_" + pass, text);
+    out.slot = slot;
+    return out;
+}
+
+std::size_t Programs::built() const {
+    const std::lock_guard lock(store_->mutex);
+    return static_cast<std::size_t>(
+        std::count_if(store_->slots.begin(), store_->slots.end(),
+                      [](const auto& entry) { return entry.second->built(); }));
+}
+
+void build(const std::vector<PassKernel>& kernels) {
+    std::vector<std::future<void>> builds;
+    for (const PassKernel& kernel : kernels) {
+        if (!kernel.slot || kernel.slot->built()) continue;
+        builds.push_back(std::async(kernel.parallel ? std::launch::async : std::launch::deferred,
+                                    [slot = kernel.slot] { slot->build(); }));
+    }
+    for (auto& build : builds) build.wait();
+    for (auto& build : builds) build.get();
+}
+
+void build_named(const std::vector<PassKernel>& kernels,
+                 std::initializer_list<const char*> passes) {
+    std::vector<PassKernel> wanted;
+    for (const char* pass : passes) {
+        const auto found = std::find_if(kernels.begin(), kernels.end(), [&](const PassKernel& k) {
+            return k.name.substr(k.name.find('.') + 1) == pass;
+        });
+        if (found == kernels.end())
+            throw Error(std::string("build: there is no pass ") + pass + " here");
+        wanted.push_back(*found);
+    }
+    build(wanted);
 }
 
 }  // namespace clgi

@@ -32,8 +32,8 @@ SecondOrderOptions options_of(const BenchSetup& setup, int positive, int negativ
     SecondOrderOptions options;
     options.width = setup.width;
     options.height = setup.height;
-    options.sources.lights = positive;
-    options.negative_lights = negative;
+    options.emitters.vpls = positive;
+    options.negative_vpls = negative;
     options.discontinuity_threshold = threshold;
     options.build = setup.build;
     return options;

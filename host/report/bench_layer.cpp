@@ -11,7 +11,8 @@ namespace clgi::report {
 namespace {
 
 constexpr std::uint32_t width = 640, height = 480, pixels = width * height, stride = pixels;
-constexpr std::uint32_t light_count = 64;
+constexpr std::uint32_t low_stride = width / 4 * height / 4;
+constexpr std::uint32_t vpl_count = 64;
 constexpr std::size_t group = 64;  // what passes take when nothing else is asked for
 
 using Work = std::function<void()>;
@@ -74,7 +75,6 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
     const Scene world = box();
     const DeviceScene scene(context, device, world);
     const View view = make_view(world.cameras[0], scene.frame(), width, height);
-    const std::uint32_t vertices = scene.info().vertex_count;
     const auto upload = [&](auto values) {
         return cl::Buffer(context, values.begin(), values.end(), false);
     };
@@ -83,29 +83,33 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
     };
     std::vector<float> planes(POINT_PLANES * std::size_t{stride});
     for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = float(i % 977) / 977.0f - 0.5f;
-    const IndirectLight light{{0.1f, 0.9f, 0.2f, 0.01f}, {0, -1, 0, 1e-4f}, {1, 1, 1, 1}};
+    const Vpl light{{0.1f, 0.9f, 0.2f, 0.01f}, {0, -1, 0, 1e-4f}, {1, 1, 1, 1}};
     const cl::Buffer points = upload(planes);
-    const cl::Buffer lights = upload(std::vector<IndirectLight>(light_count, light));
+    const cl::Buffer lights = upload(std::vector<Vpl>(vpl_count, light));
     const cl::Buffer count = upload(std::vector<cl_uint>{pixels});
     const cl::Buffer irradiance = room(IRRADIANCE_PLANES * sizeof(float) * stride);
     const cl::Buffer preview = room(pixels * sizeof(cl_uint));
-    const RasterBuffers raster{room(pixels * sizeof(cl_ulong)),
-                               room(vertices * sizeof(ScreenVertex)), room(16), room(16),
-                               room(16)};
-    const GatherParams gather{stride, light_count, 0, 0};
+    const cl::Buffer views = upload(std::vector<View>{view});
+    const ViewSpan span = span_of({view}, 0, 1);
+    const RasterBuffers raster{room(pixels * sizeof(cl_ulong)), {}, {}, {}, room(16)};
+    const cl::Buffer low = room(POINT_PLANES * sizeof(float) * low_stride);
+    const DownsampleParams down{width, height, stride, low_stride, 4, 0, 0, 0};
+    const RasterParams none{};
+    const GatherParams gather{stride, vpl_count, 0, 0};
     const TonemapParams tonemap{width, height, stride, 1.0f};
 
     const GBufferPasses gbuffer(context, device);
     const ImagePasses image(context, device);
-    const Hand clear(queue, "gbuffer", "clear"), transform(queue, "gbuffer", "transform");
+    const Hand clear(queue, "gbuffer", "clear"), downsample(queue, "gbuffer", "downsample");
     const Hand lit(queue, "image", "gather"), toned(queue, "image", "tonemap");
     const std::size_t packet = static_cast<std::size_t>(packet_width(device));
     std::vector<Way> ways = {
-        {"gbuffer.clear", [&] { clear(pixels / 8, view, raster.visibility, raster.run_count); },
-         [&] { gbuffer.clear(queue, view, raster); }},
-        {"gbuffer.transform",
-         [&] { transform(vertices, view, vertices, scene.positions(), raster.vertices); },
-         [&] { gbuffer.transform(queue, view, scene, raster); }},
+        {"gbuffer.clear",
+         [&] { clear(pixels / 16, none, views, raster.pixels, raster.counts); },
+         [&] { gbuffer.clear(queue, span, views, raster); }},
+        {"gbuffer.downsample",
+         [&] { downsample(width / 4 / packet * height / 4, down, points, low); },
+         [&] { gbuffer.downsample(queue, down, points, low); }},
         {"image.gather",
          [&] { lit(pixels / packet, gather, count, points, lights, lights, irradiance); },
          [&] { image.gather(queue, gather, pixels, count, points, lights, lights, irradiance); }},

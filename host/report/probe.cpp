@@ -102,10 +102,10 @@ SecondOrderOptions Probe::in_full(const SecondOrderOptions& size, int lights) co
 
 void Probe::converge() {
     SecondOrderOptions options = in_full(small_, converged_lights);
-    options.sources.area_samples = std::max(options.sources.area_samples, converged_area_samples);
+    options.emitters.area_samples = std::max(options.emitters.area_samples, converged_area_samples);
     std::vector<double> square;
     for (int k = 1; k <= converged_replicates; ++k) {
-        options.sources.replicate = static_cast<std::uint32_t>(k);
+        options.emitters.replicate = static_cast<std::uint32_t>(k);
         const std::vector<double> y = luminance(options);
         converged_.resize(y.size());
         square.resize(y.size());
@@ -125,7 +125,7 @@ void Probe::converge() {
     }
     const auto nearly = [&](const SecondOrderOptions& size) {
         SecondOrderOptions fewer = in_full(size, nearly_converged_lights);
-        fewer.sources.replicate = converged_replicates + 1;
+        fewer.emitters.replicate = converged_replicates + 1;
         return luminance(fewer);
     };
     nearly_ = nearly(options_);

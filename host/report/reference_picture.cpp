@@ -134,7 +134,7 @@ std::string scene_key(const Scene& scene) {
 io::Image cached_reference(const reference::PathTracer& tracer, const Camera& camera,
                            const reference::Options& options, const std::string& effects,
                            const std::filesystem::path& file, const std::string& scene,
-                           const reference::Progress& progress) {
+                           const Progress& progress) {
     const std::string key = picture_key(scene, camera, options) + " " + effects;
     if (std::filesystem::exists(file)) {
         try {
@@ -149,7 +149,7 @@ io::Image cached_reference(const reference::PathTracer& tracer, const Camera& ca
     if (picture.cancelled) return {};
     io::Image out = reference_image(picture, effects);
     out.attributes["clgi:key"] = key;
-    io::save_exr(out, file, io::Storage::full);
+    io::save_exr(out, file, io::PixelType::full);
     return out;
 }
 

@@ -23,6 +23,6 @@ std::string scene_key(const Scene& scene);
 io::Image cached_reference(const reference::PathTracer& tracer, const Camera& camera,
                            const reference::Options& options, const std::string& effects,
                            const std::filesystem::path& file, const std::string& scene_key,
-                           const reference::Progress& progress);
+                           const Progress& progress);
 
 }  // namespace clgi::report

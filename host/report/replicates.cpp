@@ -13,7 +13,7 @@ namespace clgi::report {
 Replicates replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver, const Camera& camera,
                      int count, const std::function<bool()>& go_on) {
     if (count < 2) throw Error("replicates: at least 2 needed");
-    const std::uint32_t before = solver.options().sources.replicate;
+    const std::uint32_t before = solver.options().emitters.replicate;
     std::vector<double> sums[3], luminance, square;
     Replicates out;
     out.count = count;

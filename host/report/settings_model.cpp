@@ -22,8 +22,8 @@ Settings settings_of(const Front& front, const Choice& choice) {
 }
 
 SecondOrderOptions applied(SecondOrderOptions options, const Settings& settings) {
-    options.sources.lights = settings.lights;
-    options.negative_lights = settings.negative_lights;
+    options.emitters.vpls = settings.lights;
+    options.negative_vpls = settings.negative_vpls;
     options.low_resolution_step = settings.step;
     options.discontinuity_threshold = settings.threshold;
     return options;

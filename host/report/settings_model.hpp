@@ -16,7 +16,7 @@ constexpr int most_lights = 1 << 20;
 
 struct Settings {
     int lights = 0;
-    int negative_lights = 0;
+    int negative_vpls = 0;
     int step = 4;
     float threshold = 0.0f;
 };

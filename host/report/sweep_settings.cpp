@@ -15,11 +15,11 @@ std::string low_resolution_text(const SecondOrderOptions& options) {
 
 Settings settings(const std::string& series, const SecondOrderOptions& options) {
     return {series,
-            {{"vpls", std::to_string(options.sources.lights)},
-             {"negative-vpls", std::to_string(options.negative_lights)},
+            {{"vpls", std::to_string(options.emitters.vpls)},
+             {"negative-vpls", std::to_string(options.negative_vpls)},
              {"low-res", low_resolution_text(options)},
-             {"shadow-size", std::to_string(options.sources.shadow_size)},
-             {"area-samples", std::to_string(options.sources.area_samples)},
+             {"shadow-size", std::to_string(options.emitters.shadow_size)},
+             {"area-samples", std::to_string(options.emitters.area_samples)},
              {"math", options.build.math == Math::fast ? "fast" : "strict"},
              {"storage", options.build.storage == Storage::half ? "half" : "full"}},
             options};
@@ -33,8 +33,8 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick,
     base.build = build;
     base.width = width;
     base.height = height;
-    base.sources.lights = 300;
-    base.negative_lights = 150;
+    base.emitters.vpls = 300;
+    base.negative_vpls = 150;
     std::vector<Settings> out;
     const auto add = [&](const std::string& series, const SecondOrderOptions& options) {
         out.push_back(settings(series, options));
@@ -43,19 +43,19 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick,
         quick ? std::vector<int>{30, 300, 3000} : std::vector<int>{30, 100, 300, 1000, 3000, 10000};
     SecondOrderOptions full = base;
     full.low_resolution_step = 1;
-    full.sources.shadow_size = 1024;
+    full.emitters.shadow_size = 1024;
     for (const int negative : {0, 150})
         for (const int count : lights) {
             SecondOrderOptions options = full;
-            options.sources.lights = count;
-            options.negative_lights = negative;
+            options.emitters.vpls = count;
+            options.negative_vpls = negative;
             add(negative == 0 ? "vpls, unshadowed" : "vpls", options);
         }
     for (const int negative :
          quick ? std::vector<int>{0, 500} : std::vector<int>{0, 50, 150, 500, 1500}) {
         SecondOrderOptions options = full;
-        options.sources.lights = lights.back();
-        options.negative_lights = negative;
+        options.emitters.vpls = lights.back();
+        options.negative_vpls = negative;
         add("negative-vpls", options);
     }
     constexpr float none = std::numeric_limits<float>::infinity();
@@ -76,13 +76,13 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick,
     for (const int size :
          quick ? std::vector<int>{256, 1024} : std::vector<int>{256, 512, 1024, 2048}) {
         SecondOrderOptions options = full;
-        options.sources.shadow_size = size;
-        options.sources.face_size = size / 4;
+        options.emitters.shadow_size = size;
+        options.emitters.face_size = size / 4;
         add("shadow-size", options);
     }
     for (const int samples : quick ? std::vector<int>{4} : std::vector<int>{1, 4, 16, 32}) {
         SecondOrderOptions options = full;
-        options.sources.area_samples = samples;
+        options.emitters.area_samples = samples;
         add("area-samples", options);
     }
     for (const Storage storage : {Storage::full, Storage::half})
@@ -99,12 +99,12 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick,
                 for (const LowResolution& setting : {low[1], low[2], low[3]})
                     for (const int size : {512, 2048}) {
                         SecondOrderOptions options = base;
-                        options.sources.lights = count;
-                        options.negative_lights = static_cast<int>(share * count);
+                        options.emitters.vpls = count;
+                        options.negative_vpls = static_cast<int>(share * count);
                         options.low_resolution_step = setting.step;
                         options.discontinuity_threshold = setting.threshold;
-                        options.sources.shadow_size = size;
-                        options.sources.face_size = size / 4;
+                        options.emitters.shadow_size = size;
+                        options.emitters.face_size = size / 4;
                         add("grid", options);
                     }
     return out;

@@ -51,6 +51,7 @@ Speedup speedup(const Sweep& sweep, const std::string& method, int truth) {
     out.method = method;
     const std::vector<Cost> front = front_of(sweep, method, truth);
     const std::vector<Cost> baseline = front_of(sweep, "path tracer", truth);
+    if (!baseline.empty()) out.measured_to = baseline.back().error;
     for (const Cost& cost : front) {
         if (!(cost.error > 0.0)) continue;
         const auto time = time_to_reach(baseline, cost.error);
@@ -112,12 +113,16 @@ std::vector<std::string> summary(const Sweep& sweep) {
 
     for (int t = 0; t < truths; ++t) {
         const Speedup factor = speedup(sweep, "second-order", t);
+        const auto at = [&](double error) {
+            return fmt::format("at {:.2f} %{}", 100.0 * error,
+                               error < factor.measured_to ? ", extrapolated" : "");
+        };
         if (factor.best > 0.0)
             out.push_back(fmt::format(
                 "second-order against the path tracer, {} reference: {:.1f} times faster near the "
-                "least error it reaches (at {:.2f} %), {:.1f} times at {:.2f} %.",
-                truth_names[t], factor.at_least_error, 100.0 * factor.least_error, factor.best,
-                100.0 * factor.best_error));
+                "least error it reaches ({}), {:.1f} times {}.",
+                truth_names[t], factor.at_least_error, at(factor.least_error), factor.best,
+                at(factor.best_error)));
     }
     for (const MathMode& mode : math_modes(sweep))
         if (mode.difference > 0.0)

@@ -17,13 +17,15 @@ struct Floor {
 Floor floor_of(const Sweep& sweep, const std::string& series, const std::string& knob, int truth);
 
 // How many times faster a method reaches its own error than the path tracer does. 0 when either
-// has no points.
+// has no points. Below `measured_to`, the least error that was measured of the path tracer, its
+// time is extrapolated by time_to_reach.
 struct Speedup {
     std::string method;
     double at_least_error = 0.0;  // at the cheapest error within a tenth of the least it reaches
     double least_error = 0.0;
     double best = 0.0;  // anywhere on its front
     double best_error = 0.0;
+    double measured_to = 0.0;
 };
 Speedup speedup(const Sweep& sweep, const std::string& method, int truth);
 

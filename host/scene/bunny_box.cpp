@@ -11,7 +11,7 @@ namespace clgi {
 namespace {
 
 void check(const BoxOptions& options) {
-    if (options.lamp == Lamp::area) throw Error("box: lamp is area, needs spot or point");
+    if (options.light == LightSource::area) throw Error("box: lamp is area, needs spot or point");
     for (int axis = 0; axis < 3; ++axis) {
         generated::check_range("box", "size", options.size[axis], 1e-6, 1e9);
     }
@@ -92,7 +92,7 @@ Scene box(const Scene& mesh, const BoxOptions& options) {
     const glm::dvec3 lamp(0.45 * half.x, 0.94 * options.size.y, 0.62 * half.z);
     const glm::dvec3 aim(-0.22 * half.x, 0.44 * options.size.y, -0.05 * half.z);
     const auto share = static_cast<float>(options.size.y * options.size.y / 4.0);
-    if (options.lamp == Lamp::spot) {
+    if (options.light == LightSource::spot) {
         scene.lights.push_back(
             generated::spot("spot", lamp, aim, options.intensity * share, options.cone_angle));
     } else {

@@ -62,10 +62,10 @@ void add_block(Scene& scene, const Quad& top, std::uint32_t material) {
 
 void add_lamp(Scene& scene, const CornellOptions& options) {
     const glm::dvec3 under_ceiling(0.278, 0.54, 0.2796);
-    if (options.lamp == Lamp::spot) {
+    if (options.light == LightSource::spot) {
         scene.lights.push_back(generated::spot("spot", under_ceiling, {0.278, 0.0, 0.2796},
                                                options.intensity, options.cone_angle));
-    } else if (options.lamp == Lamp::point) {
+    } else if (options.light == LightSource::point) {
         scene.lights.push_back(generated::point("point", under_ceiling, options.intensity));
     } else {
         const auto lamp = generated::add_material(scene, "lamp", glm::vec3(0.78f));
@@ -92,7 +92,7 @@ Scene cornell(const CornellOptions& options) {
     add_quad(scene, in_metres(back_corners), plain);
     add_quad(scene, in_metres(left_corners), left);
     add_quad(scene, in_metres(right_corners), right);
-    if (options.lamp == Lamp::area) {
+    if (options.light == LightSource::area) {
         add_ceiling_around_lamp(scene, plain);
     } else {
         add_quad(scene, in_metres(ceiling_corners), plain);

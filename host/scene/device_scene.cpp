@@ -6,54 +6,21 @@
 #include <cmath>
 #include <mutex>
 #include <string>
+#include <tuple>
 
 #include "opencl/error_text.hpp"
+#include "scene/clusters.hpp"
+#include "scene/emission.hpp"
 #include "scene/environment.hpp"
+#include "scene/local_frame.hpp"
 #include "scene/locality.hpp"
 #include "scene/luminance.hpp"
 #include "scene/median_cut.hpp"
 #include "scene/texture_pool.hpp"
+#include "scene/validate.hpp"
 
 namespace clgi {
 namespace {
-
-SceneFrame local_frame(const Scene& scene) {
-    SceneFrame frame;
-    if (scene.triangles.empty()) return frame;
-    const Bounds box = bounds(scene);
-    frame.origin = 0.5 * (box.low + box.high);
-    const double radius = 0.5 * glm::length(box.high - box.low);
-    if (radius > 0.0) {
-        int exponent = 0;
-        std::frexp(radius, &exponent);
-        frame.scale = std::ldexp(1.0, -exponent);
-    }
-    frame.radius = static_cast<float>(std::max(radius * frame.scale, 1e-6));
-    return frame;
-}
-
-// The power of two that brings the brightest source near 1 in local units.
-double common_exposure(const Scene& scene, const SceneFrame& frame) {
-    double brightest = 0.0;
-    for (const Light& light : scene.lights) {
-        const double strongest =
-            std::max({light.intensity.x, light.intensity.y, light.intensity.z});
-        const bool directional = light.kind == Light::Kind::directional;
-        brightest =
-            std::max(brightest, strongest * (directional ? 1.0 : frame.scale * frame.scale));
-    }
-    for (const Material& material : scene.materials)
-        brightest = std::max({brightest, double{material.emission.x}, double{material.emission.y},
-                              double{material.emission.z}});
-    if (scene.environment) {
-        const glm::dvec3 fluence = environment_fluence(*scene.environment);
-        brightest = std::max({brightest, fluence.x, fluence.y, fluence.z});
-    }
-    if (!(brightest > 0.0)) return 1.0;
-    int exponent = 0;
-    std::frexp(brightest, &exponent);
-    return std::ldexp(1.0, exponent);
-}
 
 MaterialRecord record_of(const Material& material, double exposure) {
     MaterialRecord out{};
@@ -82,7 +49,8 @@ public:
 
     // A buffer is never empty: kernels take all of them, also those a scene has no use for.
     template <typename T>
-    cl::Buffer operator()(const char* what, std::vector<T> values) {
+    cl::Buffer operator()(const char* what, std::vector<T> values,
+                          cl_mem_flags access = CL_MEM_READ_ONLY) {
         if (values.empty()) values.resize(1);
         const std::size_t size = values.size() * sizeof(T);
         if (size > most_)
@@ -90,8 +58,7 @@ public:
                               " bytes in one buffer, the device allows " + std::to_string(most_));
         bytes += size;
         try {
-            return cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, size,
-                              values.data());
+            return cl::Buffer(context_, access | CL_MEM_COPY_HOST_PTR, size, values.data());
         } catch (const cl::Error& error) {
             throw DeviceError(std::string("scene: no room for ") + what + " (" +
                               std::to_string(size) + " bytes): " + error_text(error.err()));
@@ -113,10 +80,6 @@ std::vector<glm::vec4> arranged(const std::vector<glm::vec4>& values,
     for (const std::uint32_t index : order) out.push_back(values[index]);
     return out;
 }
-
-struct Word4 {
-    std::uint32_t x, y, z, w;
-};
 
 }  // namespace
 
@@ -140,7 +103,7 @@ struct DeviceScene::Cut {
 
 DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene) {
     validate(scene);
-    frame_ = local_frame(scene);
+    if (!scene.triangles.empty()) frame_ = local_frame(bounds(scene));
     frame_.exposure = common_exposure(scene, frame_);
     lights_ = scene.lights;
 
@@ -150,6 +113,8 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         local.emplace_back(frame_.to_local(position), 0.0f);
     const SpatialOrder order = spatial_order(local, scene.triangles);
     triangle_order_ = order.triangles;
+    vertex_order_ = order.vertices;
+    file_vertex_count_ = scene.positions.size();
     const std::vector<glm::vec4> positions = arranged(local, order.vertices);
     const std::vector<glm::vec4> uvs = arranged(scene.uvs, order.vertices);
     const std::vector<glm::vec4> colors = arranged(scene.colors, order.vertices);
@@ -163,17 +128,12 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         emits = emits || luminance(material.emission) > 0.0f;
         const Reflectance shares = reflectance(material.metallic, material.roughness);
         has_lobes_ = has_lobes_ || shares.coat + shares.lobe > 1e-4f;
+        if (shares.diffuse != 1.0f) info_.flags |= SCENE_HAS_SHARES;
         has_masks_ = has_masks_ || material.alpha_mode == AlphaMode::mask;
     }
-    std::vector<glm::vec3> emission_means(scene.materials.size());
-    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        const Material& material = scene.materials[m];
-        emission_means[m] = glm::vec3(glm::dvec3(material.emission) / frame_.exposure);
-        if (emits && material.emission_texture.texture >= 0)
-            emission_means[m] *= mean_color(scene.textures[material.emission_texture.texture]);
-    }
+    const EmissionMeans emission(scene);
 
-    std::vector<Word4> triangles;
+    std::vector<glm::uvec4> triangles;
     triangles.reserve(scene.triangles.size());
     for (const std::uint32_t index : order.triangles) {
         const SceneTriangle& triangle = scene.triangles[index];
@@ -183,29 +143,24 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         if (material.alpha_mode == AlphaMode::mask) word |= TRIANGLE_MASKED;
         std::uint32_t corner[3];
         for (int k = 0; k < 3; ++k) corner[k] = order.renumbered[triangle.vertex[k]];
-        triangles.push_back({corner[0], corner[1], corner[2], word});
+        triangles.emplace_back(corner[0], corner[1], corner[2], word);
 
-        const glm::vec3 radiance = emission_means[triangle.material];
+        const glm::vec3 radiance(emission(triangle) / frame_.exposure);
         if (!(luminance(radiance) > 0.0f)) continue;
-        EmissiveTriangle source;
-        for (int k = 0; k < 3; ++k) source.corner[k] = glm::vec3(positions[corner[k]]);
-        const glm::vec3 normal =
-            glm::cross(source.corner[1] - source.corner[0], source.corner[2] - source.corner[0]);
-        const float twice_area = glm::length(normal);
-        if (!(twice_area > 0.0f)) continue;
-        source.normal = normal / twice_area;
-        source.area = 0.5f * twice_area;
-        source.radiance = radiance;
-        emissive_.push_back(source);
-        if (material.double_sided) {
-            source.normal = -source.normal;
-            emissive_.push_back(source);
-        }
+        Glowing& glowing = glowing_.emplace_back();
+        glowing.triangle = index;
+        glowing.vertex = glm::uvec3(corner[0], corner[1], corner[2]);
+        for (int k = 0; k < 3; ++k) glowing.corner[k] = glm::vec3(positions[corner[k]]);
+        glowing.radiance = radiance;
+        glowing.double_sided = material.double_sided;
     }
+    list_emissive();
 
     TexturePool pool = make_texture_pool(scene.textures);
     info_.vertex_count = static_cast<std::uint32_t>(positions.size());
     info_.triangle_count = static_cast<std::uint32_t>(triangles.size());
+    std::vector<Cluster> clusters = make_clusters(triangles, positions);
+    info_.cluster_count = static_cast<std::uint32_t>(clusters.size());
     if (!scene.uvs.empty()) info_.flags |= SCENE_HAS_UVS;
     if (!scene.colors.empty()) info_.flags |= SCENE_HAS_COLORS;
     if (!scene.textures.empty()) info_.flags |= SCENE_HAS_TEXTURES;
@@ -213,10 +168,12 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
 
     Uploader upload(context, device);
     triangles_ = upload("triangles", std::move(triangles));
-    positions_ = upload("positions", positions);
-    normals_ = upload("normals", std::move(normals));
+    // What SceneMover writes.
+    positions_ = upload("positions", positions, CL_MEM_READ_WRITE);
+    normals_ = upload("normals", std::move(normals), CL_MEM_READ_WRITE);
     uvs_ = upload("texture coordinates", uvs);
     colors_ = upload("vertex colors", colors);
+    clusters_ = upload("clusters", std::move(clusters), CL_MEM_READ_WRITE);
     materials_ = upload("materials", std::move(materials));
     textures_ = upload("texture records", std::move(pool.records));
     texels_ = upload("texels", std::move(pool.texels));
@@ -227,6 +184,33 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         environment_texels_ = upload("environment texels", environment_->texels);
     }
     bytes_ = upload.bytes;
+}
+
+// In the order in which the triangles of a scene loaded like this would lie on the device, so that
+// moved ones are sampled as loaded ones are.
+void DeviceScene::list_emissive() {
+    std::vector<std::pair<std::uint32_t, const Glowing*>> order;
+    for (const Glowing& g : glowing_)
+        order.emplace_back(place_on_curve(g.corner[0], g.corner[1], g.corner[2]), &g);
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.first, a.second->triangle) < std::tie(b.first, b.second->triangle);
+    });
+    emissive_.clear();
+    for (const auto& [place, glowing] : order) {
+        EmissiveTriangle source;
+        std::copy(glowing->corner, glowing->corner + 3, source.corner);
+        const glm::vec3 normal =
+            glm::cross(source.corner[1] - source.corner[0], source.corner[2] - source.corner[0]);
+        const float twice_area = glm::length(normal);
+        if (!(twice_area > 0.0f)) continue;
+        source.normal = normal / twice_area;
+        source.area = 0.5f * twice_area;
+        source.radiance = glowing->radiance;
+        emissive_.push_back(source);
+        if (!glowing->double_sided) continue;
+        source.normal = -source.normal;
+        emissive_.push_back(source);
+    }
 }
 
 std::vector<Light> DeviceScene::environment_lights(int count) const {
@@ -249,15 +233,7 @@ void DeviceScene::set_light(std::size_t index, const Light& light) {
     if (index >= lights_.size())
         throw Error("scene: light " + std::to_string(index) + " was to be set, there are " +
                     std::to_string(lights_.size()));
-    const float length = glm::length(light.direction);
-    const bool finite = glm::all(glm::lessThan(glm::abs(light.position), glm::dvec3(1e18))) &&
-                        glm::all(glm::lessThanEqual(light.intensity, glm::vec3(3e38f))) &&
-                        glm::all(glm::greaterThanEqual(light.intensity, glm::vec3(0.0f)));
-    if (!finite || !(std::abs(length - 1.0f) < 1e-3f))
-        throw Error("scene: light " + std::to_string(index) +
-                    " was to be set with a direction of length " + std::to_string(length) +
-                    " or numbers out of range; a unit direction, positions within 1e18 m and "
-                    "intensities of at least 0 needed");
+    validate_light(light, index);
     lights_[index] = light;
 }
 

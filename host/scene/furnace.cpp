@@ -54,9 +54,9 @@ Mesh subdivide(const Mesh& coarse) {
 
 void add_lamp(Scene& scene, const FurnaceOptions& options) {
     const glm::vec3 intensity(options.intensity);
-    if (options.lamp == Lamp::area) {
+    if (options.light == LightSource::area) {
         scene.materials[0].emission = glm::vec3(options.radiance);
-    } else if (options.lamp == Lamp::point) {
+    } else if (options.light == LightSource::point) {
         scene.lights.push_back(generated::point("point", glm::dvec3(0.0), intensity));
     } else {
         Light light = generated::spot("spot", glm::dvec3(0.0), {0.0, -1.0, 0.0}, intensity,

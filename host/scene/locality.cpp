@@ -26,13 +26,17 @@ std::uint32_t z_order(const glm::vec3& point) {
 
 }  // namespace
 
+std::uint32_t place_on_curve(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    return z_order((a + b + c) / 3.0f);
+}
+
 SpatialOrder spatial_order(const std::vector<glm::vec4>& local,
                            const std::vector<SceneTriangle>& triangles) {
     std::vector<std::uint32_t> codes;
     codes.reserve(triangles.size());
     for (const SceneTriangle& t : triangles)
-        codes.push_back(z_order(
-            glm::vec3(local[t.vertex[0]] + local[t.vertex[1]] + local[t.vertex[2]]) / 3.0f));
+        codes.push_back(place_on_curve(glm::vec3(local[t.vertex[0]]), glm::vec3(local[t.vertex[1]]),
+                                       glm::vec3(local[t.vertex[2]])));
     SpatialOrder order;
     order.triangles.resize(triangles.size());
     std::iota(order.triangles.begin(), order.triangles.end(), 0u);

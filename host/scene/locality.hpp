@@ -14,6 +14,9 @@ struct SpatialOrder {
     std::vector<std::uint32_t> renumbered;  // device index of each scene vertex that is used
 };
 
+// Where a triangle lies on a Z-order curve. Corners in the local frame.
+std::uint32_t place_on_curve(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
 // Triangles along a Z-order curve through their centres, those of one cell in scene order;
 // vertices in the order of their first use. local: positions with coordinates in [-1, 1].
 SpatialOrder spatial_order(const std::vector<glm::vec4>& local,

@@ -132,16 +132,4 @@ TexturePool make_texture_pool(const std::vector<Texture>& textures) {
     return pool;
 }
 
-glm::vec3 mean_color(const Texture& texture) {
-    const std::vector<float> decode = srgb_decode_table();
-    glm::dvec3 sum(0.0);
-    const std::size_t texels = static_cast<std::size_t>(texture.width) * texture.height;
-    for (std::size_t i = 0; i < texels; ++i)
-        for (int c = 0; c < 3; ++c) {
-            const std::uint8_t byte = texture.rgba[4 * i + c];
-            sum[c] += texture.srgb ? decode[byte] : byte / 255.0;
-        }
-    return glm::vec3(sum / std::max(1.0, static_cast<double>(texels)));
-}
-
 }  // namespace clgi

@@ -19,7 +19,4 @@ TexturePool make_texture_pool(const std::vector<Texture>& textures);
 // Linear value of every sRGB byte, IEC 61966-2-1. [256]
 std::vector<float> srgb_decode_table();
 
-// Mean linear color of a texture.
-glm::vec3 mean_color(const Texture& texture);
-
 }  // namespace clgi

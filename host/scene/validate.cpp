@@ -9,6 +9,7 @@
 #include <string>
 
 #include "scene/environment.hpp"
+#include "scene/validate.hpp"
 
 namespace clgi {
 
@@ -154,31 +155,6 @@ void check_materials(const Scene& scene) {
     }
 }
 
-void check_lights(const Scene& scene) {
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
-        const std::string name = entry("light", i);
-        if (!is_place(light.position)) fail(name + " has a position that is not finite");
-        for (int c = 0; c < 3; ++c) {
-            if (!(light.intensity[c] >= 0.0f) || !std::isfinite(light.intensity[c])) {
-                fail(name + " has an intensity that is negative or not finite");
-            }
-        }
-        if (!(light.range >= 0.0f) || !std::isfinite(light.range)) {
-            fail(name + " has a range that is negative or not finite");
-        }
-        if (light.kind == Light::Kind::point) continue;
-        if (!is_unit(light.direction)) fail(name + " has a direction that is not unit");
-        if (light.kind != Light::Kind::spot) continue;
-        if (!(light.outer_angle > 0.0f && light.outer_angle <= right_angle + 1e-6f)) {
-            fail(name + " has an outer cone angle outside 0..pi/2");
-        }
-        if (!is_within(light.inner_angle, 0.0f, light.outer_angle)) {
-            fail(name + " has an inner cone angle outside 0..its outer one");
-        }
-    }
-}
-
 void check_cameras(const Scene& scene) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const Camera& camera = scene.cameras[i];
@@ -253,12 +229,34 @@ void check_environment(const Environment& environment) {
 
 }  // namespace
 
+void validate_light(const Light& light, std::size_t index) {
+    const std::string name = entry("light", index);
+    if (!is_place(light.position)) fail(name + " has a position that is not finite");
+    for (int c = 0; c < 3; ++c) {
+        if (!(light.intensity[c] >= 0.0f) || !std::isfinite(light.intensity[c])) {
+            fail(name + " has an intensity that is negative or not finite");
+        }
+    }
+    if (!(light.range >= 0.0f) || !std::isfinite(light.range)) {
+        fail(name + " has a range that is negative or not finite");
+    }
+    if (light.kind == Light::Kind::point) return;
+    if (!is_unit(light.direction)) fail(name + " has a direction that is not unit");
+    if (light.kind != Light::Kind::spot) return;
+    if (!(light.outer_angle > 0.0f && light.outer_angle <= right_angle + 1e-6f)) {
+        fail(name + " has an outer cone angle outside 0..pi/2");
+    }
+    if (!is_within(light.inner_angle, 0.0f, light.outer_angle)) {
+        fail(name + " has an inner cone angle outside 0..its outer one");
+    }
+}
+
 void validate(const Scene& scene) {
     check_vertices(scene);
     check_triangles(scene);
     check_textures(scene);
     check_materials(scene);
-    check_lights(scene);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) validate_light(scene.lights[i], i);
     check_cameras(scene);
     if (scene.environment) check_environment(*scene.environment);
 }

@@ -32,9 +32,11 @@ struct EmissiveTriangle {
     glm::vec3 corner[3];
     glm::vec3 normal;                      // unit, the side that emits
     float area = 0.0f;                     // local units squared
-    glm::vec3 radiance = glm::vec3(0.0f);  // exposed
+    glm::vec3 radiance = glm::vec3(0.0f);  // exposed; mean over the triangle's texels
 };
 
+// Copies share their buffers; SceneMover moves the geometry of all of them, but lists what emits
+// for one.
 class CLGI_API DeviceScene {
 public:
     // Validates and uploads; the scene itself is not needed afterwards.
@@ -45,10 +47,11 @@ public:
     const SceneInfo& info() const { return info_; }
     const std::vector<Light>& lights() const { return lights_; }
     const std::vector<EmissiveTriangle>& emissive() const { return emissive_; }
-    // With a picture of one texel where the scene's had none.
+    // An environment of one colour has a picture of one texel.
     const std::optional<Environment>& environment() const { return environment_; }
-    // At most `count` directional lights that stand for it [Debevec05], with all of its light. Cut
-    // at the first call; kept until another count is asked for. May be called by several threads.
+    // At most `count` directional lights that approximate it [Debevec05], with all of its light.
+    // Computed at the first call and kept until another count is given. May be called by several
+    // threads.
     std::vector<Light> environment_lights(int count) const;
     bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
     bool needs_textures() const {                  // some surface has a texture or an alpha mask
@@ -59,25 +62,49 @@ public:
     // Triangles lie on the device in an order that follows space. [triangle_count] the scene's
     // index of each; triangle indices in G-buffers are those of the device.
     const std::vector<std::uint32_t>& triangle_order() const { return triangle_order_; }
+    // The same for vertices: [vertex_count] the scene's index of each. Vertices without a triangle
+    // are not on the device.
+    const std::vector<std::uint32_t>& vertex_order() const { return vertex_order_; }
+    // Vertices of the scene, those included that are not on the device.
+    std::size_t file_vertex_count() const { return file_vertex_count_; }
 
-    // Replaces a light, for scenes that move; the exposure stays as it was.
-    // Throws Error when there is no such light.
+    // Replaces a light; solvers then need lights_changed(). The exposure stays as it was.
+    // Throws Error when there is no such light, InputError for one that validate() refuses; the
+    // old one stays.
     void set_light(std::size_t index, const Light& light);
 
     // In the order of SCENE_ARGUMENTS in kernels/scene/buffers.clh.
     std::array<const cl::Buffer*, 9> kernel_arguments() const;
     const cl::Buffer& triangles() const { return triangles_; }
     const cl::Buffer& positions() const { return positions_; }
+    const cl::Buffer& normals() const { return normals_; }
     const cl::Buffer& materials() const { return materials_; }
+    // [info().cluster_count] Cluster: box and normal cone of runs of triangles, to cull many at
+    // once.
+    const cl::Buffer& clusters() const { return clusters_; }
     // [height][width][3] float of the environment's picture, before its factor.
     const cl::Buffer& environment_texels() const { return environment_texels_; }
 
 private:
+    friend class SceneMover;
+
+    // What emissive_ is made from, one for each triangle of an emissive material.
+    struct Glowing {
+        std::uint32_t triangle;  // of the scene
+        glm::uvec3 vertex;       // of the device
+        glm::vec3 corner[3];
+        glm::vec3 radiance;
+        bool double_sided;
+    };
+    void list_emissive();
+
     SceneFrame frame_;
     SceneInfo info_{};
     std::vector<Light> lights_;
+    std::vector<Glowing> glowing_;
     std::vector<EmissiveTriangle> emissive_;
-    std::vector<std::uint32_t> triangle_order_;
+    std::vector<std::uint32_t> triangle_order_, vertex_order_;
+    std::size_t file_vertex_count_ = 0;
     std::optional<Environment> environment_;
     struct Cut;
     std::shared_ptr<Cut> cut_;
@@ -85,10 +112,10 @@ private:
     bool has_masks_ = false;
     std::size_t bytes_ = 0;
     cl::Buffer triangles_, positions_, normals_, uvs_, colors_, materials_, textures_, texels_,
-        decode_, environment_texels_;
+        decode_, environment_texels_, clusters_;
 };
 
-// The reflectance that a material stands for (docs/materials.md).
+// The reflectance to which a material is reduced (docs/materials.md).
 //
 //   a = roughness^2
 //   coat = 0.04 (1 - a) (1 - metallic)       white gloss of a smooth dielectric

@@ -1,4 +1,4 @@
-// From a scene's lights to the sources that the device samples.
+// From the lights of a scene to the emitters that the device samples.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,14 +11,24 @@
 namespace clgi {
 
 struct EmitterOptions {
-    int lights = 300;       // indirect lights, shared by power
-    int shadow_size = 512;  // pixels, side of a spot's or directional light's image
-    int face_size = 256;    // pixels, side of a cube or hemicube face
-    int area_samples = 16;  // points that stand for all emissive surfaces together
-    int environment_lights = 16;  // directions that stand for the environment
-    // 0: the Halton points themselves; any other: a randomised shift of them (Cranley and
-    // Patterson), so that several replicates tell how far off one is.
+    int vpls = 300;         // virtual point lights (VPLs), shared by power
+    int shadow_size = 512;  // pixels per side of a spot or directional light's map
+    int face_size = 256;    // pixels per side of a cube or hemicube face
+    int area_samples = 16;  // sample points on all emissive surfaces together
+    int environment_lights = 16;  // directional lights that approximate it
+    // 0: the Halton points themselves. Other values: randomised shifts of them (Cranley and
+    // Patterson). The differences between replicates estimate the error of one.
     std::uint32_t replicate = 0;
+};
+
+// Halton candidates that are tried for a spot at most; a narrower cone is mapped directly.
+constexpr std::uint32_t most_candidates = 1u << 22;
+
+// How much buffers must hold for all lights of a scene, also for those that are dark at the moment.
+struct EmitterRoom {
+    std::size_t emitters = 0;
+    std::size_t views = 0;
+    std::size_t pixels = 0;
 };
 
 struct EmitterSet {
@@ -26,18 +36,19 @@ struct EmitterSet {
     std::vector<View> views;                // of all emitters, in order
     std::size_t pixels = 0;                 // of all views
     std::vector<std::uint32_t> candidates;  // Halton candidates to try, by emitter; spots only
-    std::size_t light_count = 0;
+    std::size_t vpl_count = 0;
+    EmitterRoom room;
 };
 
-// One emitter a lamp, `area_samples` more for the emissive triangles (stratified by power) and
-// `environment_lights` for the environment (median cut [Debevec05]), each with its views and its
-// share of the indirect lights. Lamps without power are left out. Sources too weak for an indirect
-// light of their own leave their indirect light to the others: lamps to lamps, directions to
-// directions, samples to samples; a group without any light to all. Power is by luminance.
+// One emitter for each punctual light, `area_samples` for the emissive triangles (stratified by
+// power) and `environment_lights` for the environment (median cut [Debevec05]), each with its views
+// and its share of the VPLs. Lights without power are left out. Emitters too weak for a VPL of
+// their own leave their indirect light to the others of their group (punctual lights, directions,
+// samples). A group without any VPL leaves it to all. Power is luminance.
 //
-// A spot of more than 60 degrees from its axis is seen through a cube, like a point light.
-// Where more than 2^22 candidates would have to be tried (300 lights below a degree), the cone is
-// mapped directly instead: its samples then turn with the light.
+// A spot of more than 60 degrees from its axis has the views of a cube, like a point light.
+// If more than 2^22 candidates would have to be tried (300 VPLs below a degree), the cone is mapped
+// directly instead; its samples then turn with the light.
 // Throws Error for options out of range and for more than 2^30 pixels of views.
 CLGI_API EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options);
 

@@ -1,4 +1,4 @@
-// What clgi throws. Three types, because a caller can do three different things about it.
+// The exceptions of clgi. There are three types because callers react in three ways.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,7 +15,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// Input data is broken or asks for something that is not supported: a scene, an image.
+// Input data, such as a scene or an image, is invalid or needs something that is not supported.
 class CLGI_API InputError : public Error {
 public:
     using Error::Error;

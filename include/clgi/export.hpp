@@ -1,4 +1,4 @@
-// Marks what a shared clgi lets its users call; everything else stays inside the library.
+// Marks the public symbols of a shared library; all others are hidden.
 // SPDX-License-Identifier: MIT
 #pragma once
 

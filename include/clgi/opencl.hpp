@@ -1,4 +1,4 @@
-// The only place that includes the OpenCL C++ bindings, so that everyone sees them alike.
+// The only place that includes the OpenCL C++ bindings, so that their macros are always the same.
 // SPDX-License-Identifier: MIT
 #pragma once
 

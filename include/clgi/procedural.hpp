@@ -1,4 +1,4 @@
-// Scenes made from numbers: known geometry for tests, benches and first pictures.
+// Generated scenes: known geometry for tests, benchmarks and first pictures.
 //
 // Every scene has at least one camera and one light. All surfaces are diffuse (metallic 0,
 // roughness 1). Lengths in metres, angles in radians. An option out of range throws Error.
@@ -11,22 +11,22 @@
 
 namespace clgi {
 
-// What lights a scene. area: an emissive surface instead of a lamp.
-enum class Lamp { spot, area, point };
+// The light of a scene. area: an emissive surface.
+enum class LightSource { spot, area, point };
 
 // The Cornell box by its published measurements; the camera stands in front of the open side.
 struct CornellOptions {
-    Lamp lamp = Lamp::area;
+    LightSource light = LightSource::area;
     glm::vec3 radiance = glm::vec3(17.0f, 12.0f, 4.0f);   // cd/m^2; area
     glm::vec3 intensity = glm::vec3(1.5f, 1.35f, 1.15f);  // cd; spot and point
     float cone_angle = 0.6f;                              // from the axis; spot
 };
 CLGI_API Scene cornell(const CornellOptions& options = {});
 
-// A closed room of 12 triangles with a mesh floating in its middle, one lamp near the front of
-// the ceiling and the camera before the front wall: the test scene of [Cochran07].
+// A closed room of 12 triangles with a mesh floating in its middle, one light near the front of
+// the ceiling and the camera at the front wall: the test scene of [Cochran07].
 struct BoxOptions {
-    Lamp lamp = Lamp::spot;                           // spot or point
+    LightSource light = LightSource::spot;                           // spot or point
     glm::dvec3 size = glm::dvec3(2.0, 2.0, 3.0);      // width, height, depth
     double mesh_height = 0.45;                        // share of the box's height, (0,0.9]
     glm::vec3 left = glm::vec3(0.72f, 0.09f, 0.07f);  // reflectances, each in [0,1]
@@ -36,8 +36,8 @@ struct BoxOptions {
     glm::vec3 intensity = glm::vec3(9.0f, 8.7f, 8.1f);  // cd, for the default size
     float cone_angle = 0.6f;                            // from the axis; spot
 };
-// Takes the shape of mesh alone: its materials, lights and cameras are left behind. Intensity is
-// scaled with the square of the box's height, so that a box of any size looks the same.
+// Uses only the shape of the mesh, not its materials, lights and cameras. Intensity is scaled with
+// the square of the box's height, so a box of any size looks the same.
 CLGI_API Scene box(const Scene& mesh, const BoxOptions& options = {});
 CLGI_API Scene box(const BoxOptions& options = {});  // with bumpy_mesh()
 
@@ -46,9 +46,9 @@ CLGI_API Scene bumpy_mesh();
 
 // A sphere seen from inside, one reflectance everywhere, its light at the centre. The closed
 // form: with a spot or point of flux Phi, indirect irradiance is rho Phi / (4 pi R^2 (1 - rho))
-// everywhere; with an area lamp (the whole wall glows) radiosity is pi L / (1 - rho).
+// everywhere; with an area light (the whole wall emits) radiosity is pi L / (1 - rho).
 struct FurnaceOptions {
-    Lamp lamp = Lamp::spot;
+    LightSource light = LightSource::spot;
     float albedo = 0.5f;             // 0 to 0.999
     int subdivisions = 4;            // 0 to 8; 20 * 4^subdivisions triangles
     double radius = 1.0;             // of the sphere through all vertices
@@ -58,8 +58,8 @@ struct FurnaceOptions {
 };
 CLGI_API Scene furnace(const FurnaceOptions& options = {});
 
-// A corridor with rooms behind doors on both sides; a spot near one end shines along it, so that
-// the rooms are lit by what comes through their doors alone. No edge ends on another's middle.
+// A corridor with rooms behind doors on both sides. A spot near one end shines along it, so only
+// light through the doors reaches the rooms. No edge ends in the middle of another one.
 struct CorridorOptions {
     int rooms = 3;                                         // on either side, 1 to 64
     float door_angle = 1.2f;                               // 0: closed, up to 2.6

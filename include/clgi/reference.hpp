@@ -4,6 +4,7 @@
 #pragma once
 
 #include <clgi/export.hpp>
+#include <clgi/kit/progress.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <functional>
@@ -15,50 +16,50 @@
 
 namespace clgi::reference {
 
-// Which light paths count. A path of k bounces leaves its source, is reflected by k surfaces and
-// then by the one that is seen: 0 is direct light.
+// Which light paths count. A path of k bounces starts at a light, is reflected by k surfaces and
+// then by the visible one: 0 is direct light.
 struct Effects {
     static constexpr int unlimited = std::numeric_limits<int>::max();
-    bool emission = true;  // surfaces and environment seen shining
+    bool emission = true;  // visible emissive surfaces and environment
     bool direct = true;    // k = 0
     int first_bounce = 1;  // indirect paths: first_bounce <= k <= last_bounce
     int last_bounce = unlimited;
-    bool shadowed = true;        // false: the segment between the last two surfaces passes through
-                                 // others, as the indirect lights of [Cochran07] do; k = 1 only
-    bool direct_gloss = true;    // the lobe answers to direct light
-    bool indirect_gloss = true;  // and to indirect light, and bounces it
+    bool shadowed = true;        // false: nothing blocks the segment between the last two
+                                 // surfaces, as for the VPLs of [Cochran07]; k = 1 only
+    bool direct_gloss = true;    // the lobe reflects direct light
+    bool indirect_gloss = true;  // and indirect light
 };
 
 // From a comma-separated list of: emission, direct, indirect, one-bounce, bounces=K,
 // unshadowed-indirect (one bounce, unshadowed), diffuse (no gloss at all), diffuse-indirect.
-// "all" or an empty list: everything. Throws Error naming the word it does not know, or words that
-// exclude each other.
+// "all" or an empty list: everything. Throws Error naming an unknown word, or words that exclude
+// each other.
 CLGI_API Effects parse_effects(const std::string& list);
 
-// How directions towards what shines and has extent (emissive surfaces, the environment) are drawn:
-// for the light's sake, for the surface's, or both ways, weighed by the power heuristic. One way
-// alone is noisier and converges to the same picture.
+// How directions to lights with an extent (emissive surfaces, the environment) are sampled: by the
+// light, by the surface's lobes, or both, weighted by the power heuristic. One of them alone is
+// noisier and converges to the same picture.
 enum class Sampling { both, lights, lobes };
 
 struct Options {
     int width = 640;  // pixels
     int height = 480;
     Effects effects;
-    // Before this many an estimate of the error is not believed.
+    // With fewer samples the estimate of the error is not used.
     static constexpr int least_samples = 16;
     int samples = 64;         // per pixel, at most; 1 to 2^24
-    double target = 0.0;      // stop when the relative error (below) is this small; 0: never
-    std::uint64_t seed = 1;   // same seed, same picture, whatever the number of threads
-    int roulette_depth = 16;  // surfaces that a path meets before chance may end it
+    double target = 0.0;      // stop at this relative error (below); 0: never
+    std::uint64_t seed = 1;   // the same seed gives the same picture with any threads
+    int roulette_depth = 16;  // surfaces on a path before Russian roulette may end it
     int threads = 0;          // 0: all
     Sampling sampling = Sampling::both;
 };
 
-// A place to be lit, for irradiance(): local light atlases, probes, tests.
+// A place for irradiance(): light atlases, probes, tests.
 struct Place {
     glm::dvec3 position;  // metres
     glm::vec3 normal;     // unit
-    // Of the surface behind it, unit: light from below that surface does not count. 0: `normal`.
+    // Of the surface behind it, unit. Light from below that surface does not count. 0: `normal`.
     glm::vec3 geometric = glm::vec3(0.0f);
 };
 
@@ -68,7 +69,7 @@ struct Picture {
     std::vector<glm::vec3> radiance;  // [height][width] cd/m^2
     std::vector<float> error;         // [height][width] standard error of luminance
     int samples = 0;                  // taken of each pixel
-    std::size_t non_finite = 0;       // samples left out because they were; 0 in a healthy run
+    std::size_t non_finite = 0;       // samples left out; 0 in a healthy run
     double relative_error = 0.0;      // root of the mean squared standard error, over the mean
     double seconds = 0.0;
     bool cancelled = false;
@@ -78,14 +79,11 @@ struct Irradiance {
     std::vector<glm::vec3> values;  // lux
     std::vector<float> error;       // standard error of luminance
     int samples = 0;
-    std::size_t non_finite = 0;   // samples left out because they were
+    std::size_t non_finite = 0;   // samples left out
     double relative_error = 0.0;  // root of the mean squared standard error, over the mean
     double seconds = 0.0;
     bool cancelled = false;
 };
-
-// Called between passes over the pixels or places with the share done, [0,1]; false cancels.
-using Progress = std::function<bool(double done)>;
 
 class CLGI_API PathTracer {
 public:
@@ -93,12 +91,12 @@ public:
     explicit PathTracer(const Scene& scene);
     ~PathTracer();
 
-    // Rays through the centres of pixels, like the library's own views. Throws Error for options
+    // Rays go through the centres of pixels, as in the library's views. Throws Error for options
     // out of range.
     Picture render(const Camera& camera, const Options& options,
                    const Progress& progress = nullptr) const;
 
-    // What arrives at places, cosine included. width and height are not looked at.
+    // The irradiance at places, cosine included. width and height are ignored.
     Irradiance irradiance(const std::vector<Place>& places, const Options& options,
                           const Progress& progress = nullptr) const;
 

@@ -1,4 +1,4 @@
-// The scene as the host sees it: one world-space triangle list and what lights and looks at it.
+// The scene on the host: one list of triangles in world space, with lights and cameras.
 //
 // Right-handed, +Y up, metres, linear Rec.709. Light units are those of KHR_lights_punctual and
 // KHR_materials_emissive_strength: candela, lux, candela per square metre.
@@ -16,7 +16,7 @@ namespace clgi {
 
 enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
 
-// An 8-bit picture, row 0 at the top, four bytes a texel.
+// An 8-bit image, row 0 at the top, four bytes per texel.
 struct Texture {
     std::string name;
     int width = 0;
@@ -37,7 +37,7 @@ struct TextureSlot {
 
 enum class AlphaMode { opaque, mask };
 
-// glTF metallic-roughness. docs/materials.md says which reflectance follows from it.
+// glTF metallic-roughness. docs/materials.md defines the reflectance.
 struct Material {
     std::string name;
     glm::vec4 base_color = glm::vec4(1.0f);  // linear rgb in [0,1], alpha
@@ -64,9 +64,9 @@ struct Light {
     glm::dvec3 position = glm::dvec3(0.0);
     glm::vec3 direction = glm::vec3(0.0f, 0.0f, -1.0f);  // unit; spot and directional
     glm::vec3 intensity = glm::vec3(1.0f);  // color times intensity: candela, directional lux
-    float range = 0.0f;                     // metres where the light ends; 0: unlimited
-    float inner_angle = 0.0f;               // radians from the axis, full intensity inside; spot
-    float outer_angle = 0.78539816f;        // radians from the axis, none outside; spot
+    float range = 0.0f;                     // metres; the light ends there; 0: unlimited
+    float inner_angle = 0.0f;               // radians from the axis; full intensity inside; spot
+    float outer_angle = 0.78539816f;        // radians from the axis; no light outside; spot
 };
 
 struct Camera {
@@ -82,21 +82,21 @@ struct Camera {
     float near = 0.0f;          // metres; 0: derived from the scene's size
 };
 
-// Light from infinitely far, in every direction: a latitude-longitude picture or one colour.
+// Light from infinitely far away: a latitude-longitude picture or one colour.
 //
-// Row 0 of the picture lies around +Y, the last around -Y. Its columns go round as a viewer at the
-// origin sees them, from left to right: the middle of the picture is -Z, three quarters of its
-// width are +X, both edges +Z. A texel's radiance is the same all over it.
+// Row 0 of the picture lies around +Y, the last row around -Y. Columns run from left to right as
+// seen from the origin: the middle of the picture is -Z, three quarters of its width are +X, both
+// edges are +Z. Radiance is constant over a texel.
 struct Environment {
     int width = 0;  // texels; 0x0: no picture, the factor alone
     int height = 0;
     std::vector<glm::vec3> texels;       // [height][width] linear rgb, at least 0
     glm::vec3 factor = glm::vec3(1.0f);  // times the texel: radiance, cd/m^2
     float rotation = 0.0f;  // radians about +Y, counter-clockwise seen from above: a quarter
-                            // turn takes the picture's middle from -Z to -X
+                            // turn moves the picture's middle from -Z to -X
 };
 
-// A range of triangles that moves as one: a glTF primitive placed by a node.
+// A range of triangles: a glTF primitive of one node.
 struct Part {
     std::string name;
     std::uint32_t first_triangle = 0;
@@ -111,36 +111,36 @@ struct Bounds {
 struct Scene {
     std::string name;
 
-    // One entry a vertex. uv: set 0 in xy, set 1 in zw; color: linear, empty when no vertex has
+    // One entry per vertex. uv: set 0 in xy, set 1 in zw; color: linear, empty if no vertex has
     // one.
     std::vector<glm::dvec3> positions;  // metres
     std::vector<glm::vec3> normals;     // unit, world space
-    std::vector<glm::vec4> uvs;         // empty when nothing is textured
+    std::vector<glm::vec4> uvs;         // empty if there are no textures
     std::vector<glm::vec4> colors;      // rgba multiplier; empty: all white
 
     std::vector<SceneTriangle> triangles;
-    std::vector<Material> materials;  // at least one when there is a triangle
+    std::vector<Material> materials;  // at least one if there is a triangle
     std::vector<Texture> textures;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::vector<Part> parts;
     std::optional<Environment> environment;  // none: black
 
-    std::vector<std::string> warnings;  // one line each: what was ignored, mended or assumed
+    std::vector<std::string> warnings;  // one line each: what was ignored, corrected or assumed
 };
 
-// Box around every vertex that a triangle uses; both corners zero for a scene without triangles.
+// The box around all vertices of triangles; both corners are zero for a scene without triangles.
 CLGI_API Bounds bounds(const Scene& scene);
 
-// Throws InputError naming the first array, index and value that breaks Scene's contract:
+// Throws InputError naming the first array, index and value that violates Scene's contract:
 // array lengths, indices in range, finite positions, unit-length normals, materials, lights and
 // environment in their ranges.
 CLGI_API void validate(const Scene& scene);
 
-// A camera looking at (or, in a room, through) the scene, for files that have none.
+// A camera for files that have none, in front of an object or inside a room.
 CLGI_API Camera default_camera(const Scene& scene);
 
-// A light for scenes without lamp, emissive surface and environment: a directional light, pi lux.
+// A light for scenes without light, emissive surface and environment: directional, pi lux.
 CLGI_API Light default_light(const Scene& scene);
 
 CLGI_API bool has_emission(const Scene& scene);

@@ -1,4 +1,4 @@
-// Parts of a buffer as buffers of their own: how a pass is given an offset.
+// Parts of a buffer as sub-buffers, to give a pass an offset.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace clgi {
 
-// Bytes of which a slice's beginning must be a multiple, on all devices of the context.
+// The beginning of a slice must be a multiple of this many bytes, on all devices of the context.
 CLGI_API std::size_t slice_alignment(const cl::Context& context);
 
-// Bytes first .. first + bytes - 1 of a buffer, as a sub-buffer on the same memory; of a sub-buffer
-// too. Nothing is allocated on the device.
-// Throws Error naming what it got and needed: a beginning that is not aligned, an empty slice, one
-// that reaches past the end.
+// Bytes first .. first + bytes - 1 of a buffer or sub-buffer, as a sub-buffer on the same memory.
+// Nothing is allocated on the device.
+// Throws Error naming what it got and needed for a beginning that is not aligned, for an empty
+// slice and for one that reaches past the end.
 CLGI_API cl::Buffer slice(const cl::Buffer& buffer, std::size_t first, std::size_t bytes);
 
 // The same in elements of T.

@@ -7,7 +7,7 @@
 // Writes       its own pixels of the planes asked for; past the last pixel of the view, inside
 //              the stride, zeros
 // SPDX-License-Identifier: MIT
-#include "gbuffer/surface.clh"
+#include "gbuffer/hit.clh"
 #include "gbuffer/visibility.clh"
 #include "gbuffer/window.clh"
 #include "planes.clh"
@@ -75,8 +75,7 @@ kernel void gbuffer_resolve(
     if (params.write & RESOLVE_GEOMETRIC)
         store3(surface.geometric_x, surface.geometric_y, surface.geometric_z, planes,
                GBUFFER_GEOMETRIC, stride, pixel);
-    store3(surface.albedo_r, surface.albedo_g, surface.albedo_b, planes, GBUFFER_ALBEDO, stride,
-           pixel);
+    store3(surface.base_r, surface.base_g, surface.base_b, planes, GBUFFER_BASE, stride, pixel);
     if (params.write & RESOLVE_EMISSION)
         store3(surface.emission_r, surface.emission_g, surface.emission_b, planes,
                GBUFFER_EMISSION, stride, pixel);

@@ -4,6 +4,7 @@
 //                                                              [Cochran07, section 4]
 //
 // Work size    1D, one work-item a block of COMPACT_BLOCK pixels; any local size; tail guarded
+// Cost         1 byte read a pixel, 48 moved a listed point; an offset a block
 // Writes       its own part of the list; the last block the count and zeros up to a whole packet
 // SPDX-License-Identifier: MIT
 #include "planes.clh"
@@ -12,7 +13,7 @@
 kernel void image_compact(
     const RefineParams   params,
     global const uchar*  restrict flags,   // [width * height]
-    global const uint*   restrict counts,  // [blocks] from image_count
+    global const uint*   restrict offsets,  // [blocks] image_count, then parallel_offsets
     global const float*  restrict planes,  // [>= POINT_PLANES][stride]
     global uint*         restrict pixels,       // [stride] pixel of each listed point
     global float*        restrict points,       // [POINT_PLANES][stride]
@@ -24,8 +25,7 @@ kernel void image_compact(
     if (first >= total) return;
     uint last = min(first + COMPACT_BLOCK, total);
 
-    uint place = 0;
-    for (uint b = 0; b < block; ++b) place += counts[b];
+    uint place = offsets[block];
     for (uint pixel = first; pixel < last; ++pixel) {
         if (!flags[pixel]) continue;
         pixels[place] = pixel;

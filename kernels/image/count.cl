@@ -1,7 +1,8 @@
 // How many pixels of each block are flagged.
-// [derived: first half of a stream compaction; compact.cl is the second]
+// [derived: first of the three steps of a compaction; then parallel/offsets.cl and compact.cl]
 //
 // Work size    1D, one work-item a block of COMPACT_BLOCK pixels; any local size; tail guarded
+// Cost         1 byte read a pixel
 // Writes       its own count
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/image.h"

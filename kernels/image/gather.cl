@@ -20,8 +20,8 @@ kernel void image_gather(
     const GatherParams           params,
     global const uint*           restrict point_count,  // [1]
     global const float*          restrict points,       // [POINT_PLANES][stride]
-    global const IndirectLight*  restrict lights,       // [light_count]
-    global const IndirectLight*  restrict negative,     // [negative_count]
+    global const Vpl*  restrict lights,       // [vpl_count]
+    global const Vpl*  restrict negative,     // [negative_count]
     global float*                restrict irradiance)   // [IRRADIANCE_PLANES][stride] lux, exposed
 {
     uint point = (uint)get_global_id(0) * CLGI_WIDTH;
@@ -40,8 +40,8 @@ kernel void image_gather(
     floatp red = zero, green = zero, blue = zero;
     // The negative lights first; what they sum to is taken from the sum of the others.
     for (int sign = 0; sign < 2; ++sign) {
-        uint count = sign == 0 ? params.negative_count : params.light_count;
-        global const IndirectLight* light = sign == 0 ? negative : lights;
+        uint count = sign == 0 ? params.negative_count : params.vpl_count;
+        global const Vpl* light = sign == 0 ? negative : lights;
         floatp sum_red = zero, sum_green = zero, sum_blue = zero;
         for (uint l = 0; l < count; ++l, ++light) {
             float4 position = light->position;

@@ -14,7 +14,7 @@
 // Writes        its own light; flux 0 where the sample leaves the scene or meets a back face
 // SPDX-License-Identifier: MIT
 #include "gbuffer/locate.clh"
-#include "gbuffer/surface.clh"
+#include "gbuffer/hit.clh"
 #include "gbuffer/visibility.clh"
 #include "lights/sample.clh"
 
@@ -24,21 +24,21 @@ kernel void lights_fetch(
     global const Emitter*  restrict emitters,    // [emitter_count]
     global const View*     restrict views,       // of all emitters
     global const ulong*    restrict visibility,  // [pixels of all views]
-    global const uint*     restrict accepted,    // [light_count] from lights_accept_list
+    global const uint*     restrict accepted,    // [vpl_count] from lights_accept_list
     SCENE_ARGUMENTS,
-    global IndirectLight*  restrict lights)      // [light_count]
+    global Vpl*  restrict lights)      // [vpl_count]
 {
     uint light = (uint)get_global_id(0);
-    if (light >= params.light_count) return;
+    if (light >= params.vpl_count) return;
     SceneBuffers scene = SCENE_BUFFERS;
 
     uint e = 0;
-    while (e + 1 < params.emitter_count && light >= emitters[e + 1].first_light) ++e;
+    while (e + 1 < params.emitter_count && light >= emitters[e + 1].first_vpl) ++e;
     global const Emitter* emitter = emitters + e;
-    uint rank = light - emitter->first_light;
+    uint rank = light - emitter->first_vpl;
     uint index = emitter->kind == EMITTER_SPOT ? accepted[light] : emitter->first_index + rank;
 
-    IndirectLight out;
+    Vpl out;
     out.position = (float4)(0.0f);
     out.normal = (float4)(0.0f);
     out.flux = (float4)(0.0f);
@@ -62,21 +62,23 @@ kernel void lights_fetch(
             packet_store(surface.normal_x, lanes[3]);
             packet_store(surface.normal_y, lanes[4]);
             packet_store(surface.normal_z, lanes[5]);
-            packet_store(surface.albedo_r, lanes[6]);
-            packet_store(surface.albedo_g, lanes[7]);
-            packet_store(surface.albedo_b, lanes[8]);
+            packet_store(surface.base_r, lanes[6]);
+            packet_store(surface.base_g, lanes[7]);
+            packet_store(surface.base_b, lanes[8]);
             packet_store(surface.front, front);
             int sends = triangle >= 0 &&
                         (front[0] || (triangles[triangle].w & (uint)TRIANGLE_DOUBLE_SIDED));
             if (sends) {
                 float3 position = (float3)(lanes[0][0], lanes[1][0], lanes[2][0]);
                 float3 normal = (float3)(lanes[3][0], lanes[4][0], lanes[5][0]);
-                float3 albedo = (float3)(lanes[6][0], lanes[7][0], lanes[8][0]);
+                float3 base = (float3)(lanes[6][0], lanes[7][0], lanes[8][0]);
+                uint material = triangles[triangle].w & TRIANGLE_MATERIAL;
+                float3 albedo = base * materials[material].reflectance.x;
                 float distance = length(position - sample.origin);
                 float cosine = max(-dot(normal, sample.direction), 0.01f);
                 int parallel = emitter->kind == EMITTER_DIRECTIONAL;
                 float area = sample.spread * (parallel ? 1.0f : distance * distance) / cosine;
-                float falloff = parallel ? 1.0f : range_falloff(distance, emitter->range);
+                float falloff = parallel ? 1.0f : range_falloff_one(distance, emitter->range);
                 float radius2 = params.footprint * area / CLGI_PI;
                 out.position = (float4)(position, radius2);
                 out.normal = (float4)(normal, radius2 * radius2);

@@ -31,8 +31,8 @@ kernel void lights_negative(
     const NegativeParams         params,
     const View                   view,
     global const float*          restrict planes,    // [GBUFFER_PLANES][stride]
-    global const IndirectLight*  restrict lights,    // [light_count]
-    global IndirectLight*        restrict negative)  // [negative_count]
+    global const Vpl*  restrict lights,    // [vpl_count]
+    global Vpl*        restrict negative)  // [negative_count]
 {
     uint sample = (uint)get_global_id(0);
     if (sample >= params.negative_count) return;
@@ -48,7 +48,7 @@ kernel void lights_negative(
     float3 stopped = (float3)(0.0f);
     float3 toward = (float3)(0.0f);
     if (dot(n, n) > 0.0f) {
-        for (uint l = 0; l < params.light_count; ++l) {
+        for (uint l = 0; l < params.vpl_count; ++l) {
             float4 position = lights[l].position;
             float3 t = position.xyz - p;
             float behind = -dot(n, t);
@@ -64,7 +64,7 @@ kernel void lights_negative(
         }
     }
 
-    IndirectLight out;
+    Vpl out;
     out.position = (float4)(0.0f);
     out.normal = (float4)(0.0f);
     out.flux = (float4)(0.0f);

@@ -36,7 +36,7 @@ int check() {
     clgi::SecondOrderOptions options;
     options.width = 64;
     options.height = 48;
-    options.negative_lights = 0;
+    options.negative_vpls = 0;
     options.direct = false;
     clgi::SecondOrderSolver solver(queue, device_scene, options);
     solver.render(scene.cameras.front()).wait();

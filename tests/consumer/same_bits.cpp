@@ -53,8 +53,8 @@ clgi::View view_into_the_room() {
     return view;
 }
 
-std::vector<clgi::IndirectLight> lights_on_the_floor() {
-    std::vector<clgi::IndirectLight> lights(64);
+std::vector<clgi::Vpl> lights_on_the_floor() {
+    std::vector<clgi::Vpl> lights(64);
     for (int l = 0; l < 64; ++l) {
         const float x = (static_cast<float>(l % 8) - 3.5f) / 8.0f;
         const float z = (static_cast<float>(l / 8) - 3.5f) / 8.0f;
@@ -73,32 +73,22 @@ std::vector<float> irradiance(const cl::Device& device) {
     };
     const clgi::DeviceScene scene(context, device, room_with_a_block());
     const clgi::View view = view_into_the_room();
-    const clgi::RasterBuffers raster{
-        buffer(pixels * sizeof(std::uint64_t)),
-        buffer(scene.info().vertex_count * sizeof(clgi::ScreenVertex)),
-        buffer(scene.info().triangle_count * sizeof(clgi::RasterPolygon)),
-        buffer(clgi::raster_runs(scene.info().triangle_count) * sizeof(clgi::RasterRun)),
-        buffer(sizeof(cl_uint))};
+    const cl::Buffer visibility = buffer(pixels * sizeof(std::uint64_t));
+    std::vector<clgi::View> view_list{view};
+    const cl::Buffer views(context, view_list.begin(), view_list.end(), true);
     const cl::Buffer planes = buffer(sizeof(float) * clgi::GBUFFER_PLANES * stride);
     const cl::Buffer ids = buffer(sizeof(int) * clgi::GBUFFER_ID_PLANES * stride);
     const cl::Buffer result = buffer(sizeof(float) * clgi::IRRADIANCE_PLANES * stride);
-    std::vector<clgi::IndirectLight> lights = lights_on_the_floor();
+    std::vector<clgi::Vpl> lights = lights_on_the_floor();
     const cl::Buffer light_buffer(context, lights.begin(), lights.end(), true);
     std::vector<cl_uint> count{pixels};
     const cl::Buffer point_count(context, count.begin(), count.end(), true);
 
     const clgi::GBufferPasses gbuffer(context, device);
     const clgi::ImagePasses image(context, device);
-    gbuffer.clear(queue, view, raster);
-    gbuffer.transform(queue, view, scene, raster);
-    if (gbuffer.fused()) {
-        gbuffer.raster(queue, view, scene, clgi::RASTER_FUSED, raster);
-    } else {
-        gbuffer.raster(queue, view, scene, clgi::RASTER_DEPTH, raster);
-        gbuffer.raster(queue, view, scene, clgi::RASTER_IDENTITY, raster);
-    }
-    gbuffer.raster_large(queue, view, scene, raster);
-    gbuffer.resolve(queue, view, scene, {stride, 0, 0, 0}, raster.visibility, planes, ids);
+    gbuffer.raster_views(queue, clgi::span_of(view_list, 0, 1), views, scene, visibility,
+                         clgi::Pixels::visibility);
+    gbuffer.resolve(queue, view, scene, {stride, 0, 0, 0}, visibility, planes, ids);
     image.gather(queue, {stride, 64, 0, 0}, pixels, point_count, planes, light_buffer, light_buffer,
                  result);
     std::vector<float> values(clgi::IRRADIANCE_PLANES * stride);

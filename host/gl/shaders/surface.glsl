@@ -58,7 +58,7 @@ Surface surface_at(vec2 at, int triangle) {
     float slant = abs(determinant);
     float footprint = slant > 0.0 ? pixel * reach * twice_area / slant : 0.0;
 
-    // Colour: factor, vertex colour, texture; then the diffuse share of it.
+    // Base colour: factor, vertex colour, texture.
     vec4 base = material_row(material, MATERIAL_BASE);
     vec3 emission = (scene_flags & SCENE_HAS_EMISSION) != 0u
                         ? material_row(material, MATERIAL_EMISSION).xyz
@@ -85,7 +85,7 @@ Surface surface_at(vec2 at, int triangle) {
                 slot_texture(slots.z, slots.w & 1, material_row(material, MATERIAL_EMISSION_UV),
                              material_row(material, MATERIAL_EMISSION_UV + 1), uv, area).xyz;
     }
-    result.albedo = base.xyz * material_row(material, MATERIAL_REFLECTANCE).x;
+    result.albedo = base.xyz;
     result.alpha = base.w;
     result.emission = emission;
     return result;

@@ -7,8 +7,8 @@
 
 namespace clgi::gl {
 
-// OpenGL 3.3 core or later through EGL: its surfaceless platform, else its device platform. Current
-// on the thread that made it, until it is destroyed; a thread has one current context at a time.
+// OpenGL 3.3 core or later through EGL: its surfaceless platform, else its device platform. It is
+// current on the thread that made it until it is destroyed. A thread has one current context.
 class CLGI_API HeadlessContext {
 public:
     // Throws DeviceError naming what was tried and why it failed.
@@ -17,10 +17,11 @@ public:
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;
 
-    // On the calling thread; it must not be current on another one. Throws DeviceError.
+    // Makes it current on the calling thread; it must not be current on another one. Throws
+    // DeviceError.
     void make_current() const;
 
-    // "surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5", for people.
+    // "surfaceless: llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5", for messages.
     const std::string& description() const { return description_; }
 
 private:
@@ -29,8 +30,8 @@ private:
 
     void* display_ = nullptr;
     void* context_ = nullptr;
-    void* surface_ = nullptr;  // of one pixel, where a context cannot do without
-    bool counted_ = false;     // the display counts its users, so it can be given back
+    void* surface_ = nullptr;  // of one pixel, if a context needs one
+    bool counted_ = false;     // the display counts its users, so it can be released
     std::string description_;
 };
 

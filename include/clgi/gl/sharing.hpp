@@ -1,4 +1,4 @@
-// Whether OpenCL reads OpenGL's textures where they are, by cl_khr_gl_sharing, or from a copy.
+// Whether OpenCL reads OpenGL's textures directly, through cl_khr_gl_sharing, or from a copy.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,17 +9,17 @@
 
 namespace clgi::gl {
 
-// What a cl::Context must be made with to share the objects of the OpenGL context that is current
-// on this thread, EGL's or GLX's; ends with 0. Empty when the device cannot: without
-// cl_khr_gl_sharing, or when the context lives on another device.
+// The properties that a cl::Context needs to share objects with the OpenGL context that is current
+// on this thread, by EGL or GLX; ends with 0. Empty if the device cannot share: without
+// cl_khr_gl_sharing, or if the OpenGL context is on another device.
 // Throws Error when no OpenGL context is current.
 CLGI_API std::vector<cl_context_properties> sharing_properties(const cl::Device& device);
 
-// The way that textures take. A default one copies, and says that it was asked to.
+// How textures are read. The default copies.
 struct Sharing {
     bool zero_copy = false;
     std::string reason = "copied: as asked for";
-    bool implicit = false;  // cl_khr_gl_event: acquiring waits for OpenGL by itself
+    bool implicit = false;  // cl_khr_gl_event: acquiring waits for OpenGL
 
     // Entry points of cl_khr_gl_sharing; needed for zero_copy.
     cl_mem(CL_API_CALL* create)(cl_context, cl_mem_flags, cl_uint target, cl_int level,

@@ -9,24 +9,24 @@
 namespace clgi::io {
 
 struct GltfOptions {
-    int scene = -1;  // which scene of the file; -1: the file's default, else its first
-    bool lightmaps = false;  // keeps texture coordinates that no texture reads
-    std::size_t max_triangles = std::size_t{1} << 26;  // placed; more is an InputError
+    int scene = -1;  // index of the scene; -1: the file's default, else its first
+    bool lightmaps = false;  // keeps texture coordinates without a texture
+    std::size_t max_triangles = std::size_t{1} << 26;  // of all instances; more is an InputError
     std::size_t max_texels = std::size_t{1} << 28;     // of all textures together
 };
 
-// Reads a .gltf or .glb file (told apart by content) and flattens it: nodes, skins and morph
-// targets in their rest pose, strips and fans, every placed copy of a mesh in world space.
-// Nothing in the file is trusted: every index, offset, count and number is checked before use.
+// Reads a .gltf or .glb file (recognised by content) and flattens it: nodes, skins and morph
+// targets in their rest pose, strips and fans, every instance of a mesh in world space.
+// The file is not trusted: every index, offset, count and number is checked before use.
 //
-// Throws InputError with one line "file: what is wrong and where" for a file that is broken or
-// that requires an extension which is not supported. What is merely odd becomes a line in
+// Throws InputError with one line "file: what is wrong and where" for a file that is invalid or
+// that requires an unsupported extension. Unusual but usable content becomes a line in
 // Scene::warnings.
 CLGI_API Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 // Writes a self-contained .glb: geometry, materials, textures (as PNG), lights, cameras.
 // Positions are stored as float32 relative to a node at the scene's centre.
-// The file appears whole or not at all. Throws InputError when it cannot be written.
+// Either the complete file is written or none. Throws InputError when it cannot be written.
 CLGI_API void save_glb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace clgi::io

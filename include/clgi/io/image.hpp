@@ -1,4 +1,4 @@
-// Pictures in and out: OpenEXR, PNG, Radiance HDR. Files appear whole or not at all.
+// Reading and writing pictures: OpenEXR, PNG, Radiance HDR. No partial file is ever left.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -26,19 +26,19 @@ struct CLGI_API Image {
     const Channel* find(const std::string& name) const;  // null when there is none
 };
 
-enum class Storage { half, full };
+enum class PixelType { half, full };
 
 struct LoadReport {
     std::size_t non_finite = 0;  // samples that were NaN or infinite, now 0 or the largest float
 };
 
-// Reads .exr (scanline or tiled, first part) or .hdr (told apart by content). Non-finite samples
+// Reads .exr (scanline or tiled, first part) or .hdr (recognised by content). Non-finite samples
 // are replaced and counted in report. Throws InputError: "file: what is wrong".
 CLGI_API Image load_image(const std::filesystem::path& path, LoadReport* report = nullptr);
 
 // Writes EXR, ZIP-compressed. half saturates at 65504 instead of becoming infinite.
 // Attributes become string attributes of the header.
-CLGI_API void save_exr(const Image& image, const std::filesystem::path& path, Storage storage);
+CLGI_API void save_exr(const Image& image, const std::filesystem::path& path, PixelType type);
 
 // Writes an 8-bit sRGB PNG from RGBA bytes, row 0 at the top. rgba: [height][width][4]
 CLGI_API void save_png(int width, int height, const std::vector<std::uint8_t>& rgba,

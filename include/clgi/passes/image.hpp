@@ -1,4 +1,4 @@
-// From lights and points to a picture, one method a kernel. Structs: clgi/shared/image.h.
+// From VPLs and points to a picture, one method per kernel. Structs: clgi/shared/image.h.
 // Rules for all methods: clgi/passes/gbuffer.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -7,37 +7,60 @@
 #include <clgi/device_scene.hpp>
 #include <clgi/export.hpp>
 #include <clgi/pass.hpp>
+#include <clgi/programs.hpp>
+#include <initializer_list>
 #include <clgi/planes.hpp>
 #include <clgi/passes/lights.hpp>
 
 namespace clgi {
 
+// What combine reads and writes.
+struct CombineBuffers {
+    EmitterBuffers emitters;
+    GBuffer gbuffer;
+    cl::Buffer irradiance;  // [IRRADIANCE_PLANES][stride]; not read without COMBINE_INDIRECT
+    cl::Buffer radiance;    // [RADIANCE_PLANES][stride] cd/m^2
+    cl::Buffer non_finite;  // [1] uint, only added to
+};
+
+// Size, exposure, bias and shadow maps for a picture of the scene, and COMBINE_MATERIALS if its
+// materials need it. The caller adds the other effects.
+CLGI_API CombineParams combine_params(const DeviceScene& scene, const View& view,
+                                      std::uint32_t stride, std::size_t emitters,
+                                      Pixels shadow_maps);
+
+// For the scene's environment; the scene must have one.
+CLGI_API EnvironmentParams environment_params(const DeviceScene& scene, std::uint32_t stride);
+
 class CLGI_API ImagePasses {
 public:
+    explicit ImagePasses(const Programs& programs, const BuildOptions& options = {});
     ImagePasses(const cl::Context& context, const cl::Device& device,
-                const BuildOptions& options = {});
+                const BuildOptions& options = {})
+        : ImagePasses(Programs(context, device), options) {}
 
-    // points [POINT_PLANES][stride] lit by lights and negative lights into irradiance
-    // [IRRADIANCE_PLANES][stride], for those of the range that are among the first *point_count.
-    // A range begins at a multiple of 16.
+    // Irradiance [IRRADIANCE_PLANES][stride] of points [POINT_PLANES][stride] by VPLs (lights) less
+    // negative VPLs, for those of the range that are among the first *point_count. A range begins
+    // at a multiple of 16.
     cl::Event gather(const cl::CommandQueue& queue, const GatherParams& params, const Range& range,
                      const cl::Buffer& point_count, const cl::Buffer& points,
                      const cl::Buffer& lights, const cl::Buffer& negative,
                      const cl::Buffer& irradiance, const WaitList& wait = {}) const;
 
-    // counts: [pixels / COMPACT_BLOCK, rounded up] uint.
+    // counts: [pixels / COMPACT_BLOCK, rounded up] uint. ParallelPasses::offsets turns them into
+    // the offsets that compact takes.
     cl::Event count(const cl::CommandQueue& queue, std::uint32_t pixels, const cl::Buffer& flags,
                     const cl::Buffer& counts, const WaitList& wait = {}) const;
 
-    // Flagged pixels in a row: listed [stride] uint, points [POINT_PLANES][stride], point_count
+    // Lists the flagged pixels: listed [stride] uint, points [POINT_PLANES][stride], point_count
     // [1].
     cl::Event compact(const cl::CommandQueue& queue, const RefineParams& params,
-                      const cl::Buffer& flags, const cl::Buffer& counts, const cl::Buffer& planes,
+                      const cl::Buffer& flags, const cl::Buffer& offsets, const cl::Buffer& planes,
                       const cl::Buffer& listed, const cl::Buffer& points,
                       const cl::Buffer& point_count, const WaitList& wait = {}) const;
 
     // low [IRRADIANCE_PLANES][low_stride] -> irradiance [IRRADIANCE_PLANES][stride], and flags
-    // [width * height] uchar, 1 where low resolution does not suit.
+    // [width * height] uchar, 1 where the pixel must be gathered itself.
     cl::Event upsample(const cl::CommandQueue& queue, const RefineParams& params,
                        const cl::Buffer& planes, const cl::Buffer& points, const cl::Buffer& low,
                        const cl::Buffer& irradiance, const cl::Buffer& flags,
@@ -49,14 +72,13 @@ public:
                     const cl::Buffer& refined, const cl::Buffer& irradiance,
                     const WaitList& wait = {}) const;
 
-    // radiance: [RADIANCE_PLANES][stride] cd/m^2; non_finite [1] uint is only added to.
+    // Emission, direct and indirect light of every pixel of the view. Packets with numbers that are
+    // not finite are counted and mended.
     cl::Event combine(const cl::CommandQueue& queue, const CombineParams& params, const View& view,
-                      const DeviceScene& scene, const SourceBuffers& sources,
-                      const cl::Buffer& planes, const cl::Buffer& ids, const cl::Buffer& irradiance,
-                      const cl::Buffer& radiance, const cl::Buffer& non_finite,
+                      const DeviceScene& scene, const CombineBuffers& buffers,
                       const WaitList& wait = {}) const;
 
-    // Pixels of the view in which nothing is (no normal in planes) -> radiance
+    // Background pixels of the view (no normal in planes) -> radiance
     // [RADIANCE_PLANES][stride]; texels: [environment_height][environment_width][3] float, times
     // the factor in cd/m^2.
     cl::Event environment(const cl::CommandQueue& queue, const EnvironmentParams& params,
@@ -69,6 +91,9 @@ public:
                       const WaitList& wait = {}) const;
 
     int packet_width() const { return gather_.packet_width; }
+
+    // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
+    void build(std::initializer_list<const char*> passes) const;
 
 private:
     PassKernel gather_, count_, compact_, upsample_, place_, combine_, tonemap_, environment_;

@@ -1,23 +1,22 @@
-// A G-buffer from what another renderer drew, one method a kernel. Layouts: clgi/shared/gbuffer.h.
-//
-// Every method checks sizes, enqueues one kernel on the caller's queue and returns its event. It
-// allocates nothing and never waits. Throws Error for what is too small or out of range.
+// A G-buffer from another renderer's images, one method per kernel. Layouts: shared/gbuffer.h.
+// Rules for all methods: clgi/passes/gbuffer.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/shared/gbuffer.h>
 #include <clgi/device_scene.hpp>
 #include <clgi/pass.hpp>
+#include <clgi/programs.hpp>
 #include <clgi/passes/gbuffer.hpp>
 
 namespace clgi {
 
-// Texels as images of the view's size. Those that ImportParams::flags leave out may be empty.
+// Texels as images of the view's size. Images that ImportParams::flags does not name may be empty.
 struct ImportImages {
     cl::Image2D position;  // xyz, metres
     cl::Image2D normal;    // xyz, any length
     cl::Image2D geometric;
-    cl::Image2D albedo;    // rgb, linear
+    cl::Image2D albedo;    // rgb: linear base colour; without material: diffuse reflectance
     cl::Image2D emission;  // rgb, cd/m^2
     cl::Image2D depth;     // metres along the view's axis
     cl::Image2D labels;    // x: material; y: triangle
@@ -44,10 +43,12 @@ CLGI_API std::size_t texel_bytes(std::uint32_t format);
 
 class CLGI_API ImportPasses {
 public:
+    explicit ImportPasses(const Programs& programs, const BuildOptions& options = {});
     ImportPasses(const cl::Context& context, const cl::Device& device,
-                 const BuildOptions& options = {});
+                 const BuildOptions& options = {})
+        : ImportPasses(Programs(context, device), options) {}
 
-    // The pixels that were not finite are added to non_finite [1] uint.
+    // Adds the number of pixels that are not finite to non_finite [1] uint.
     cl::Event buffers(const cl::CommandQueue& queue, const View& view, const ImportParams& params,
                       const ImportBuffers& texels, const GBuffer& out, const cl::Buffer& non_finite,
                       const WaitList& wait = {}) const;

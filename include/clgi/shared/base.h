@@ -1,4 +1,4 @@
-// Words that C++ and OpenCL C both know, so that one definition serves both compilers.
+// Types and macros for headers that both C++ and OpenCL C compile.
 // Shared structs hold float4, float, int and uint only, in rows of 16 bytes.
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_BASE_H
@@ -8,7 +8,7 @@
 #define CLGI_SHARED_BEGIN
 #define CLGI_SHARED_END
 #define CLGI_INLINE static inline __attribute__((always_inline))
-// Every fused multiply-add in clgi is written out as fma(): the same bits from every compiler.
+// Multiply-adds are fused only where fma() is written, so every compiler gives the same bits.
 #pragma OPENCL FP_CONTRACT OFF
 #else
 #include <cstdint>

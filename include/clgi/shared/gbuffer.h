@@ -24,23 +24,15 @@ typedef struct {
 
 enum { VIEW_CULL_BACK_FACES = 1 };
 
-// Visibility buffer: one 64-bit word a pixel, (~closeness bits) << 32 | triangle, the smallest
-// wins: the nearest surface, ties to the smaller triangle index. Closeness is linear on the
-// screen and grows towards the eye: 1/z, or (far - z)/(far - near) when orthographic.
-// Nothing there: all bits set.
-
-// A vertex projected to 1/256 of a pixel.
-typedef struct {
-    int x;  // 24.8 fixed point, pixel (0,0) spans [0,256)
-    int y;
-    float closeness;
-    uint outside;  // 1: nearer than the near plane, 2: beyond the guard band
-} ScreenVertex;
+// Visibility buffer: one 64-bit word per pixel, (~closeness bits) << 32 | triangle. The smallest
+// wins: the nearest surface, and of equal ones the smaller triangle index. Closeness is linear on
+// the screen and grows towards the eye: 1/z, or (far - z)/(far - near) when orthographic.
+// Background: all bits set. A depth buffer has only the upper half of each word, 32 bits per pixel.
 
 enum { VERTEX_BEFORE_NEAR = 1, VERTEX_BEYOND_GUARD = 2 };
 enum { SUBPIXELS = 256, GUARD_PIXELS = 32000 };
 
-// A triangle that is large on the screen or was clipped: a convex polygon for raster_large.
+// A triangle that is large on the screen or was clipped: a convex polygon.
 typedef struct {
     int x[8];  // 24.8 fixed point, counter-clockwise on screen (y down: positive area)
     int y[8];
@@ -62,8 +54,8 @@ typedef struct {
     uint pad1_;
 } RasterPolygon;
 
-// Polygons that one work-item of raster listed, side by side: neighbours on the mesh, so what lies
-// outside their common box is passed over at once.
+// The polygons that one work-item of raster listed. They are neighbours on the mesh, so a tile
+// outside their common box passes over all of them at once.
 typedef struct {
     int left;  // pixels, inclusive
     int top;
@@ -75,27 +67,53 @@ typedef struct {
     uint pad1_;
 } RasterRun;
 
+// What has been listed for one view.
+typedef struct {
+    uint runs;
+    uint polygons;  // places asked for; more than the capacity if some did not fit
+    uint late;      // batches that did not fit, for raster_late
+    uint pad_;
+} RasterCount;
+
 typedef struct {
     uint triangle_count;
     uint stage;       // RASTER_...
     uint small_size;  // a triangle at most this many pixels wide and high is drawn at once
-    uint pad_;
+    uint first_view;  // in the buffer of views; the second dimension of the launch counts from it
+    uint capacity;    // polygons, and runs, that there is room for in each view's list
+    uint late_capacity;  // batches of the scene
+    uint cull;           // 1: clusters outside the view are passed over
+    uint scene_flags;    // SCENE_HAS_...
 } RasterParams;
 
-// Devices with 64-bit atomics draw in one stage; others find depth first, then triangles.
+// Depth alone, and any view with 64-bit atomics, is drawn in one stage; else depth comes first,
+// then triangles.
 enum { RASTER_FUSED = 0, RASTER_DEPTH = 1, RASTER_IDENTITY = 2 };
 
-// Packets of triangles that one work-item of raster sorts out together.
+// Packets of triangles that one work-item of raster sorts out together; all of one cluster.
 enum { RASTER_BATCH = 4 };
 
-enum { RASTER_TILE = 32 };  // pixels; side of the squares that raster_large works in
+enum { RASTER_TILE = 32 };  // pixels; side of the squares that large polygons are drawn in
+
+// Views around points of surfaces, made on the device: five faces of a hemicube over the surface
+// in the order normal, right, up, left, down, or six of a cube: +x, -x, +y, -y, +z, -z.
+typedef struct {
+    uint point_count;
+    uint faces;        // 5 or 6
+    uint size;         // pixels, side of a whole face; even for hemicubes
+    uint first_view;   // place of the first point's views
+    uint first_pixel;  // place of its pixels
+    uint stride;       // of the planes of points
+    float lift;        // from the surface to the eye, along the normal, local frame
+    float near;        // nearest depth that is drawn, local frame
+} CubeParams;
 
 // Planes of a G-buffer, each `stride` floats: three for every vector, y and z behind x.
 enum {
     GBUFFER_POSITION = 0,   // local frame
     GBUFFER_NORMAL = 3,     // shading normal, unit, towards the viewer; 0 where nothing is
     GBUFFER_GEOMETRIC = 6,  // of the triangle, unit, towards the viewer
-    GBUFFER_ALBEDO = 9,     // diffuse reflectance, [0,1]
+    GBUFFER_BASE = 9,       // base colour, [0,1]; combine multiplies by the material's shares
     GBUFFER_EMISSION = 12,  // radiance, exposed
     GBUFFER_DEPTH = 15,     // along the view's axis, local frame; 0 where nothing is
     GBUFFER_PLANES = 16
@@ -112,6 +130,21 @@ enum {
     RESOLVE_TRIANGLE = 8,
     RESOLVE_ALL = 15
 };
+
+// A point of the surface: triangle and the weights of its second and third corner.
+typedef struct {
+    uint triangle;  // of the device
+    float b1;
+    float b2;
+    float footprint;  // area that it represents, local frame: selects mip levels; 0: the finest
+} SurfaceSample;
+
+typedef struct {
+    uint sample_count;
+    uint stride;  // of the planes and the texture coordinates
+    uint write_uvs;  // 1: texture coordinates too
+    uint pad_;
+} SurfaceParams;
 
 typedef struct {
     uint stride;  // floats between planes, a multiple of 16, at least width * height
@@ -132,7 +165,7 @@ typedef struct {
     uint pad2_;
 } DownsampleParams;
 
-// What another renderer drew becomes planes: local = texel * scale + offset.
+// From another renderer's texels to planes: local = texel * scale + offset.
 typedef struct {
     float4 offset;  // xyz: where the texel (0,0,0) lies, local frame
     float scale;    // local units in a metre
@@ -143,13 +176,13 @@ typedef struct {
     uint triangle_count;    // nor any triangle
     uint normal_format;     // TEXEL_..., of buffers; images know theirs
     uint geometric_format;
-    uint albedo_format;
+    uint albedo_format;  // of the base colour
     uint emission_format;
     uint pad0_;
     uint pad1_;
 } ImportParams;
 
-// What there is besides normals and albedo, and where the first row of texels belongs.
+// What is given besides normals and base colour, and where the first row of texels belongs.
 enum {
     IMPORT_POSITION = 1,    // else positions follow from depth
     IMPORT_GEOMETRIC = 2,   // else the shading normals stand in

@@ -2,8 +2,8 @@
 //
 //   Phi_b(i) = sum_k a_k b^(-k-1),  i = sum_k a_k b^k            [Cochran07, section 3.1]
 //
-// The digits are reversed in integers, exactly, and divided once: at most 2.1 ulp for every 32-bit
-// index (2.4 in base 7), and never 1.
+// The digits are reversed exactly, in integers, and divided once. The error is at most 2.1 ulp for
+// every 32-bit index (2.4 in base 7), and the result is never 1.
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_HALTON_H
 #define CLGI_SHARED_HALTON_H
@@ -28,7 +28,7 @@ CLGI_INLINE float radical_inverse(uint index, uint base) {
     return value < CLGI_BELOW_ONE ? value : CLGI_BELOW_ONE;
 }
 
-// The same, moved round the circle by a shift in [0,1): a randomised replicate of the sequence.
+// The same plus a shift in [0,1), modulo 1: a randomised replicate of the sequence.
 // [Cranley and Patterson 1976]
 CLGI_INLINE float shifted_radical_inverse(uint index, uint base, float shift) {
     float value = radical_inverse(index, base) + shift;

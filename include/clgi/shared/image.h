@@ -7,25 +7,25 @@
 
 CLGI_SHARED_BEGIN
 
-// Irradiance planes, rgb: indirect light less negative indirect light, I_s - I_n. Signed: where
-// too much was taken away it is below 0, and only combine makes 0 of that.
+// Irradiance planes, rgb: indirect light less negative light, I_s - I_n. The values are signed:
+// they are below 0 where too much was removed, and combine clamps them to 0.
 enum { IRRADIANCE_PLANES = 3 };
 
 typedef struct {
     uint stride;          // of the point planes and the irradiance planes
-    uint light_count;     // indirect lights
-    uint negative_count;  // negative indirect lights
+    uint vpl_count;     // VPLs
+    uint negative_count;  // negative lights
     uint pad_;
 } GatherParams;
 
-// Full and low-resolution image side by side (upsample, discontinuity, compact).
+// The full and the low-resolution image (upsample, discontinuity, compact).
 typedef struct {
     uint width;  // of the full image
     uint height;
     uint stride;      // of the full planes
     uint low_stride;  // of the low-resolution planes
-    float threshold;  // discontinuity threshold; 0: every pixel is computed in full
-    float position_scale;  // 1 / distance from a tangent plane that weighs as much as a right angle
+    float threshold;  // discontinuity threshold; 0: every pixel is gathered
+    float position_scale;  // 1 / distance from a tangent plane that counts as much as a right angle
     uint step;             // 2 or 4: one low-resolution point for step x step pixels
     uint pad_;
 } RefineParams;
@@ -37,29 +37,30 @@ typedef struct {
     uint height;
     uint stride;
     uint emitter_count;
-    float exposure;    // multiplies radiance on the way out: undoes the scene's exposure
+    float exposure;    // multiplies the output: undoes the scene's exposure
     float texel_bias;  // shadow bias, in texels of the shadow map
     uint effects;      // COMBINE_...
-    uint pad_;
+    uint depth_words;  // words of a shadow map's pixel: 1 for depth alone, 2 for visibility
 } CombineParams;
 
 enum {
     COMBINE_DIRECT = 1,
     COMBINE_INDIRECT = 2,
     COMBINE_EMISSION = 4,
-    COMBINE_SPECULAR = 8
+    COMBINE_SPECULAR = 8,    // with COMBINE_MATERIALS
+    COMBINE_MATERIALS = 16   // some material's diffuse share is not 1
 };
 
 // Radiance planes: rgb, stride apart.
 enum { RADIANCE_PLANES = 3 };
 
-// The environment behind everything: a latitude-longitude picture.
+// The environment in the background: a latitude-longitude picture.
 typedef struct {
     float4 factor;           // rgb times the texel: cd/m^2
     uint environment_width;  // texels
     uint environment_height;
     uint stride;  // of the ids and the radiance planes
-    float turn;   // of the picture against the world, in turns, [0,1)
+    float turn;   // rotation of the picture in the world, in turns, [0,1)
 } EnvironmentParams;
 
 typedef struct {

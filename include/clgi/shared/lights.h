@@ -1,4 +1,4 @@
-// Light sources as they are sampled, and the indirect lights that come of it.
+// Emitters, which are sampled, and the VPLs that result.
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_LIGHTS_H
 #define CLGI_SHARED_LIGHTS_H
@@ -12,7 +12,8 @@ enum { EMITTER_SPOT = 0, EMITTER_POINT = 1, EMITTER_DIRECTIONAL = 2, EMITTER_ARE
 // Added to the kind of a spot too narrow for rejection: its cone is mapped directly.
 enum { EMITTER_KIND = 3, EMITTER_MAPPED = 4 };
 
-// One source of direct light: a lamp, or one sample of the emissive surfaces.
+// What sends direct light: a point, spot or directional light, a sample point of an emissive
+// surface, or a direction of the environment.
 typedef struct {
     float4 position;   // xyz; directional: centre of the lit disc
     float4 axis;       // xyz unit: spot axis, light direction, surface normal; w: cos(outer angle)
@@ -20,55 +21,66 @@ typedef struct {
     float4 intensity;  // rgb: candela; directional lux; area: flux, lumen. All exposed
     float4 shift;      // of the low-discrepancy points: bases 2, 3, 5, 7; each in [0,1)
     float range;       // where the light ends; 0: unlimited
-    float measure;     // what the samples share: steradians; directional: area of the disc; area:
-                       // projected steradians, this emitter's part of what all area lights share
-    float area;        // area lights: of the emitting surface that this sample stands for;
-                       // directional: of the disc, for one indirect light of all that share it
+    float measure;     // divided among the samples: steradians; directional: area of the disc;
+                       // area: this emitter's part of the projected steradians of all area lights
+    float area;        // area lights: of the emitting surface that this sample represents;
+                       // directional: of the disc, for one VPL of all that share it
     uint kind;         // EMITTER_..., EMITTER_MAPPED
-    uint first_view;   // its images of the scene: 1 (spot, directional), 5 (area) or 6 (point)
+    uint first_view;   // its views of the scene: 1 (spot, directional), 5 (area) or 6 (point)
     uint view_count;
-    uint first_light;  // its share of the indirect lights
-    uint light_count;
-    uint first_index;  // of its points in their sequence, at least 1: all directions of an
-                       // environment go on along one, and all samples of the emissive surfaces
-    float taken_over;  // multiplies the flux of its indirect lights: sources too weak to have a
-                       // light leave theirs to the others; 1 where all have some
+    uint first_vpl;  // its share of the VPLs
+    uint vpl_count;
+    uint first_index;  // of its points in their sequence, at least 1. All directions of an
+                       // environment continue one sequence, and so do all area samples
+    float taken_over;  // multiplies the flux of its VPLs, because emitters too weak for a VPL leave
+                       // their flux to the others; 1 if all have one
     uint pad0_;
     uint pad1_;
 } Emitter;
 
-// A point light with a cosine lobe, standing for a disc around it: the irradiance it gives is
-// flux * cos * cos' / (pi d^2), bounded near by as in kernels/lights/disc.clh.
+// A VPL: a point light with a cosine lobe that represents a disc around it. Its irradiance is
+// flux * cos * cos' / (pi d^2), bounded at short distances as in kernels/lights/disc.clh.
 typedef struct {
     float4 position;  // xyz; w: squared radius of the disc
     float4 normal;    // xyz unit; w: its square again
-    float4 flux;      // rgb reflected flux, lumen, exposed; w: 1 when the light is on a surface
-} IndirectLight;
+    float4 flux;      // rgb reflected flux, lumen, exposed; w: 1 when the VPL is on a surface
+} Vpl;
 
 typedef struct {
-    uint emitter;          // index of the spotlight
+    uint emitter;          // index of the spot
     uint candidate_count;  // Halton indices 1 .. candidate_count are tried; a multiple of 32
-    uint light_count;      // of all emitters together: how long the list of accepted ones is
+    uint vpl_count;        // of all emitters together: length of the list of accepted ones
     uint pad_;
 } AcceptParams;
 
 typedef struct {
-    uint light_count;  // of all emitters together
+    uint vpl_count;  // of all emitters together
     uint emitter_count;
     float scale;      // multiplies every flux; 1
-    float footprint;  // multiplies the disc area that bounds each light; 1
+    float footprint;  // multiplies the disc area that bounds each VPL; 1
 } FetchParams;
 
 typedef struct {
-    uint light_count;     // positive indirect lights
+    uint vpl_count;     // VPLs
     uint negative_count;  // samples of the camera image
     uint stride;          // of the G-buffer planes
-    float back_facing;    // least cosine * distance that counts as behind; float spacing
-    float footprint;      // multiplies the disc area that bounds each light; 1
+    float back_facing;    // smallest cosine * distance that counts as behind; float spacing
+    float footprint;      // multiplies the disc area that bounds each VPL; 1
     float shift_x;        // of the low-discrepancy points across the image, [0,1)
     float shift_y;
     uint pad_;
 } NegativeParams;
+
+typedef struct {
+    uint stride;  // of the planes and the irradiance
+    uint point_count;
+    uint emitter_count;
+    float texel_bias;  // shadow bias, in texels of the shadow map; 1
+    uint depth_words;  // words of a shadow map's pixel: 1 for depth alone, 2 for visibility
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+} DirectParams;
 
 CLGI_SHARED_END
 

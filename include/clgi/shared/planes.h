@@ -1,4 +1,4 @@
-// Planes of pixels: one attribute of all pixels side by side, plane behind plane.
+// Planes of pixels: each plane holds one attribute of all pixels; planes follow each other.
 //
 // Planes of a buffer are `stride` values apart. In full storage every value is a float; in half
 // storage (BuildOptions::storage) directions, colours and irradiance are half, and only positions

@@ -48,14 +48,55 @@ enum {
     TEXTURE_LEVELS_SHIFT = 8
 };
 
-enum { SCENE_HAS_UVS = 1, SCENE_HAS_COLORS = 2, SCENE_HAS_TEXTURES = 4, SCENE_HAS_EMISSION = 8 };
+enum {
+    SCENE_HAS_UVS = 1,
+    SCENE_HAS_COLORS = 2,
+    SCENE_HAS_TEXTURES = 4,
+    SCENE_HAS_EMISSION = 8,
+    SCENE_HAS_SHARES = 16  // some material's diffuse share is not 1
+};
+
+// Consecutive triangles of the device's order, which follows space: the box around them, and which
+// way they face.
+enum { CLUSTER_TRIANGLES = 64 };  // the last cluster may have fewer
+
+typedef struct {
+    float4 low;   // xyz, local frame; w: 0
+    float4 high;  // xyz, local frame; w: 0
+    float4 cone;  // xyz: unit axis of a cone that holds the triangles' normals; w: sine of its half
+                  // angle, or 2 where they do not all face one way or are seen from both sides
+} Cluster;
 
 typedef struct {
     uint vertex_count;
     uint triangle_count;
-    uint flags;  // SCENE_HAS_...
-    uint pad_;
+    uint flags;          // SCENE_HAS_...
+    uint cluster_count;  // triangle_count / CLUSTER_TRIANGLES, rounded up
 } SceneInfo;
+
+// Vertices that take a new place. Doubles are two words each, the lower one first.
+typedef struct {
+    uint first;         // of the vertices given, as the scene's file counts them
+    uint count;
+    uint vertex_count;  // on the device
+    uint flags;         // MOVE_...
+    int exponent;       // local units per metre: 2^exponent
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+    uint given_from[8];   // x, y, z: the world point that given positions are relative to; -0 adds
+                          // nothing, to a -0 either
+    uint frame_origin[8];  // x, y, z of the local frame's origin
+} MoveParams;
+
+enum { MOVE_NORMALS = 1 };
+
+// What a move counts, words of its status buffer.
+enum {
+    MOVE_NOT_FINITE = 0,  // vertices that stayed where they were
+    MOVE_FARTHEST = 1,    // bits of the largest squared distance from the local origin, a float
+    MOVE_STATUS_WORDS = 2
+};
 
 CLGI_SHARED_END
 

@@ -1,0 +1,28 @@
+# Writes the members of every struct in the shared headers as one list for both compilers:
+# CLGI_LAYOUT(SIZE, MEMBER), and an include of each header as CLGI_LAYOUT_HEADERS names it.
+#
+#   cmake -DHEADERS_DIR=include/clgi/shared -DOUTPUT=layout_members.h -P LayoutMembers.cmake
+file(GLOB headers "${HEADERS_DIR}/*.h")
+list(SORT headers)
+set(includes "")
+set(entries "")
+foreach(header IN LISTS headers)
+    get_filename_component(name "${header}" NAME)
+    string(APPEND includes "#include \"clgi/shared/${name}\"\n")
+    file(READ "${header}" text)
+    string(REGEX REPLACE "//[^\n]*" "" text "${text}")
+    string(REPLACE ";" "@" text "${text}")
+    string(REGEX MATCHALL "typedef struct {[^}]*} [A-Za-z0-9_]+@" structs "${text}")
+    foreach(struct IN LISTS structs)
+        string(REGEX REPLACE ".*} ([A-Za-z0-9_]+)@" "\\1" type "${struct}")
+        string(APPEND entries " \\\n    SIZE(${type})")
+        string(REGEX MATCHALL "[A-Za-z0-9_]+(\\[[0-9]+\\])?@" members "${struct}")
+        foreach(member IN LISTS members)
+            string(REGEX REPLACE "(\\[[0-9]+\\])?@" "" member "${member}")
+            if(NOT member STREQUAL type)
+                string(APPEND entries " MEMBER(${type}, ${member})")
+            endif()
+        endforeach()
+    endforeach()
+endforeach()
+file(WRITE "${OUTPUT}" "${includes}#define CLGI_LAYOUT(SIZE, MEMBER)${entries}\n")

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "scene/local_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/environment.hpp"
+
+namespace clgi {
+
+SceneFrame local_frame(const Bounds& box) {
+    SceneFrame frame;
+    frame.origin = 0.5 * (box.low + box.high);
+    const double radius = 0.5 * glm::length(box.high - box.low);
+    if (radius > 0.0) {
+        int exponent = 0;
+        std::frexp(radius, &exponent);
+        frame.scale = std::ldexp(1.0, -exponent);
+    }
+    frame.radius = static_cast<float>(std::max(radius * frame.scale, 1e-6));
+    return frame;
+}
+
+double common_exposure(const Scene& scene, const SceneFrame& frame) {
+    double brightest = 0.0;
+    for (const Light& light : scene.lights) {
+        const double strongest =
+            std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+        const bool directional = light.kind == Light::Kind::directional;
+        brightest =
+            std::max(brightest, strongest * (directional ? 1.0 : frame.scale * frame.scale));
+    }
+    for (const Material& material : scene.materials)
+        brightest = std::max({brightest, double{material.emission.x}, double{material.emission.y},
+                              double{material.emission.z}});
+    if (scene.environment) {
+        const glm::dvec3 fluence = environment_fluence(*scene.environment);
+        brightest = std::max({brightest, fluence.x, fluence.y, fluence.z});
+    }
+    if (!(brightest > 0.0)) return 1.0;
+    int exponent = 0;
+    std::frexp(brightest, &exponent);
+    return std::ldexp(1.0, exponent);
+}
+
+}  // namespace clgi

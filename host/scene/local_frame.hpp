@@ -1,0 +1,15 @@
+// The frame that a scene's geometry and light are brought into on the device.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+
+namespace clgi {
+
+// Around the middle of a box; exposure 1.
+SceneFrame local_frame(const Bounds& box);
+
+// The power of two that brings the brightest source near 1 in local units.
+double common_exposure(const Scene& scene, const SceneFrame& frame);
+
+}  // namespace clgi

@@ -1,0 +1,44 @@
+// Built kernels of one context and device, shared by all passes and solvers made with them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/export.hpp>
+#include <clgi/opencl.hpp>
+#include <clgi/pass.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clgi {
+
+// Each kernel is built when a pass is first enqueued, once for each set of options, and kept as
+// long as this object, a copy of it or a pass made with it exists. Copies share what is built. All
+// calls may come from several threads.
+class CLGI_API Programs {
+public:
+    Programs(const cl::Context& context, const cl::Device& device);
+
+    // kernels/<room>/<pass>.cl built with these options. defines: more compiler options, for a
+    // variant of the pass. Builds nothing yet. Throws Error when there is no such kernel.
+    PassKernel kernel(const std::string& room, const std::string& pass,
+                      const BuildOptions& options = {}, const std::string& defines = "") const;
+
+    // How many kernels have been built so far.
+    std::size_t built() const;
+
+    const cl::Context& context() const { return context_; }
+    const cl::Device& device() const { return device_; }
+
+private:
+    cl::Context context_;
+    cl::Device device_;
+    struct Store;
+    std::shared_ptr<Store> store_;
+};
+
+// Builds these kernels now, several at a time; kernels that are built already cost nothing. A
+// solver calls it when it is made, so that its first picture does not wait for the compiler.
+// Throws DeviceError with the compiler's log when one does not build.
+CLGI_API void build(const std::vector<PassKernel>& kernels);
+
+}  // namespace clgi

@@ -1,0 +1,87 @@
+// Kernels are built when they are first needed, once, and shared.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <clgi/procedural.hpp>
+#include <thread>
+
+#include "frames.hpp"
+
+namespace clgi {
+namespace {
+
+TEST(Programs, BuildAKernelWhenItIsFirstEnqueued) {
+    const test::Device& on = test::device();
+    const Programs programs(on.context, on.device);
+    const ImagePasses passes(programs), others(programs);
+    EXPECT_EQ(programs.built(), 0u);
+    const cl::Buffer any = test::empty<float>(1024);
+    passes.count(on.queue, 100, any, any).wait();
+    EXPECT_EQ(programs.built(), 1u);
+    others.count(on.queue, 100, any, any).wait();  // the same kernel
+    EXPECT_EQ(programs.built(), 1u);
+    passes.build({"count", "place"});
+    EXPECT_EQ(programs.built(), 2u);
+    const ImagePasses fast(programs, {.math = Math::fast});
+    fast.count(on.queue, 100, any, any).wait();
+    EXPECT_EQ(programs.built(), 3u);
+    EXPECT_THROW(passes.build({"counts"}), Error);
+    EXPECT_THROW(programs.kernel("image", "nothing"), Error);
+}
+
+TEST(Programs, AreBuiltForTheEffectsOfASolverAlone) {
+    const test::Device& on = test::device();
+    const Scene world = cornell({.light = LightSource::spot});
+    const DeviceScene scene = test::on_device(world);
+    const auto built = [&](const SecondOrderOptions& options) {
+        const Programs programs(on.context, on.device);
+        SecondOrderSolver solver(programs, on.queue, scene, options);
+        const std::size_t before = programs.built();
+        solver.render(world.cameras[0]).wait();
+        EXPECT_EQ(programs.built(), before);  // the first picture waits for no compiler
+        return before;
+    };
+    SecondOrderOptions options;
+    options.width = 32;
+    options.height = 24;
+    options.emitters.vpls = 20;
+    const std::size_t all = built(options);
+    options.low_resolution_step = 1;
+    const std::size_t full = built(options);
+    options.indirect = false;
+    const std::size_t direct = built(options);
+    EXPECT_EQ(all - full, 6u);     // downsample, upsample, count, offsets, compact, place
+    EXPECT_EQ(full - direct, 5u);  // accept_mask, accept_list, fetch, negative, gather
+}
+
+// Copies of a pass set arguments of one kernel: each must come out with its own.
+TEST(Programs, ServeSeveralThreadsAtATime) {
+    const test::Device& on = test::device();
+    const ImagePasses passes(test::programs());
+    constexpr std::uint32_t pixels = 4096, threads = 4, rounds = 50;
+    std::vector<std::thread> workers;
+    std::vector<int> wrong(threads);
+    for (std::uint32_t t = 0; t < threads; ++t)
+        workers.emplace_back([&, t, copy = passes] {
+            const cl::CommandQueue queue(on.context, on.device);
+            std::vector<cl_uchar> flags(pixels);
+            for (std::uint32_t i = 0; i < pixels; ++i) flags[i] = i % (t + 2) == 0;
+            const cl::Buffer source(on.context, flags.begin(), flags.end(), true);
+            const cl::Buffer counts(on.context, CL_MEM_READ_WRITE, 8 * sizeof(cl_uint));
+            for (std::uint32_t round = 0; round < rounds; ++round) {
+                copy.count(queue, pixels, source, counts);
+                cl_uint found[8];
+                queue.enqueueReadBuffer(counts, CL_TRUE, 0, sizeof found, found);
+                for (std::uint32_t block = 0; block < 8; ++block) {
+                    cl_uint wanted = 0;
+                    for (std::uint32_t i = 512 * block; i < 512 * block + 512; ++i)
+                        wanted += flags[i];
+                    wrong[t] += found[block] != wanted;
+                }
+            }
+        });
+    for (std::thread& worker : workers) worker.join();
+    EXPECT_EQ(wrong, std::vector<int>(threads));
+}
+
+}  // namespace
+}  // namespace clgi

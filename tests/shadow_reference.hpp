@@ -1,0 +1,113 @@
+// Shadow maps in double precision, after the comment of kernels/lights/shadow.clh:
+//
+//   lit = bilinear weight of those of the four texels around in which nothing is nearer than the
+//         receiver's own plane there, nor nearer than the receiver itself, both less a bias
+//   bias = texel_bias texels at 45 degrees + 1/64 of the plane's slope in x and y + 1e-6
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/emitters.hpp>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "drawing.hpp"
+
+namespace clgi::test {
+
+constexpr double steepest = 114.6;  // of a receiver: the tangent of 89.5 degrees
+
+// A receiver on a view of a source.
+struct Shadowed {
+    const View* view = nullptr;  // null: no view sees it
+    double x = 0.0, y = 0.0;     // texels from the centre of the upper left one
+    double closeness = 0.0, slope_x = 0.0, slope_y = 0.0, bias = 0.0;
+    bool doubtful = false;  // which view it is in depends on rounding
+
+    // Closeness that a blocker at this texel must exceed.
+    double limit(int column, int row) const {
+        const double along = slope_x * (column - x) + slope_y * (row - y);
+        return closeness + bias + std::max(along, 0.0);
+    }
+    int column(int k) const { return std::clamp(int(std::floor(x)) + k, 0, int(view->width) - 1); }
+    int row(int k) const { return std::clamp(int(std::floor(y)) + k, 0, int(view->height) - 1); }
+    std::size_t texel(int kx, int ky) const {
+        return view->first_pixel + std::size_t(row(ky)) * view->width + std::size_t(column(kx));
+    }
+};
+
+inline Shadowed shadowed(const Emitter& emitter, const std::vector<View>& views,
+                         const glm::dvec3& position, const glm::dvec3& geometric,
+                         double texel_bias) {
+    Shadowed out;
+    for (std::uint32_t v = 0; v < emitter.view_count; ++v) {
+        const View& view = views[emitter.first_view + v];
+        const glm::dvec3 right(view.right), up(view.up), forward(view.forward);
+        const glm::dvec3 d = position - glm::dvec3(view.eye);
+        const double z = glm::dot(d, forward), near = double{view.forward.w};
+        const bool parallel = view.eye.w != 0.0f;
+        if (std::abs(z - near) < 1e-6) out.doubtful = true;
+        if (!(z > near)) continue;
+        const double per_z = parallel ? 1.0 : 1.0 / z;
+        const double u =
+            (glm::dot(d, right) * per_z - double{view.window.x}) / double{view.right.w};
+        const double w = (glm::dot(d, up) * per_z - double{view.window.y}) / double{view.up.w};
+        const double reach = std::max(std::abs(u), std::abs(w));
+        if (std::abs(reach - 1.0) < 1e-4) out.doubtful = true;
+        if (reach > 1.0) continue;
+        const double texel_x = 2.0 * double{view.right.w} / view.width;
+        const double texel_y = 2.0 * double{view.up.w} / view.height;
+        // The receiver's plane, n.(eye + q - p) = 0, as closeness on the image plane.
+        const double range = double{view.window.z} - near;
+        const double steepness =
+            parallel ? 1.0 / (glm::dot(geometric, forward) * range) : 1.0 / glm::dot(geometric, d);
+        out.closeness = parallel ? (double{view.window.z} - z) / range : per_z;
+        const double unit = parallel ? 1.0 / range : out.closeness;
+        const auto capped = [&](double slope, double texel) {
+            return std::clamp(slope * steepness, -steepest * unit, steepest * unit) * texel;
+        };
+        out.slope_x = capped(glm::dot(geometric, right), texel_x);
+        out.slope_y = capped(-glm::dot(geometric, up), texel_y);  // rows run downwards
+        out.bias = unit * texel_bias * std::max(texel_x, texel_y) +
+                   (std::abs(out.slope_x) + std::abs(out.slope_y)) / 64.0 + out.closeness * 1e-6;
+        out.x = (u * 0.5 + 0.5) * view.width - 0.5;
+        out.y = (0.5 - w * 0.5) * view.height - 0.5;
+        out.view = &view;
+        return out;
+    }
+    return out;
+}
+
+inline double closeness_of(std::uint64_t word) {
+    const std::uint32_t bits = ~static_cast<std::uint32_t>(word >> 32);
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    return double{value};
+}
+
+inline std::uint64_t word_of(float closeness, std::uint32_t triangle) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &closeness, sizeof bits);
+    return std::uint64_t{~bits} << 32 | triangle;
+}
+
+// Share of light that arrives; sets doubtful where a comparison is within rounding.
+inline double lit_share(const Shadowed& at, const std::vector<std::uint64_t>& visibility,
+                        bool* doubtful) {
+    if (at.view == nullptr) return 1.0;
+    const double fx = at.x - std::floor(at.x), fy = at.y - std::floor(at.y);
+    double sum = 0.0;
+    for (int ky = 0; ky < 2; ++ky)
+        for (int kx = 0; kx < 2; ++kx) {
+            const double seen = closeness_of(visibility[at.texel(kx, ky)]);
+            const double limit = at.limit(at.column(kx), at.row(ky));
+            // 1e-6 of itself, as the bias has it, and what 16 roundings make of the slope.
+            const double rounding = 8 * 0x1p-24 * (limit + 4 * (limit - at.closeness));
+            if (std::abs(seen - limit) < rounding) *doubtful = true;
+            const double weight = (kx ? fx : 1.0 - fx) * (ky ? fy : 1.0 - fy);
+            if (seen <= limit) sum += weight;
+        }
+    return sum;
+}
+
+}  // namespace clgi::test
