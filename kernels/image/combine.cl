@@ -4,7 +4,7 @@
 //   rho = diffuse share * base colour,  k_s = coat + lobe share * base colour
 //                                                              [Cochran07, section 3.4]
 //
-// The lobe is the normalised modified Phong lobe of docs/materials.md, lit by the sources only.
+// The lobe is the normalised modified Phong lobe of docs/materials.md, lit by the emitters only.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
