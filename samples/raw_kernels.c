@@ -6,7 +6,8 @@
    is taken where none is named.
 
    Draws a room with a block in it into a G-buffer (raster_views, resolve), lights every pixel by
-   64 VPLs on the floor (gather) and writes irradiance as a float picture. Structs and argument lists are those that the files themselves state.
+   64 VPLs on the floor (gather) and writes irradiance as a float picture. Structs and argument
+   lists are those that the files themselves state.
    SPDX-License-Identifier: MIT */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>

@@ -14,11 +14,14 @@ namespace {
 
 using test::Looking;
 
-std::vector<std::uint64_t> words(const DeviceScene& scene, const View& view) {
+// whole: by raster_views, else by lists.
+template <typename Word>
+std::vector<Word> words(const DeviceScene& scene, const View& view, bool whole) {
     const std::size_t pixels = std::size_t{view.width} * view.height;
-    const RasterBuffers buffers = test::raster_buffers(scene, pixels);
-    test::draw_visibility(test::gbuffer_passes(), scene, view, buffers);
-    return test::download<std::uint64_t>(buffers.pixels, pixels);
+    const Pixels kind = sizeof(Word) == 4 ? Pixels::depth : Pixels::visibility;
+    const RasterBuffers buffers = test::raster_buffers(scene, pixels, kind);
+    test::draw_visibility(test::gbuffer_passes(), scene, view, buffers, whole);
+    return test::download<Word>(buffers.pixels, pixels);
 }
 
 // Everything lies in every cluster, facing all ways.
@@ -76,15 +79,24 @@ TEST(ClusterViews, LoseNothing) {
     Scene dense = bumpy_mesh();
     for (const Scene& world : {sheet(), test::patchwork(900, 111, false), std::move(dense)}) {
         const DeviceScene scene = test::on_device(world), open = test::on_device(world);
+        ASSERT_GT(scene.info().cluster_count, 1u);
         open_clusters(open);
         std::size_t seen = 0;
         const std::vector<View> views = views_of(scene, world.triangles.size());
         for (std::size_t v = 0; v < views.size(); ++v) {
-            const auto wanted = words(open, views[v]);
+            const auto wanted = words<std::uint64_t>(open, views[v], false);
             seen += std::count_if(wanted.begin(), wanted.end(),
                                   [](std::uint64_t word) { return word != ~std::uint64_t{0}; });
-            EXPECT_TRUE(words(scene, views[v]) == wanted)
-                << world.triangles.size() << " triangles, view " << v;
+            std::vector<std::uint32_t> depth;
+            for (const std::uint64_t word : wanted)
+                depth.push_back(static_cast<std::uint32_t>(word >> 32));
+            for (const bool whole : {false, true}) {
+                const char* form = whole ? "raster_views" : "lists";
+                EXPECT_TRUE(words<std::uint64_t>(scene, views[v], whole) == wanted)
+                    << world.triangles.size() << " triangles, view " << v << ", " << form;
+                EXPECT_TRUE(words<std::uint32_t>(scene, views[v], whole) == depth)
+                    << world.triangles.size() << " triangles, depth of view " << v << ", " << form;
+            }
         }
         EXPECT_GT(seen, 5000u);
     }

@@ -44,6 +44,16 @@ Scene sheet() {
     return scene;
 }
 
+// Triangles that face +z, and one in the middle that faces away. Its normal is 1e-24 long, so the
+// square of the length is 0.
+Scene speck() {
+    Scene scene = test::plain_scene();
+    for (const double y : {-1.0, 0.0})
+        test::add_triangle(scene, {-1, y, 0}, {1, y, 0}, {1, y + 1, 0});
+    test::add_triangle(scene, {0, 0, 0}, {0, 1e-12, 0}, {1e-12, 0, 0});
+    return scene;
+}
+
 TEST(Clusters, AreTheLeastBoxesAroundTheirTriangles) {
     for (const int count : {1, 63, 64, 65, 1000}) {
         const DeviceScene scene = test::on_device(dust(count));
@@ -104,6 +114,11 @@ TEST(Clusters, KnowWhichWayTheirTrianglesFace) {
     }
 }
 
+TEST(Clusters, AreNotTurnedByATriangleTooSmallToBeSeen) {
+    const DeviceScene scene = test::on_device(speck());
+    EXPECT_EQ(clusters_of(scene)[0].cone, glm::vec4(0, 0, 1, 0));
+}
+
 // Triangles of one cluster are neighbours: that is what their boxes are good for.
 TEST(Clusters, AreSmallInADenseMesh) {
     const DeviceScene scene = test::on_device(bumpy_mesh());
@@ -128,7 +143,8 @@ TEST(Clusters, AreTheSameBitsFromTheDevice) {
     const test::Device& on = test::device();
     for (const std::size_t group : {std::size_t{0}, std::size_t{1}, std::size_t{3}}) {
         const ScenePasses passes(test::programs(), {.local_size = group});
-        for (const Scene& world : {dust(1), dust(64), dust(65), dust(1000), box(), sheet()}) {
+        for (const Scene& world :
+             {dust(1), dust(64), dust(65), dust(1000), box(), sheet(), speck()}) {
             DeviceScene scene = test::on_device(world);
             const std::vector<Cluster> host = clusters_of(scene);
             const std::size_t bytes = host.size() * sizeof(Cluster);

@@ -96,6 +96,43 @@ TEST(Views, AreTheSameWordsInEveryWayOfDrawing) { expect_same_words(test::patchw
 
 TEST(Views, OfADenseMeshAreTheSameWordsInEveryWayOfDrawing) { expect_same_words(bumpy_mesh()); }
 
+// Whether alpha is looked up is decided by a comparison of its own for each kind of word.
+TEST(Views, OfMaskedSurfacesAreTheSameWordsInEveryWayOfDrawing) {
+    Scene world = test::patchwork(200, 79);
+    for (std::size_t m = 0; m < world.materials.size(); m += 2) {
+        world.materials[m].alpha_mode = AlphaMode::mask;
+        world.materials[m].alpha_cutoff = 0.25f;
+    }
+    expect_same_words(world);
+    // Masked triangles are seen, and seen through.
+    const auto triangles_seen = [](const Scene& shown) {
+        const DeviceScene scene = test::on_device(shown);
+        std::vector<int> out;
+        for (const auto word : drawn<std::uint64_t>(scene, many_views(scene), ways[0])) {
+            const auto triangle = static_cast<std::uint32_t>(word);
+            out.push_back(triangle < scene.triangle_order().size()
+                              ? static_cast<int>(scene.triangle_order()[triangle])
+                              : -1);
+        }
+        return out;
+    };
+    const auto cut = triangles_seen(world);
+    Scene opaque = world;
+    for (Material& material : opaque.materials) material.alpha_mode = AlphaMode::opaque;
+    const auto full = triangles_seen(opaque);
+    const auto masked = [&](int triangle) {
+        return triangle >= 0 && world.triangles[triangle].material % 2 == 0;
+    };
+    std::size_t kept = 0, through = 0;
+    for (std::size_t p = 0; p < full.size(); ++p) {
+        kept += masked(full[p]) && cut[p] == full[p];
+        through += masked(full[p]) && cut[p] != full[p];
+        EXPECT_TRUE(masked(full[p]) || cut[p] == full[p]) << p;
+    }
+    EXPECT_GT(kept, 500u);
+    EXPECT_GT(through, 500u);
+}
+
 // What no cluster test may remove: each triangle drawn alone, where it is the nearest.
 TEST(Views, LoseNothingToCulledClusters) {
     for (const std::uint64_t seed : {72u, 73u, 74u}) {
@@ -165,16 +202,20 @@ TEST(Views, AroundPointsAreThoseOfTheHost) {
     for (std::uint32_t i = 0; i < stride; ++i) {
         at[i] = test::random_vec3(random, -0.5, 0.5);
         normal[i] = i == 9 ? glm::vec3(0) : glm::normalize(test::random_vec3(random, -1, 1));
-        if (i == 3) normal[i] = {0, 1, 0};  // along the axis that frames are built from
+        // Along the axis that frames are built from, and near it.
+        if (i == 3) normal[i] = {0, 1, 0};
+        if (i == 5) normal[i] = {0, -1, 0};
+        if (i == 6) normal[i] = glm::normalize(glm::vec3(1e-4f, -1, 0));
         for (int c = 0; c < 3; ++c) {
             points[c * stride + i] = at[i][c];
             points[(GBUFFER_NORMAL + c) * stride + i] = normal[i][c];
         }
     }
-    const std::vector<cl_uint> chosen{7, 3, 9, 0};
+    const std::vector<cl_uint> chosen{7, 3, 9, 0, 5, 6};
     for (const std::uint32_t faces : {5u, 6u}) {
         const cl::Buffer views = test::empty<View>(2 + faces * chosen.size());
-        const CubeParams params{4, faces, size, 2, 11, stride, 1e-3f, 2e-3f};
+        const CubeParams params{
+            static_cast<std::uint32_t>(chosen.size()), faces, size, 2, 11, stride, 1e-3f, 2e-3f};
         test::gbuffer_passes().cubes(queue, params, test::upload(points), test::upload(chosen),
                                      views);
         const auto found = test::download<View>(views, faces * chosen.size(), 2);
@@ -195,6 +236,9 @@ TEST(Views, AroundPointsAreThoseOfTheHost) {
             const glm::vec3 eye = at[point] + params.lift * normal[point];
             EXPECT_LT(glm::distance(glm::vec3(view.eye), eye), 1e-6f);
             EXPECT_LT(glm::distance(glm::cross(forward, up), right), 1e-6f);  // right-handed
+            for (const glm::vec3& axis : {forward, up, right})
+                EXPECT_NEAR(glm::length(axis), 1.0f, 1e-6f) << point << ", face " << face;
+            EXPECT_LT(std::abs(glm::dot(forward, up)), 1e-6f) << point << ", face " << face;
             if (faces == 6) {
                 glm::vec3 wanted(0.0f);
                 wanted[face / 2] = face % 2 ? -1.0f : 1.0f;

@@ -157,10 +157,13 @@ void run_bench(const BenchFlags& flags) {
 }  // namespace
 
 void add_bench(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bench", "Repeat a table of a paper");
+    CLI::App* command =
+        app.add_subcommand("bench", "Repeat a table of a paper, or measure the library");
     const auto flags = std::make_shared<BenchFlags>();
     command
         ->add_option("table", flags->table,
+                     "cochran1: frame rate against numbers of VPLs; "
+                     "cochran2: share of low resolution against error and frame rate; "
                      "views: hemicubes per second; "
                      "layer: passes against the same kernels enqueued by hand")
         ->required()

@@ -203,7 +203,7 @@ void run_render(RenderFlags flags) {
     if (!flags.device.quiet) {
         const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
         fmt::print(
-            "{}{}{}: {:.1f} ms a frame ({} frames, {} indirect and {} negative lights, {} "
+            "{}{}{}: {:.1f} ms a frame ({} frames, {} VPLs and {} negative VPLs, {} "
             "triangles)\n",
             flags.picture.exr, both ? ", " : "", flags.picture.png, times.median,
             record.frame_ms.size(), solver.emitters().vpl_count,
@@ -245,10 +245,10 @@ void add_render(CLI::App& app) {
         ->type_name("METHOD")
         ->check(CLI::IsMember({"auto", "second-order", "direct"}));
     add_place_options(*command, flags->scene_index, flags->camera);
-    command->add_option("--vpls", options.emitters.vpls, "Indirect lights (VPLs) of all lights")
+    command->add_option("--vpls", options.emitters.vpls, "VPLs of all emitters together")
         ->type_name("N")
         ->check(CLI::Range(0, 1 << 20));
-    command->add_option("--negative-vpls", options.negative_vpls, "Negative lights; 0: none")
+    command->add_option("--negative-vpls", options.negative_vpls, "Negative VPLs; 0: none")
         ->type_name("N")
         ->check(CLI::Range(0, 1 << 20));
     command

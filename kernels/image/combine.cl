@@ -4,7 +4,7 @@
 //   rho = diffuse share * base colour,  k_s = coat + lobe share * base colour
 //                                                              [Cochran07, section 3.4]
 //
-// The lobe is the normalised modified Phong lobe of docs/materials.md, lit by the sources only.
+// The lobe is the normalised modified Phong lobe of docs/materials.md, lit by the emitters only.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
@@ -78,18 +78,8 @@ kernel void image_combine(
     }
 
     if ((params.effects & COMBINE_DIRECT) && packet_any(surface)) {
-        ShadowPoint point;
-        point.x = row_load(gbuffer_row(planes, GBUFFER_POSITION, stride), pixel);
-        point.y = row_load(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), pixel);
-        point.z = row_load(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), pixel);
-        point.gx = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC, stride), pixel);
-        point.gy = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC + 1, stride), pixel);
-        point.gz = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC + 2, stride), pixel);
-
-        worst = max(worst, max(packet_magnitude(point.x),
-                               max(packet_magnitude(point.y), packet_magnitude(point.z))));
-        worst = max(worst, max(packet_magnitude(point.gx),
-                               max(packet_magnitude(point.gy), packet_magnitude(point.gz))));
+        ShadowPoint point = direct_point(planes, stride, pixel);
+        worst = max(worst, direct_point_magnitude(&point));
 
         // The lobe's mirror direction.
         floatp mx = zero, my = zero, mz = zero;

@@ -1,14 +1,14 @@
-// Irradiance at every point: I_s of the indirect lights less I_n of the negative ones.
+// Irradiance at every point: I_s of the VPLs less I_n of the negative ones.
 //
 //   E(p) = sum_l Phi_l max(0, n_p.t) max(0, -n_l.t) / d^2 k(d, r_l),   t = l - p, d = |t|
 //                                                              [Cochran07, section 3.2]
 //
-// k is 1/(pi d^2) far away and bounded by the light's disc near by (lights/disc.clh), so a point
-// that touches a light stays finite, and no term exceeds the light's own radiosity.
+// k is 1/(pi d^2) far away and bounded by the VPL's disc near by (lights/disc.clh), so a point
+// that touches a VPL stays finite, and no term exceeds the VPL's own radiosity.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH points (rounded up); any local size
 // Writes       its own points
-// Cost         33 flops and one division a pair; 48 bytes a light stay in cache, 24 bytes a point
+// Cost         33 flops and one division a pair; 48 bytes a VPL stay in cache, 24 bytes a point
 //              are read and 12 written once
 // SPDX-License-Identifier: MIT
 #include "lights/disc.clh"
@@ -38,7 +38,7 @@ kernel void image_gather(
     floatp zero = packet_zero;
 
     floatp red = zero, green = zero, blue = zero;
-    // The negative lights first; what they sum to is taken from the sum of the others.
+    // The negative VPLs first; what they sum to is taken from the sum of the others.
     for (int sign = 0; sign < 2; ++sign) {
         uint count = sign == 0 ? params.negative_count : params.vpl_count;
         global const Vpl* light = sign == 0 ? negative : lights;

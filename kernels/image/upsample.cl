@@ -1,10 +1,13 @@
 // Brings low-resolution irradiance to every pixel without bleeding across edges, and marks the
 // pixels that it does not suit: the discontinuity buffer.
 //
-// The four points around a pixel weigh as in bilinear interpolation, and by how well each stands
-// in for the pixel: a point across an edge all but vanishes. Where the weighted mean of the
-// differences, and of the distances, far less, reaches the threshold, the pixel is to be lit in
-// full.                                                        [Cochran07, section 3.5]
+//   weight_i   = bilinear_i / (0.01 + d_i)^2, divided by their sum    points i around pixel p
+//   difference = sum weight_i (d_i + s^2 |q_i - p|^2);  the pixel is marked if >= threshold
+//                                             [Cochran07, section 3.5; derived: d, image/cell.clh]
+//
+// d_i (cell_difference) says how badly point q_i represents the pixel, and s is position_scale. A
+// point across an edge has next to no weight. The 0.01 bounds the weight of a point that fits
+// exactly.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up, by rows) of every
 //              `step` rows; any local size

@@ -20,22 +20,13 @@ kernel void lights_direct(
     uint at = (uint)get_global_id(0) * CLGI_WIDTH;
     if (at >= params.point_count) return;
     uint stride = params.stride;
-    ShadowPoint point;
-    point.x = row_load(gbuffer_row(planes, GBUFFER_POSITION, stride), at);
-    point.y = row_load(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), at);
-    point.z = row_load(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), at);
-    point.gx = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC, stride), at);
-    point.gy = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC + 1, stride), at);
-    point.gz = row_load(gbuffer_row(planes, GBUFFER_GEOMETRIC + 2, stride), at);
+    ShadowPoint point = direct_point(planes, stride, at);
     floatp nx = row_load(gbuffer_row(planes, GBUFFER_NORMAL, stride), at);
     floatp ny = row_load(gbuffer_row(planes, GBUFFER_NORMAL + 1, stride), at);
     floatp nz = row_load(gbuffer_row(planes, GBUFFER_NORMAL + 2, stride), at);
     ShadowMaps maps = {visibility, (int)params.depth_words};
-    // A comparison with a number that is none would turn it into darkness.
-    uintp worst = max(packet_magnitude(point.x), max(packet_magnitude(point.y), packet_magnitude(point.z)));
-    worst = max(worst, max(packet_magnitude(nx), max(packet_magnitude(ny), packet_magnitude(nz))));
-    worst = max(worst, max(packet_magnitude(point.gx),
-                           max(packet_magnitude(point.gy), packet_magnitude(point.gz))));
+    uintp worst = max(packet_magnitude(nx), max(packet_magnitude(ny), packet_magnitude(nz)));
+    worst = max(worst, direct_point_magnitude(&point));
     floatp sum[3] = {packet_zero, packet_zero, packet_zero};
     for (uint e = 0; e < params.emitter_count; ++e) {
         global const Emitter* emitter = emitters + e;

@@ -1,17 +1,17 @@
-// The indirect lights: each sample of a source is followed to the surface its image shows.
+// VPLs: each sample of an emitter is followed to the surface that its views show.
 //
 //   dPhi = I(w) dw          light of the share (directional: E dA, area: Phi / N)
 //   Phi  = rho dPhi         what the surface sends on, as a cosine lobe of intensity Phi cos / pi
 //   E(p) = sum Phi cos cos' / (pi d^2)  ->  integral of rho E cos cos' / (pi d^2) dA
 //
 // because dPhi = E dA on the lit surface: with N the sum becomes the one-bounce unshadowed
-// integral. The share's footprint A = dw d^2 / cos, the disc that the light stands for, bounds the
+// integral. The share's footprint A = dw d^2 / cos, the disc that the VPL represents, bounds the
 // kernel near by (lights/disc.clh); it goes to 0 as N grows.        [Cochran07, section 3.1]
 //
 // Unlike paper  the surface is met at the sample itself, not at the centre of its pixel, so a
-//               light stays put when its source turns
-// Work size     1D, one work-item a light; any local size; tail guarded
-// Writes        its own light; flux 0 where the sample leaves the scene or meets a back face
+//               VPL stays in place when its light turns
+// Work size     1D, one work-item a VPL; any local size; tail guarded
+// Writes        its own VPL; flux 0 where the sample leaves the scene or meets a back face
 // SPDX-License-Identifier: MIT
 #include "gbuffer/locate.clh"
 #include "gbuffer/hit.clh"

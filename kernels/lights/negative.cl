@@ -1,20 +1,20 @@
-// Negative indirect lights: at points of the camera image, the light that reaches the back of the
-// surface and that a light without shadow would let through.
+// Negative VPLs: at points of the camera image, the light of VPLs that reaches the back of the
+// surface, and that a VPL without shadow would let through.
 //
-//   back_l(p) = Phi_l cos_l max(0, -n_p.t_l) k(d, A_l),  t_l from p to light l
+//   back_l(p) = Phi_l cos_l max(0, -n_p.t_l) k(d, A_l),  t_l from p to VPL l
 //   E_n(p)    = sum_l back_l,   Phi_n = E_n(p) A_p
 //   direction = - sum_l w_l t_l / |sum_l w_l t_l|,  w_l = luminance of back_l
 //                                                              [Cochran07, section 3.3]
 //
 // A_p is the surface that the sample stands for: image pixels / samples times the footprint of a
-// pixel, whose slant is bounded at 0.1. Lights in front of the surface carry no weight: the mean
-// is over the light that the surface stops.
+// pixel, whose slant is bounded at 0.1. VPLs in front of the surface carry no weight: the mean is
+// over the light that the surface stops.
 //
 // Unlike paper  only the sampled points are evaluated, not every pixel of the image; the mean
-//               direction is over the lights behind the surface; behind is judged by the geometric
+//               direction is over the VPLs behind the surface; behind is judged by the geometric
 //               normal, so that interpolated normals stop no light
 // Work size     1D, one work-item a sample; any local size; tail guarded
-// Writes        its own negative light; flux 0 where nothing is stopped
+// Writes        its own negative VPL; flux 0 where nothing is stopped
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/halton.h"
 #include "clgi/shared/lights.h"
