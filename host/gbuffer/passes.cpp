@@ -149,7 +149,8 @@ cl::Event GBufferPasses::cubes(const cl::CommandQueue& queue, const CubeParams& 
         throw Error("gbuffer.cubes: near is " + std::to_string(params.near) +
                     ", more than 0 needed");
     need(cubes_, "points", points, sizeof(float) * POINT_PLANES * params.stride);
-    need(cubes_, "chosen", chosen, params.point_count * sizeof(std::uint32_t));
+    need(cubes_, "chosen", chosen,
+         (std::size_t{params.first_chosen} + params.point_count) * sizeof(std::uint32_t));
     need(cubes_, "views", views,
          (params.first_view + std::size_t{params.point_count} * params.faces) * sizeof(View));
     return launch(cubes_, queue, params.point_count, wait, params, points, chosen, views);

@@ -80,7 +80,7 @@ ViewsTable bench_views(const ViewsSetup& setup,
         const cl::Buffer which(context, chosen.begin(), chosen.end(), true);
         const cl::Buffer views = room(5 * count * sizeof(View));
         const float lift = 1e-4f * scene.frame().radius;
-        const CubeParams params{count, 5, size, 0, 0, count, lift, 0.5f * lift};
+        const CubeParams params{count, 5, size, 0, 0, count, lift, 0.5f * lift, 0, 0, 0, 0};
         gbuffer.cubes(queue, params, points, which, views).wait();
         const ViewSpan span{0, 5 * count, size, size, std::size_t{3} * count * size * size};
         for (const Form& form : forms) {

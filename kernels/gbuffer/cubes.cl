@@ -16,12 +16,12 @@ static float3 point_row(global const float* points, uint plane, uint stride, uin
 kernel void gbuffer_cubes(
     const CubeParams     params,
     global const float*  restrict points,  // [POINT_PLANES][stride] local frame
-    global const uint*   restrict chosen,  // [point_count] which of the points
+    global const uint*   restrict chosen,  // [first_chosen + point_count] which points
     global View*         restrict views)   // [first_view + point_count * faces]
 {
     uint item = (uint)get_global_id(0);
     if (item >= params.point_count) return;
-    uint point = chosen[item];
+    uint point = chosen[params.first_chosen + item];
     float3 position = point_row(points, 0, params.stride, point);
     float3 normal = point_row(points, GBUFFER_NORMAL, params.stride, point);
     int valid = dot(normal, normal) > 0.0f;

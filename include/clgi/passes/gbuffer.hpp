@@ -88,7 +88,7 @@ public:
     cl::Event put_view(const cl::CommandQueue& queue, const View& view, std::uint32_t place,
                        const cl::Buffer& views, const WaitList& wait = {}) const;
 
-    // Hemicubes or cubes around `chosen` [point_count] of the points [POINT_PLANES][stride] float
+    // Hemicubes or cubes around chosen[first_chosen] .. of the points [POINT_PLANES][stride] float
     // -> views, from first_view on.
     cl::Event cubes(const cl::CommandQueue& queue, const CubeParams& params,
                     const cl::Buffer& points, const cl::Buffer& chosen, const cl::Buffer& views,

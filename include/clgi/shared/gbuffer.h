@@ -106,6 +106,10 @@ typedef struct {
     uint stride;       // of the planes of points
     float lift;        // from the surface to the eye, along the normal, local frame
     float near;        // nearest depth that is drawn, local frame
+    uint first_chosen;  // place of the first point in the list
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
 } CubeParams;
 
 // Planes of a G-buffer, each `stride` floats: three for every vector, y and z behind x.

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/passes/atlas.hpp>
+#include <clgi/planes.hpp>
+
+#include "opencl/launch.hpp"
+#include "opencl/planes.hpp"
+#include "opencl/program.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::size_t word = sizeof(float);
+
+}  // namespace
+
+AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options) {
+    BuildOptions full = options;
+    full.storage = Storage::full;
+    gather_ = programs.kernel("atlas", "gather", full);
+}
+
+void AtlasPasses::build(std::initializer_list<const char*> passes) const {
+    build_named({gather_}, passes);
+}
+
+cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& params,
+                              const SiteBuffers& b, const cl::Buffer& views,
+                              const cl::Buffer& depth, const cl::Buffer& texels,
+                              const cl::Buffer& irradiance, const WaitList& wait) const {
+    need_stride(gather_, "stride", params.stride, params.texel_count);
+    need(gather_, "chosen", b.chosen,
+         (std::size_t{params.first_shooter} + params.shooter_count) * word);
+    need(gather_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
+    need(gather_, "sites", b.sites, b.site_count * sizeof(Site));
+    need(gather_, "planes", b.planes, SITE_PLANES * word * params.site_stride);
+    need(gather_, "light", b.light, SITE_LIGHT_PLANES * word * params.site_stride);
+    need(gather_, "balance", b.balance, BALANCE_PLANES * word * params.site_stride);
+    need(gather_, "samples", b.samples, GBUFFER_PLANES * word * params.sample_stride);
+    need(gather_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
+    need(gather_, "irradiance", irradiance, 3 * word * params.stride);
+    return launch(gather_, queue, packets(gather_, params.texel_count - params.first_texel), wait,
+                  params, b.chosen, views, depth, b.sites, b.planes, b.light, b.balance, b.samples,
+                  texels, irradiance);
+}
+
+}  // namespace clgi

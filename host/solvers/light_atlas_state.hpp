@@ -1,0 +1,87 @@
+// What the light atlas solver is made of.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/kit/draw.hpp>
+#include <clgi/kit/emitters.hpp>
+#include <clgi/passes/gbuffer.hpp>
+#include <clgi/passes/lights.hpp>
+#include <clgi/passes/parallel.hpp>
+#include <clgi/solvers/light_atlas.hpp>
+
+namespace clgi {
+
+namespace light_atlas {
+
+struct Buffers {
+    SiteBuffers sites;
+    GBuffer samples, texels;   // of sample points and VPLs, of texels
+    cl::Buffer sample_list, texel_list;  // SurfaceSample
+    cl::Buffer sample_irradiance;        // [IRRADIANCE_PLANES][sample_stride]
+    cl::Buffer irradiance;               // [IRRADIANCE_PLANES][texel_stride]
+    cl::Buffer rows;                     // transport, half
+    cl::Buffer strongest, arg_max_scratch;
+    cl::Buffer views, pixels;  // hemicubes of a batch
+    cl::Buffer non_finite;
+    RasterBuffers lists;  // for what is not drawn a view a work-item
+    std::uint32_t texel_count = 0, texel_stride = 0;
+    std::uint32_t exchange_batch = 0, filling_batch = 0;  // shooters at a time
+    bool kept = false;  // rows of all sites
+};
+
+// Throws Error for options out of range.
+void check(const LightAtlasOptions& options);
+
+// The row of every buffer. `budget`: bytes for all, from which it follows whether the transport is
+// kept.
+BufferTable table(Buffers& buffers, Emitters& emitters, const DeviceScene& scene,
+                  std::size_t samples, std::size_t sites, std::size_t texels,
+                  const LightAtlasOptions& options, std::size_t budget, std::size_t largest);
+
+}  // namespace light_atlas
+
+struct LightAtlasSolver::State {
+    State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& scene,
+          const VplLayout& vpls, const AtlasLayout& atlas, const LightAtlasOptions& options);
+
+    void upload(const VplLayout& vpls, const AtlasLayout& atlas);
+    void place();
+    void receive_direct();
+    void light_points(const GBuffer& points, std::uint32_t count, const cl::Buffer& irradiance);
+    void hemicubes(std::uint32_t first, std::uint32_t count, int size, Pixels kind);
+    void transport(std::uint32_t first, std::uint32_t count);
+    void keep_transport();
+    void balance();
+    void shoot(std::uint32_t first, std::uint32_t count);
+    void bounce();
+    void bounce_to_threshold();
+    void shoot_strongest();
+    void fill();
+    ShootParams shoot_params(std::uint32_t first, std::uint32_t count) const;
+    double unshot_power() const;    // exposed
+    float strongest_power();        // exposed; waits
+    bool run(const Progress& progress);
+
+    cl::CommandQueue queue;
+    const DeviceScene& scene;
+    LightAtlasOptions options;
+    GBufferPasses gbuffer;
+    LightPasses lights;
+    VplPasses vpl;
+    AtlasPasses atlas;
+    ParallelPasses parallel;
+    Emitters emitters;
+    light_atlas::Buffers b;
+    mutable Recorder record;
+    float row_scale = 1.0f;  // area of all sites, local
+    float lift = 0.0f;
+    double power_direct = 0.0;  // exposed
+    float threshold = 0.0f;     // exposed lumen
+    std::uint32_t shots = 0;
+    std::size_t bytes = 0;
+    bool placed = false, transported = false;
+    std::vector<Site> sites;
+    std::vector<float> direct;  // irradiance of the sites by direct light, [3][stride]
+};
+
+}  // namespace clgi

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/passes/vpl.hpp>
+#include <clgi/planes.hpp>
+
+#include "opencl/launch.hpp"
+#include "opencl/planes.hpp"
+#include "opencl/program.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::size_t word = sizeof(float);
+
+// Planes of the room are float, whatever storage others have.
+BuildOptions full(BuildOptions options) {
+    options.storage = Storage::full;
+    return options;
+}
+
+BuildOptions scalar(BuildOptions options) {
+    options.packet_width = 1;
+    return full(options);
+}
+
+SiteParams site_params(const SiteBuffers& b) {
+    return {b.site_count, b.stride, b.sample_count, b.sample_stride};
+}
+
+void need_sites(const PassKernel& pass, const SiteBuffers& b) {
+    need_stride(pass, "stride", b.stride, b.site_count);
+    need_stride(pass, "sample_stride", b.sample_stride,
+                std::size_t{b.sample_count} + b.site_count);
+    need(pass, "sites", b.sites, b.site_count * sizeof(Site));
+    need(pass, "planes", b.planes, SITE_PLANES * word * b.stride);
+    need(pass, "samples", b.samples, GBUFFER_PLANES * word * b.sample_stride);
+}
+
+std::size_t last_shooter(std::uint32_t first, std::uint32_t count) {
+    return std::size_t{first} + count;
+}
+
+void need_rows(const PassKernel& pass, const SiteBuffers& b, const cl::Buffer& rows,
+               std::uint32_t kept, std::uint32_t shooters) {
+    need(pass, "rows", rows,
+         std::size_t{kept ? b.site_count : shooters} * b.stride * sizeof(cl_half));
+}
+
+}  // namespace
+
+VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
+    const auto kernel = [&](const char* pass, const BuildOptions& how) {
+        return programs.kernel("vpl", pass, how);
+    };
+    const auto few = [&](const char* pass, const BuildOptions& how) {
+        return in_small_groups(kernel(pass, how), programs.device(), options);
+    };
+    place_ = few("place", scalar(options));
+    receive_ = few("receive", scalar(options));
+    transport_ = few("transport", full(options));
+    reach_ = few("reach", scalar(options));
+    balance_receivers_ = few("balance_receivers", full(options));
+    balance_shooters_ = few("balance_shooters", full(options));
+    emit_ = few("emit", scalar(options));
+    shoot_ = few("shoot", full(options));
+}
+
+void VplPasses::build(std::initializer_list<const char*> passes) const {
+    build_named({place_, receive_, transport_, reach_, balance_receivers_, balance_shooters_,
+                 emit_, shoot_},
+                passes);
+}
+
+cl::Event VplPasses::place(const cl::CommandQueue& queue, const DeviceScene& scene,
+                           const SiteBuffers& b, const cl::Buffer& ids,
+                           const WaitList& wait) const {
+    need_sites(place_, b);
+    need(place_, "ids", ids, GBUFFER_ID_PLANES * word * b.sample_stride);
+    return launch(place_, queue, b.site_count, wait, site_params(b), b.sites, scene.materials(),
+                  ids, b.samples, b.planes);
+}
+
+cl::Event VplPasses::receive(const cl::CommandQueue& queue, const SiteBuffers& b,
+                             const cl::Buffer& irradiance, const WaitList& wait) const {
+    need_sites(receive_, b);
+    need(receive_, "irradiance", irradiance, IRRADIANCE_PLANES * word * b.sample_stride);
+    need(receive_, "light", b.light, SITE_LIGHT_PLANES * word * b.stride);
+    return launch(receive_, queue, b.site_count, wait, site_params(b), b.sites, irradiance,
+                  b.light);
+}
+
+cl::Event VplPasses::transport(const cl::CommandQueue& queue, const TransportParams& params,
+                               const SiteBuffers& b, const cl::Buffer& views,
+                               const cl::Buffer& depth, const cl::Buffer& rows,
+                               const WaitList& wait) const {
+    need_sites(transport_, b);
+    need(transport_, "chosen", b.chosen,
+         last_shooter(params.first_shooter, params.shooter_count) * word);
+    need(transport_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
+    need(transport_, "depth", depth,
+         3 * word * params.words * params.shooter_count * params.size * params.size);
+    need_rows(transport_, b, rows, params.kept, params.shooter_count);
+    return launch_rows(transport_, queue, b.site_count, params.shooter_count, wait, params,
+                       b.chosen, views, depth, b.sites, b.planes, b.samples, rows);
+}
+
+cl::Event VplPasses::reach(const cl::CommandQueue& queue, const TransportParams& params,
+                           const DeviceScene& scene, const SiteBuffers& b,
+                           const cl::Buffer& views, const cl::Buffer& visibility,
+                           const WaitList& wait) const {
+    need_sites(reach_, b);
+    need(reach_, "chosen", b.chosen,
+         last_shooter(params.first_shooter, params.shooter_count) * word);
+    need(reach_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
+    need(reach_, "visibility", visibility,
+         3 * sizeof(cl_ulong) * params.shooter_count * params.size * params.size);
+    need(reach_, "balance", b.balance, BALANCE_PLANES * word * b.stride);
+    return launch(reach_, queue, params.shooter_count, wait, params, b.chosen, views, visibility,
+                  scene.triangles(), scene.positions(), b.balance);
+}
+
+cl::Event VplPasses::balance_receivers(const cl::CommandQueue& queue, const ShootParams& params,
+                                       const SiteBuffers& b, const cl::Buffer& rows,
+                                       const WaitList& wait) const {
+    need_sites(balance_receivers_, b);
+    need_rows(balance_receivers_, b, rows, 1, 0);
+    need(balance_receivers_, "balance", b.balance, BALANCE_PLANES * word * b.stride);
+    return launch(balance_receivers_, queue, packets(balance_receivers_, b.site_count), wait,
+                  params, b.sites, rows, b.balance);
+}
+
+cl::Event VplPasses::balance_shooters(const cl::CommandQueue& queue, const ShootParams& params,
+                                      const SiteBuffers& b, const cl::Buffer& rows,
+                                      const WaitList& wait) const {
+    need_sites(balance_shooters_, b);
+    need(balance_shooters_, "chosen", b.chosen,
+         last_shooter(params.first_shooter, params.shooter_count) * word);
+    need_rows(balance_shooters_, b, rows, params.kept, params.shooter_count);
+    need(balance_shooters_, "balance", b.balance, BALANCE_PLANES * word * b.stride);
+    return launch(balance_shooters_, queue, params.shooter_count, wait, params, b.chosen, b.sites,
+                  rows, b.balance);
+}
+
+cl::Event VplPasses::emit(const cl::CommandQueue& queue, const ShootParams& params,
+                          const SiteBuffers& b, const cl::Buffer& strongest,
+                          const WaitList& wait) const {
+    need_sites(emit_, b);
+    need(emit_, "strongest", strongest, 4 * word);
+    need(emit_, "light", b.light, SITE_LIGHT_PLANES * word * b.stride);
+    need(emit_, "power", b.power, word * b.stride);
+    need(emit_, "shot", b.shot, 3 * word * b.stride);
+    need(emit_, "chosen", b.chosen, last_shooter(params.first_shooter, 1) * word);
+    const std::size_t items = params.mode == SHOOT_STRONGEST ? 1 : b.site_count;
+    return launch(emit_, queue, items, wait, params, strongest, b.sites, b.planes, b.light,
+                  b.power, b.shot, b.chosen);
+}
+
+cl::Event VplPasses::shoot(const cl::CommandQueue& queue, const ShootParams& params,
+                           const SiteBuffers& b, const cl::Buffer& rows,
+                           const cl::Buffer& non_finite, const WaitList& wait) const {
+    need_sites(shoot_, b);
+    need(shoot_, "chosen", b.chosen,
+         last_shooter(params.first_shooter, params.shooter_count) * word);
+    need_rows(shoot_, b, rows, params.kept, params.shooter_count);
+    need(shoot_, "balance", b.balance, BALANCE_PLANES * word * b.stride);
+    need(shoot_, "shot", b.shot, 3 * word * b.stride);
+    need(shoot_, "light", b.light, SITE_LIGHT_PLANES * word * b.stride);
+    need(shoot_, "power", b.power, word * b.stride);
+    need(shoot_, "non_finite", non_finite, word);
+    return launch(shoot_, queue, packets(shoot_, b.site_count), wait, params, b.chosen, b.sites,
+                  b.planes, rows, b.balance, b.shot, b.light, b.power, non_finite);
+}
+
+}  // namespace clgi

@@ -1,0 +1,90 @@
+// VPLs spread over the surface and the light that they exchange, one method per kernel. Structs:
+// clgi/shared/vpl.h. Rules for all methods: clgi/passes/gbuffer.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/shared/vpl.h>
+#include <clgi/device_scene.hpp>
+#include <clgi/export.hpp>
+#include <clgi/pass.hpp>
+#include <clgi/passes/gbuffer.hpp>
+#include <clgi/programs.hpp>
+#include <initializer_list>
+
+namespace clgi {
+
+// The sites of a layout on the device, and their light. Planes are float in every storage.
+struct SiteBuffers {
+    cl::Buffer sites;    // [site_count] Site
+    cl::Buffer planes;   // [SITE_PLANES][stride]
+    cl::Buffer light;    // [SITE_LIGHT_PLANES][stride] exposed lux
+    cl::Buffer balance;  // [BALANCE_PLANES][stride]
+    cl::Buffer power;    // [stride] unshot power, exposed lumen; channels summed
+    cl::Buffer shot;     // [3][stride] power on its way, exposed lumen
+    cl::Buffer samples;  // [GBUFFER_PLANES][sample_stride] of the sample points, then of the sites
+    cl::Buffer chosen;   // uint: sites in the order in which they shoot
+    std::uint32_t site_count = 0;
+    std::uint32_t stride = 0;
+    std::uint32_t sample_count = 0;
+    std::uint32_t sample_stride = 0;
+};
+
+class CLGI_API VplPasses {
+public:
+    explicit VplPasses(const Programs& programs, const BuildOptions& options = {});
+    VplPasses(const cl::Context& context, const cl::Device& device,
+              const BuildOptions& options = {})
+        : VplPasses(Programs(context, device), options) {}
+
+    // Planes of the sites from those of their samples. ids: [GBUFFER_ID_PLANES][sample_stride] int.
+    cl::Event place(const cl::CommandQueue& queue, const DeviceScene& scene,
+                    const SiteBuffers& buffers, const cl::Buffer& ids,
+                    const WaitList& wait = {}) const;
+
+    // Direct light: irradiance [IRRADIANCE_PLANES][sample_stride] of the samples -> light.
+    cl::Event receive(const cl::CommandQueue& queue, const SiteBuffers& buffers,
+                      const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+
+    // Rows of the transport of a batch of shooters. views, depth: their hemicubes, of params.words a
+    // pixel. rows: [site_count or shooter_count][stride] half.
+    cl::Event transport(const cl::CommandQueue& queue, const TransportParams& params,
+                        const SiteBuffers& buffers, const cl::Buffer& views,
+                        const cl::Buffer& depth, const cl::Buffer& rows,
+                        const WaitList& wait = {}) const;
+
+    // BALANCE_REACH of a batch of shooters. visibility: their hemicubes with triangles.
+    cl::Event reach(const cl::CommandQueue& queue, const TransportParams& params,
+                    const DeviceScene& scene, const SiteBuffers& buffers, const cl::Buffer& views,
+                    const cl::Buffer& visibility, const WaitList& wait = {}) const;
+
+    // BALANCE_RECEIVER of all sites; rows of all.
+    cl::Event balance_receivers(const cl::CommandQueue& queue, const ShootParams& params,
+                                const SiteBuffers& buffers, const cl::Buffer& rows,
+                                const WaitList& wait = {}) const;
+
+    // BALANCE_SHOOTER of a batch of shooters.
+    cl::Event balance_shooters(const cl::CommandQueue& queue, const ShootParams& params,
+                               const SiteBuffers& buffers, const cl::Buffer& rows,
+                               const WaitList& wait = {}) const;
+
+    // Takes the unshot light of all sites, or of the strongest, and makes it power on its way.
+    // strongest: [1] ArgMax of the power; with SHOOT_STRONGEST also the new
+    // chosen[first_shooter].
+    cl::Event emit(const cl::CommandQueue& queue, const ShootParams& params,
+                   const SiteBuffers& buffers, const cl::Buffer& strongest,
+                   const WaitList& wait = {}) const;
+
+    // The power of a batch of shooters arrives at all sites. non_finite: [1] uint, counts packets.
+    cl::Event shoot(const cl::CommandQueue& queue, const ShootParams& params,
+                    const SiteBuffers& buffers, const cl::Buffer& rows,
+                    const cl::Buffer& non_finite, const WaitList& wait = {}) const;
+
+    // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
+    void build(std::initializer_list<const char*> passes) const;
+
+private:
+    PassKernel place_, receive_, transport_, reach_, balance_receivers_, balance_shooters_, emit_,
+        shoot_;
+};
+
+}  // namespace clgi

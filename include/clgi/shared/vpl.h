@@ -1,0 +1,78 @@
+// VPLs spread over the surface, the sample points around them, and the transport between them.
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_VPL_H
+#define CLGI_SHARED_VPL_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+// What a VPL stands for: a part of a patch, and the sample points spread over it.
+typedef struct {
+    uint first_sample;
+    uint sample_count;  // at least 1
+    float area;         // local units squared
+    uint flags;         // SITE_...
+} Site;
+
+enum { SITE_BACK = 1 };  // on the back of a double-sided triangle
+
+// Planes of the sites. The first six are those of a set of points, so hemicubes can stand on them.
+enum {
+    SITE_POSITION = 0,   // local frame
+    SITE_NORMAL = 3,     // of the triangle, unit; 0 where there is no surface
+    SITE_ALBEDO = 6,     // diffuse reflectance, mean of the samples, [0, SITE_BRIGHTEST]
+    SITE_PLANES = 9
+};
+
+// A surface that reflects everything would never end to shoot.
+#define SITE_BRIGHTEST 0.9990234375f  // 1 - 2^-10
+
+// Planes of the light at the sites, exposed lux.
+enum {
+    SITE_UNSHOT = 0,    // irradiance that was not sent on yet
+    SITE_RECEIVED = 3,  // all irradiance
+    SITE_LIGHT_PLANES = 6
+};
+
+typedef struct {
+    uint site_count;
+    uint stride;         // of the planes of sites
+    uint sample_count;
+    uint sample_stride;  // of the planes of samples
+} SiteParams;
+
+// Shooting sites with their hemicubes, and the rows of transport that belong to them: all rows are
+// kept, one for every site, or only those of the shooters.
+typedef struct {
+    uint first_shooter;  // in the list of chosen sites
+    uint shooter_count;
+    uint kept;  // 1: the row of a site has its number; 0: the shooters' rows follow each other
+    uint site_count;
+    uint stride;         // of the planes of sites, and of the rows
+    uint sample_stride;  // of the planes of samples
+    uint size;           // pixels, width of the hemicubes' faces
+    float row_scale;     // multiplies the transport, so that a half holds it: the area of all sites
+    uint words;          // of a pixel: 1 for depth alone, 2 for visibility
+} TransportParams;
+
+typedef struct {
+    uint first_shooter;  // as in TransportParams
+    uint shooter_count;
+    uint kept;
+    uint site_count;
+    uint stride;
+    float per_row_scale;  // 1 / TransportParams::row_scale
+    uint mode;            // SHOOT_...
+    float threshold;      // power below which nothing is shot, exposed lumen
+} ShootParams;
+
+enum { SHOOT_ALL = 0, SHOOT_STRONGEST = 1 };
+
+// Factors of the transport, planes of [stride] each: of the shooter, of the receiver, and the share
+// of the shooter's hemisphere in which it meets surfaces.
+enum { BALANCE_SHOOTER = 0, BALANCE_RECEIVER = 1, BALANCE_REACH = 2, BALANCE_PLANES = 3 };
+
+CLGI_SHARED_END
+
+#endif

@@ -1,0 +1,93 @@
+// Light atlas: multi-bounce diffuse light, exchanged between VPLs with visibility and gathered into
+// the texels of an atlas.                                                     [Scharfig16]
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/atlas_layout.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/emitters.hpp>
+#include <clgi/interval.hpp>
+#include <clgi/kit/buffer_table.hpp>
+#include <clgi/kit/recorder.hpp>
+#include <clgi/passes/atlas.hpp>
+#include <clgi/passes/vpl.hpp>
+#include <clgi/programs.hpp>
+#include <clgi/vpl_layout.hpp>
+#include <memory>
+#include <vector>
+
+namespace clgi {
+
+struct LightAtlasOptions {
+    EmitterOptions emitters;  // shadow maps and samples of the lights; emitters.vpls is not used
+    // How often light is reflected at most before it reaches a texel, at least 1; 0: until the
+    // largest unshot power is below the threshold.
+    std::uint32_t bounces = 5;
+    float threshold = 1e-4f;  // of the power that direct light makes all VPLs reflect, (0,1]
+    // With bounces = 0: the strongest VPL shoots alone, then the next, as in the paper. Otherwise
+    // all shoot at once, which converges to the same light in far less time.
+    bool one_at_a_time = false;
+    int exchange_size = 128;  // pixels of a hemicube's face when VPLs exchange light; even
+    int filling_size = 256;   // and when the atlas is filled
+    bool direct = false;      // direct light in the atlas too
+    // Bytes that the solver's buffers may take together; 0: what the device has beside the scene.
+    // The transport between all pairs of VPLs is kept if it fits, else computed anew each bounce.
+    std::size_t memory_budget = 0;
+    BuildOptions build;
+};
+
+// What a bake found out. Power is in lumen, the three channels summed.
+struct LightAtlasStatus {
+    std::uint32_t non_finite = 0;  // packets of numbers that are not finite
+    std::uint32_t shots = 0;       // VPLs that shot, counted at every bounce
+    bool transport_kept = false;
+    double power_direct = 0.0;    // that all VPLs reflect of direct light
+    double power_shot = 0.0;      // by all VPLs together
+    double power_received = 0.0;  // by all VPLs, of what was shot
+    double power_lost = 0.0;      // that left the scene or ended on backs of surfaces
+    double power_left = 0.0;      // not shot
+};
+
+// Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
+// outlive the solver; the layouts are not needed afterwards. One thread at a time.
+class CLGI_API LightAtlasSolver {
+public:
+    // Builds kernels and allocates. vpls, atlas: of the scene that was uploaded. Throws Error for
+    // options out of range and layouts of another scene, DeviceError when memory does not suffice.
+    LightAtlasSolver(const Programs& programs, const cl::CommandQueue& queue,
+                     const DeviceScene& scene, const VplLayout& vpls, const AtlasLayout& atlas,
+                     const LightAtlasOptions& options = {});
+    ~LightAtlasSolver();
+    LightAtlasSolver(const LightAtlasSolver&) = delete;
+    LightAtlasSolver& operator=(const LightAtlasSolver&) = delete;
+
+    // Reads the scene's lights again, after DeviceScene::set_light. The next run keeps the
+    // transport: only direct light, the exchange and the filling are computed anew.
+    void lights_changed();
+
+    // Bakes, and waits for the end. Returns whether it was not cancelled; a cancelled bake may be
+    // run again.
+    bool run(const Progress& progress = nullptr);
+
+    // Waits for the last run and reads what it found.
+    LightAtlasStatus status() const;
+
+    // Irradiance of each texel of AtlasLayout::texels, lux. Waits.
+    std::vector<glm::vec3> irradiance() const;
+    // Irradiance of each VPL, lux, without cosine to a texel: what its surface receives. Waits.
+    std::vector<glm::vec3> vpl_irradiance() const;
+
+    const cl::Buffer& irradiance_planes() const;  // [3][stride()] float, exposed lux, by texel
+    std::uint32_t stride() const;
+    const cl::Buffer& texel_planes() const;  // a G-buffer's planes, [GBUFFER_PLANES][stride()]
+    const SiteBuffers& sites() const;
+    std::size_t bytes() const;  // of all buffers
+    const std::vector<PassEvent>& events() const;
+    const LightAtlasOptions& options() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace clgi
