@@ -19,9 +19,11 @@
 #include <clgi/passes/lights.hpp>
 #include <clgi/passes/parallel.hpp>
 #include <clgi/passes/scene.hpp>
+#include <clgi/patches.hpp>
 #include <clgi/procedural.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
 #include <clgi/scene_mover.hpp>
 #include <clgi/slice.hpp>
 #include <clgi/solvers/second_order.hpp>
+#include <clgi/vpl_layout.hpp>

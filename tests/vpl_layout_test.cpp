@@ -1,0 +1,391 @@
+// VPLs and sample points: areas against closed forms, membership against brute force, evenness.
+// SPDX-License-Identifier: MIT
+#include "clgi/vpl_layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clgi/adjacency.hpp>
+#include <clgi/error.hpp>
+#include <clgi/procedural.hpp>
+#include <cmath>
+#include <limits>
+
+#include "scenes.hpp"
+#include "walls.hpp"
+
+namespace clgi {
+namespace {
+
+template <typename Point>
+glm::dvec3 position(const Scene& scene, const Point& p) {
+    const glm::dvec3 a = test::corner(scene, p.triangle, 0);
+    return a + double{p.b1} * (test::corner(scene, p.triangle, 1) - a) +
+           double{p.b2} * (test::corner(scene, p.triangle, 2) - a);
+}
+
+template <typename Point>
+std::vector<glm::dvec3> positions(const Scene& scene, const std::vector<Point>& points) {
+    std::vector<glm::dvec3> out;
+    for (const Point& p : points) out.push_back(position(scene, p));
+    return out;
+}
+
+// What must hold for any layout. Every stride-th sample is checked against all VPLs.
+void expect_consistent(const Scene& scene, const Patches& patches, const VplLayout& layout,
+                       std::size_t stride = 1) {
+    const auto region_of = [&](std::uint32_t t) {
+        return layout.patch_region.at(patches.triangle_patch[t]);
+    };
+    std::vector<double> region_area(layout.region_count), placed(layout.region_count);
+    double area = 0.0;
+    for (std::size_t p = 0; p < patches.patches.size(); ++p) {
+        const double sides = patches.patches[p].double_sided ? 2.0 : 1.0;
+        region_area.at(layout.patch_region[p]) += sides * patches.patches[p].area;
+        area += sides * patches.patches[p].area;
+    }
+    EXPECT_NEAR(layout.area, area, 1e-12 * area);
+    EXPECT_NEAR(layout.sample_area * double(layout.samples.size()), area, 1e-12 * area);
+    const std::vector<glm::dvec3> at = positions(scene, layout.vpls);
+    std::uint32_t next = 0, outside = 0, strangers = 0, not_nearest = 0;
+    const auto inside = [](const auto& p) {
+        return p.b1 >= 0.0f && p.b2 >= 0.0f && 1.0f - p.b1 - p.b2 >= 0.0f;
+    };
+    for (const VplSite& vpl : layout.vpls) {
+        EXPECT_EQ(vpl.first_sample, next);
+        EXPECT_GE(vpl.sample_count, 1u);
+        next += vpl.sample_count;
+        EXPECT_EQ(region_of(vpl.triangle), vpl.region);
+        outside += !inside(vpl);
+        EXPECT_GT(vpl.area, 0.0f);
+        placed[vpl.region] += double{vpl.area};
+        const bool both = scene.materials[scene.triangles[vpl.triangle].material].double_sided;
+        EXPECT_TRUE(both || !vpl.back);
+    }
+    ASSERT_EQ(next, layout.samples.size());
+    for (std::uint32_t r = 0; r < layout.region_count; ++r)
+        EXPECT_NEAR(placed[r], region_area[r], 1e-6 * region_area[r]) << r;  // floats
+    for (std::size_t v = 0; v < layout.vpls.size(); ++v) {
+        const VplSite& vpl = layout.vpls[v];
+        for (std::uint32_t i = 0; i < vpl.sample_count; ++i) {
+            const SamplePoint& sample = layout.samples[vpl.first_sample + i];
+            outside += !inside(sample);
+            strangers += region_of(sample.triangle) != vpl.region;
+            if ((vpl.first_sample + i) % stride != 0) continue;
+            const glm::dvec3 p = position(scene, sample);
+            const double mine = glm::length(p - at[v]);
+            for (std::size_t other = 0; other < layout.vpls.size(); ++other)
+                if (layout.vpls[other].region == vpl.region && layout.vpls[other].back == vpl.back)
+                    not_nearest += glm::length(p - at[other]) < mine * (1 - 1e-9) - 1e-12;
+        }
+    }
+    EXPECT_EQ(outside, 0u);
+    EXPECT_EQ(strangers, 0u);
+    EXPECT_EQ(not_nearest, 0u);
+}
+
+// In units of the mean spacing sqrt(area / points).
+double least_distance(const std::vector<glm::dvec3>& points, double area) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            least = std::min(least, glm::length(points[i] - points[j]));
+    return least / std::sqrt(area / double(points.size()));
+}
+
+// The largest difference between the share of points in a box and the box's area, over many boxes
+// in the unit square.
+double discrepancy(const std::vector<glm::dvec3>& points, double width, double height) {
+    test::Random random(11);
+    double worst = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        double x0 = random(0, 1), x1 = random(0, 1), y0 = random(0, 1), y1 = random(0, 1);
+        if (x0 > x1) std::swap(x0, x1);
+        if (y0 > y1) std::swap(y0, y1);
+        const auto in = std::count_if(points.begin(), points.end(), [&](const glm::dvec3& p) {
+            return p.x >= x0 * width && p.x < x1 * width && p.y >= y0 * height && p.y < y1 * height;
+        });
+        worst =
+            std::max(worst, std::abs(double(in) / double(points.size()) - (x1 - x0) * (y1 - y0)));
+    }
+    return worst;
+}
+
+TEST(VplLayout, DividesACubeEquallyAndKeepsOffItsEdges) {
+    Scene scene = test::plain_scene();
+    test::add_box(scene, {0, 0, 0}, {1, 1, 1}, -1);
+    const Patches patches = make_patches(scene);
+    for (const std::uint32_t n : {6u, 96u, 600u}) {
+        const VplLayout layout = place_vpls(scene, patches, {.count = n});
+        expect_consistent(scene, patches, layout);
+        ASSERT_EQ(layout.vpls.size(), n);
+        EXPECT_EQ(layout.region_count, 6u);
+        std::vector<std::vector<glm::dvec3>> face(6);
+        const double spacing = std::sqrt(6.0 / n);
+        for (const VplSite& vpl : layout.vpls) {
+            const glm::dvec3 p = position(scene, vpl);
+            face[vpl.region].push_back(p);
+            // One coordinate is that of the face; the others keep off 0 and 1.
+            double q[3];
+            for (int k = 0; k < 3; ++k) q[k] = std::min(p[k], 1 - p[k]);
+            std::sort(q, q + 3);
+            EXPECT_NEAR(q[0], 0.0, 1e-6);
+            EXPECT_GT(q[1], 0.25 * spacing);
+        }
+        for (const auto& points : face) {
+            EXPECT_EQ(points.size(), n / 6);
+            EXPECT_GT(least_distance(points, 1.0), 0.5);  // infinite for one
+        }
+    }
+    // 101 = 16 * 6 + 5: no face has two more than another.
+    const VplLayout layout = place_vpls(scene, patches, {.count = 101});
+    std::vector<int> face(6);
+    for (const VplSite& vpl : layout.vpls) ++face[vpl.region];
+    for (const int count : face) EXPECT_TRUE(count == 16 || count == 17);
+    EXPECT_EQ(layout.vpls.size(), 101u);
+}
+
+// Random points: least distance 0.02, discrepancy of a thousand 0.03.
+TEST(VplLayout, IsEvenHoweverAWallIsCut) {
+    for (const glm::dvec2 size : {glm::dvec2(1, 1), glm::dvec2(3, 2), glm::dvec2(7, 0.5)})
+        for (const std::uint32_t cells : {1u, 9u, 70u}) {
+            const Scene scene = test::crooked_wall(size.x, size.y, cells);
+            const Patches patches = make_patches(scene);
+            const VplLayout layout = place_vpls(scene, patches, {.count = 100});
+            expect_consistent(scene, patches, layout);
+            ASSERT_EQ(layout.vpls.size(), 100u);
+            ASSERT_EQ(layout.samples.size(), 1000u);
+            const std::vector<glm::dvec3> vpls = positions(scene, layout.vpls);
+            const std::vector<glm::dvec3> samples = positions(scene, layout.samples);
+            EXPECT_GT(least_distance(vpls, size.x * size.y), 0.55);
+            EXPECT_GT(least_distance(samples, size.x * size.y), 0.4);
+            EXPECT_LT(discrepancy(samples, size.x, size.y), size.x == 7 ? 0.05 : 0.02);
+            for (const VplSite& vpl : layout.vpls) {
+                EXPECT_GE(vpl.sample_count, 5u);
+                EXPECT_LE(vpl.sample_count, 16u);
+            }
+        }
+}
+
+// A triangle far smaller than C has a sample only now and then; the crooked half of the wall has no
+// more than the plain one.
+TEST(VplLayout, GivesSmallTrianglesTheirShareOnly) {
+    Scene scene = test::crooked_wall(1, 1, 60);
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    scene.positions.insert(scene.positions.end(), {{5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}});
+    scene.normals.insert(scene.normals.end(), 4, glm::vec3(0, 0, 1));
+    scene.triangles.push_back({{first, first + 1, first + 2}, 0});
+    scene.triangles.push_back({{first, first + 2, first + 3}, 0});
+    const Patches patches = make_patches(scene);
+    const VplLayout layout = place_vpls(scene, patches, {.count = 40});
+    expect_consistent(scene, patches, layout);
+    EXPECT_EQ(layout.region_count, 2u);
+    EXPECT_EQ(std::count_if(layout.vpls.begin(), layout.vpls.end(),
+                            [](const VplSite& v) { return v.region == 0; }),
+              20);
+    EXPECT_EQ(std::count_if(layout.samples.begin(), layout.samples.end(),
+                            [](const SamplePoint& s) { return s.triangle >= 7200; }),
+              200);
+}
+
+TEST(VplLayout, CoversASphere) {
+    const Scene scene = furnace({.subdivisions = 5});
+    const Patches patches = make_patches(scene);
+    for (const std::uint32_t n : {1u, 10u, 200u, 3000u}) {
+        const VplLayout layout = place_vpls(scene, patches, {.count = n});
+        expect_consistent(scene, patches, layout, n > 1000 ? 7 : 1);
+        EXPECT_TRUE(layout.vpls.size() == n || (n == 1 && layout.vpls.size() <= 12));
+        // The sum of A_j x_j over a sphere vanishes, and that of A_j is 4 pi, less what the
+        // inscribed triangles lose.
+        EXPECT_NEAR(layout.area, 12.566, 0.02);
+        glm::dvec3 sum(0.0);
+        for (const VplSite& vpl : layout.vpls)
+            sum += double{vpl.area} * position(scene, vpl) / layout.area;
+        EXPECT_LT(glm::length(sum), n == 1 ? 0.3 : n == 10 ? 0.1 : 0.01);
+    }
+}
+
+// Patches by the thousand, and still the number that was asked for.
+TEST(VplLayout, MergesWhatIsTooSmall) {
+    const Scene scene = box();
+    const Patches patches = make_patches(scene, {0.02f, 0.02f});
+    ASSERT_GT(patches.patches.size(), 4000u);
+    for (const std::uint32_t n : {100u, 1600u}) {
+        const VplLayout layout = place_vpls(scene, patches, {.count = n});
+        expect_consistent(scene, patches, layout, 5);
+        EXPECT_EQ(layout.vpls.size(), n);
+        // Walls, 32 of some 34.5 m^2, give up a quarter of all VPLs at most.
+        std::uint32_t on_walls = 0;
+        for (const VplSite& vpl : layout.vpls) on_walls += test::area_of(scene, vpl.triangle) > 1.0;
+        EXPECT_GT(on_walls, n * 32 / 34.6 - 0.25 * n - 6);  // rounding of six walls
+    }
+    const VplLayout one = place_vpls(scene, patches, {.count = 1});
+    expect_consistent(scene, patches, one);
+    EXPECT_LE(one.vpls.size(), 6u);
+}
+
+// What nothing connects is clustered, by place and direction.
+TEST(VplLayout, ClustersSpecks) {
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 5.0);
+    test::Random random(23);
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec3 at(random(-5, 5), random(1, 5), random(-5, 5));
+        const auto offset = [&] {
+            return at + 0.02 * glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1));
+        };
+        test::add_triangle(scene, offset(), offset(), offset());
+    }
+    const Patches patches = make_patches(scene);
+    ASSERT_EQ(patches.patches.size(), 3001u);
+    for (const std::uint32_t n : {100u, 1000u}) {
+        const VplLayout layout = place_vpls(scene, patches, {.count = n});
+        expect_consistent(scene, patches, layout);
+        EXPECT_EQ(layout.vpls.size(), n);
+        const auto on_floor = std::count_if(layout.vpls.begin(), layout.vpls.end(),
+                                            [](const VplSite& v) { return v.triangle < 2; });
+        EXPECT_GE(on_floor, 0.74 * n);
+        EXPECT_LT(on_floor, n);
+    }
+    EXPECT_LE(place_vpls(scene, patches, {.count = 1}).vpls.size(), 6u);
+    // Nothing but specks.
+    scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
+    const Patches alone = make_patches(scene);
+    const VplLayout layout = place_vpls(scene, alone, {.count = 200});
+    expect_consistent(scene, alone, layout);
+    EXPECT_EQ(layout.vpls.size(), 200u);
+}
+
+TEST(VplLayout, MirrorsDoubleSidedRegions) {
+    Scene scene = test::crooked_wall(2, 1, 5);
+    scene.materials[0].double_sided = true;
+    const Patches patches = make_patches(scene);
+    const VplLayout layout = place_vpls(scene, patches, {.count = 41});
+    expect_consistent(scene, patches, layout);
+    EXPECT_NEAR(layout.area, 4.0, 1e-12);
+    ASSERT_EQ(layout.vpls.size(), 40u);
+    ASSERT_EQ(layout.samples.size() % 2, 0u);
+    for (std::size_t v = 0; v < layout.vpls.size(); v += 2) {
+        const VplSite &front = layout.vpls[v], &back = layout.vpls[v + 1];
+        EXPECT_FALSE(front.back);
+        EXPECT_TRUE(back.back);
+        EXPECT_EQ(position(scene, front), position(scene, back));
+        EXPECT_EQ(front.area, back.area);
+        ASSERT_EQ(front.sample_count, back.sample_count);
+        for (std::uint32_t i = 0; i < front.sample_count; ++i)
+            EXPECT_EQ(position(scene, layout.samples[front.first_sample + i]),
+                      position(scene, layout.samples[back.first_sample + i]));
+    }
+}
+
+TEST(VplLayout, ApproximatesAreasByNumbersOfSamples) {
+    const Scene scene = corridor();
+    const Patches patches = make_patches(scene);
+    const VplLayout layout = place_vpls(scene, patches, {});
+    expect_consistent(scene, patches, layout);
+    EXPECT_EQ(layout.vpls.size(), 1600u);
+    std::vector<double> area(layout.region_count), samples(layout.region_count);
+    for (std::size_t p = 0; p < patches.patches.size(); ++p)
+        area[layout.patch_region[p]] += patches.patches[p].area;
+    for (const VplSite& vpl : layout.vpls) samples[vpl.region] += vpl.sample_count;
+    const double c = layout.area / 16000;  // what was wanted
+    for (std::uint32_t r = 0; r < layout.region_count; ++r)
+        EXPECT_LE(std::abs(samples[r] * c - area[r]), 0.5 * c * (1 + 1e-9));
+    EXPECT_NEAR(layout.sample_area, c, 0.01 * c);
+}
+
+TEST(VplLayout, TakesManyVplsAndSamplesOfOne) {
+    const Scene scene = cornell();
+    const Patches patches = make_patches(scene);
+    const VplLayout layout = place_vpls(scene, patches, {.count = 25600});
+    expect_consistent(scene, patches, layout, 997);
+    EXPECT_EQ(layout.vpls.size(), 25600u);
+    const VplLayout single = place_vpls(scene, patches, {.count = 300, .samples_per_vpl = 1});
+    expect_consistent(scene, patches, single);
+    EXPECT_EQ(single.vpls.size(), 300u);
+    const VplLayout dense = place_vpls(scene, patches, {.density = 50.0});
+    expect_consistent(scene, patches, dense);
+    EXPECT_EQ(dense.vpls.size(), std::lround(50.0 * patches.area));
+}
+
+TEST(VplLayout, OfLittleIsLittle) {
+    Scene scene = test::plain_scene();
+    const VplLayout none = place_vpls(scene, make_patches(scene));
+    EXPECT_TRUE(none.vpls.empty() && none.samples.empty());
+    EXPECT_EQ(none.area, 0.0);
+    test::add_triangle(scene, {0, 0, 0}, {3, 0, 0}, {0, 3, 0});
+    const Patches patches = make_patches(scene);
+    const VplLayout one = place_vpls(scene, patches, {.count = 1});
+    expect_consistent(scene, patches, one);
+    ASSERT_EQ(one.vpls.size(), 1u);
+    EXPECT_EQ(one.samples.size(), 10u);
+    EXPECT_FLOAT_EQ(one.vpls[0].area, 4.5f);
+    EXPECT_LT(glm::length(position(scene, one.vpls[0]) - glm::dvec3(1, 1, 0)), 0.5);
+    expect_consistent(scene, patches, place_vpls(scene, patches, {.count = 1000}));
+}
+
+TEST(VplLayout, OutlivesSliversNeedlesAndDistance) {
+    Scene scene = test::plain_scene();
+    test::Random random(29);
+    const auto point = [&](double size) {
+        return glm::dvec3(random(-size, size), random(-size, size), random(-size, size));
+    };
+    for (int i = 0; i < 10000; ++i) {
+        const glm::dvec3 from = point(10), along = point(3);
+        const double width = std::pow(10.0, random(-9, -1));
+        test::add_triangle(scene, from, from + along, from + random(0, 1) * along + point(width));
+    }
+    for (const double away : {0.0, 1e7}) {
+        const Scene there = test::moved(scene, {away, -away, 0.5 * away});
+        const Patches patches = make_patches(there);
+        for (const std::uint32_t n : {50u, 2000u}) {
+            const VplLayout layout = place_vpls(there, patches, {.count = n});
+            EXPECT_EQ(layout.vpls.size(), n);
+            if (away == 0.0) expect_consistent(there, patches, layout, 7);
+        }
+    }
+    // A needle 1 : 1e6 beside a floor.
+    scene = test::plain_scene();
+    test::add_floor(scene, 1.0);
+    test::add_triangle(scene, {-1, 1, 0}, {1, 1, 0}, {1, 1, 2e-6});
+    const Patches patches = make_patches(scene);
+    EXPECT_EQ(patches.skipped_triangles, 0u);
+    expect_consistent(scene, patches, place_vpls(scene, patches, {.count = 20}));
+}
+
+TEST(VplLayout, IsTheSameInEveryRun) {
+    const Scene scene = box();
+    const VplLayout a = place_vpls(scene, make_patches(scene), {.count = 500});
+    const VplLayout b = place_vpls(scene, make_patches(scene), {.count = 500});
+    ASSERT_EQ(a.vpls.size(), b.vpls.size());
+    ASSERT_EQ(a.samples.size(), b.samples.size());
+    for (std::size_t v = 0; v < a.vpls.size(); ++v) {
+        const VplSite &x = a.vpls[v], &y = b.vpls[v];
+        EXPECT_TRUE(x.triangle == y.triangle && x.b1 == y.b1 && x.b2 == y.b2 && x.area == y.area &&
+                    x.first_sample == y.first_sample && x.region == y.region);
+    }
+    for (std::size_t s = 0; s < a.samples.size(); ++s) {
+        const SamplePoint &x = a.samples[s], &y = b.samples[s];
+        EXPECT_TRUE(x.triangle == y.triangle && x.b1 == y.b1 && x.b2 == y.b2);
+    }
+}
+
+TEST(VplLayout, NeedsOptionsInRange) {
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 1.0);
+    const Patches patches = make_patches(scene);
+    const double nan = std::nan("");
+    EXPECT_THROW(place_vpls(scene, patches, {.count = 0}), Error);
+    EXPECT_THROW(place_vpls(scene, patches, {.count = 11, .most = 10}), Error);
+    EXPECT_THROW(place_vpls(scene, patches, {.density = -1.0}), Error);
+    EXPECT_THROW(place_vpls(scene, patches, {.density = nan}), Error);
+    EXPECT_THROW(place_vpls(scene, patches, {.density = 1e12}), Error);
+    EXPECT_THROW(place_vpls(scene, patches, {.samples_per_vpl = 0}), Error);
+    EXPECT_THROW(place_vpls(scene, patches, {.samples_per_vpl = 5000}), Error);
+    EXPECT_THROW(place_vpls(scene, patches, {.count = 1u << 20, .samples_per_vpl = 4096}), Error);
+    test::add_floor(scene, 1.0, 1.0);
+    EXPECT_THROW(place_vpls(scene, patches), Error);
+}
+
+}  // namespace
+}  // namespace clgi
