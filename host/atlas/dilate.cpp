@@ -12,44 +12,47 @@ constexpr std::uint32_t none = 0xffffffffu;
 }  // namespace
 
 void list_dilated(int padding, AtlasLayout& layout) {
-    const int size = layout.size;
-    const auto side = static_cast<std::size_t>(size);
+    const auto size = static_cast<std::uint32_t>(layout.size);
+    const auto reach = static_cast<std::uint32_t>(padding);
     // [pages * size * size] index of the texel that is listed there, or of the nearest.
-    std::vector<std::uint32_t> source(side * side * static_cast<std::size_t>(layout.pages), none);
+    std::vector<std::uint32_t> source(
+        std::size_t{size} * size * static_cast<std::size_t>(layout.pages), none);
     std::vector<bool> listed(source.size());
     for (std::uint32_t i = 0; i < layout.texels.size(); ++i) {
         source[layout.texels[i].texel] = i;
         listed[layout.texels[i].texel] = true;
     }
-    const auto row_of = [&](std::size_t texel) { return static_cast<int>(texel / side % side); };
-    const auto column_of = [&](std::size_t texel) { return static_cast<int>(texel % side); };
-    const auto distance = [&](std::size_t texel, std::uint32_t from) {
-        const std::size_t other = layout.texels[from].texel;
-        const int x = column_of(texel) - column_of(other), y = row_of(texel) - row_of(other);
+    const auto distance = [&](std::uint32_t column, std::uint32_t row, std::uint32_t from) {
+        const std::uint32_t other = layout.texels[from].texel;
+        const std::int64_t x = std::int64_t{column} - other % size,
+                           y = std::int64_t{row} - other / size % size;
         return x * x + y * y;
-    };
-    // visit(texel) for those of its page around texel i.
-    const auto around = [&](std::uint32_t i, int reach, auto&& visit) {
-        const std::size_t texel = layout.texels[i].texel, page = texel / (side * side);
-        const int column = column_of(texel), row = row_of(texel);
-        for (int y = std::max(row - reach, 0); y <= std::min(row + reach, size - 1); ++y)
-            for (int x = std::max(column - reach, 0); x <= std::min(column + reach, size - 1); ++x)
-                visit((page * side + static_cast<std::size_t>(y)) * side +
-                      static_cast<std::size_t>(x));
     };
     std::vector<std::uint32_t> found;
     for (std::uint32_t i = 0; i < layout.texels.size(); ++i) {
+        const std::uint32_t texel = layout.texels[i].texel;
+        const std::uint32_t row = texel / size % size, column = texel % size;
+        const std::uint32_t page = texel - row * size - column;  // its first texel
+        const auto is_empty = [&](std::uint32_t x, std::uint32_t y) {
+            return x < size && y < size && !listed[page + y * size + x];
+        };
+        // Most lie within their chart; one beyond 0 wraps to what is no column or row.
         bool at_edge = false;
-        around(i, 1, [&](std::size_t texel) { at_edge = at_edge || !listed[texel]; });
+        for (std::uint32_t k = 0; k < 9 && !at_edge; ++k)
+            at_edge = is_empty(column + k % 3 - 1, row + k / 3 - 1);
         if (!at_edge) continue;
-        around(i, padding, [&](std::size_t texel) {
-            if (listed[texel]) return;
-            if (source[texel] == none)
-                found.push_back(static_cast<std::uint32_t>(texel));
-            else if (distance(texel, source[texel]) <= distance(texel, i))
-                return;
-            source[texel] = i;
-        });
+        for (std::uint32_t y = row - std::min(row, reach); y <= std::min(row + reach, size - 1);
+             ++y)
+            for (std::uint32_t x = column - std::min(column, reach);
+                 x <= std::min(column + reach, size - 1); ++x) {
+                if (!is_empty(x, y)) continue;
+                std::uint32_t& nearest = source[page + y * size + x];
+                if (nearest == none)
+                    found.push_back(page + y * size + x);
+                else if (distance(x, y, nearest) <= distance(x, y, i))
+                    continue;
+                nearest = i;
+            }
     }
     std::sort(found.begin(), found.end());
     layout.dilated.reserve(found.size());

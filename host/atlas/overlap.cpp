@@ -23,27 +23,57 @@ bool separated(const glm::dvec2* a, const glm::dvec2* b, double slack) {
     return false;
 }
 
-struct Box {
-    glm::ivec2 low, high;  // cells, both included
-};
+// The range of x that an edge has between two heights, added to `range`.
+void add_range(glm::dvec2 a, glm::dvec2 b, double low, double high, glm::dvec2& range) {
+    if (a.y > b.y) std::swap(a, b);
+    if (b.y < low || a.y > high) return;
+    const auto at = [&](double y) {
+        return y <= a.y ? a.x : y >= b.y ? b.x : glm::mix(a.x, b.x, (y - a.y) / (b.y - a.y));
+    };
+    for (const double x : {at(low), at(high)}) range = {std::min(range.x, x), std::max(range.y, x)};
+}
 
 class Grid {
 public:
     Grid(const std::vector<glm::dvec2>& corners, const glm::dvec2& low, const glm::dvec2& extent)
-        : low_(low) {
-        const double count = std::max(1.0, double(corners.size()) / 3.0);
+        : corners_(corners), low_(low) {
+        const double count = double(corners.size()) / 3.0;
         cell_ = std::sqrt(std::max(extent.x * extent.y, 1e-300) / count);
         cell_ = std::max(cell_, std::max(extent.x, extent.y) / (count + 1.0));  // slender regions
-        size_ = cells(low + extent) + 1;
+        size_ = glm::ivec2(extent / cell_) + 1;
     }
-    glm::ivec2 size() const { return size_; }
-    glm::ivec2 cells(const glm::dvec2& p) const { return glm::ivec2((p - low_) / cell_); }
-    Box box(const glm::dvec2* corner) const {
-        return {cells(glm::min(corner[0], glm::min(corner[1], corner[2]))),
-                cells(glm::max(corner[0], glm::max(corner[1], corner[2])))};
+
+    std::size_t cells() const {
+        return static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
+    }
+
+    // The cells that a triangle may meet: those of its box would be far too many for slivers.
+    template <typename Visit>
+    void each_cell(std::uint32_t triangle, Visit&& visit) const {
+        const glm::dvec2* corner = &corners_[3 * std::size_t{triangle}];
+        const glm::dvec2 low = glm::min(corner[0], glm::min(corner[1], corner[2])),
+                         high = glm::max(corner[0], glm::max(corner[1], corner[2]));
+        constexpr double more = 1e-6;  // of a cell, against rounding
+        const int last = cell_of(high.y - low_.y, more, size_.y);
+        for (int y = cell_of(low.y - low_.y, -more, size_.y); y <= last; ++y) {
+            glm::dvec2 range(1e300, -1e300);
+            for (int k = 0; k < 3; ++k)
+                add_range(corner[k], corner[(k + 1) % 3], low_.y + (y - more) * cell_,
+                          low_.y + (y + 1 + more) * cell_, range);
+            if (range.x > range.y) continue;
+            const int end = cell_of(range.y - low_.x, more, size_.x);
+            for (int x = cell_of(range.x - low_.x, -more, size_.x); x <= end; ++x)
+                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) +
+                      static_cast<std::size_t>(x));
+        }
     }
 
 private:
+    int cell_of(double distance, double more, int count) const {
+        return std::clamp(static_cast<int>(distance / cell_ + more), 0, count - 1);
+    }
+
+    const std::vector<glm::dvec2>& corners_;
     glm::dvec2 low_;
     double cell_ = 1.0;
     glm::ivec2 size_ = glm::ivec2(1);
@@ -62,40 +92,26 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping(
         high = glm::max(high, corner);
     }
     const Grid grid(corners, low, high - low);
-    const auto cell = [&](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.size().x) +
-               static_cast<std::size_t>(x);
-    };
-
     // Triangles of each cell, one list after the other.
-    std::vector<Box> boxes(count);
-    std::vector<std::size_t> first(cell(0, grid.size().y) + 1, 0);
-    const auto each_cell = [&](const Box& box, auto&& visit) {
-        for (int y = box.low.y; y <= box.high.y; ++y)
-            for (int x = box.low.x; x <= box.high.x; ++x) visit(cell(x, y));
-    };
-    for (std::uint32_t t = 0; t < count; ++t) {
-        boxes[t] = grid.box(&corners[3 * std::size_t{t}]);
-        each_cell(boxes[t], [&](std::size_t c) { ++first[c + 1]; });
-    }
-    for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+    std::vector<std::size_t> first(grid.cells() + 1, 0);
+    for (std::uint32_t t = 0; t < count; ++t)
+        grid.each_cell(t, [&](std::size_t cell) { ++first[cell + 1]; });
+    for (std::size_t cell = 1; cell < first.size(); ++cell) first[cell] += first[cell - 1];
     std::vector<std::uint32_t> members(first.back());
     std::vector<std::size_t> next(first);
     for (std::uint32_t t = 0; t < count; ++t)
-        each_cell(boxes[t], [&](std::size_t c) { members[next[c]++] = t; });
+        grid.each_cell(t, [&](std::size_t cell) { members[next[cell]++] = t; });
 
-    for (int y = 0; y < grid.size().y; ++y)
-        for (int x = 0; x < grid.size().x; ++x)
-            for (std::size_t i = first[cell(x, y)]; i < first[cell(x, y) + 1]; ++i)
-                for (std::size_t j = first[cell(x, y)]; j < i; ++j) {
-                    const std::uint32_t a = members[j], b = members[i];
-                    // Once, in the first cell that both are in.
-                    if (glm::max(boxes[a].low, boxes[b].low) != glm::ivec2(x, y)) continue;
-                    const glm::dvec2 *p = &corners[3 * std::size_t{a}],
-                                     *q = &corners[3 * std::size_t{b}];
-                    if (!separated(p, q, slack) && !separated(q, p, slack)) out.emplace_back(a, b);
-                }
+    for (std::size_t cell = 0; cell < grid.cells(); ++cell)
+        for (std::size_t i = first[cell]; i < first[cell + 1]; ++i)
+            for (std::size_t j = first[cell]; j < i; ++j) {
+                const std::uint32_t a = members[j], b = members[i];
+                const glm::dvec2 *p = &corners[3 * std::size_t{a}],
+                                 *q = &corners[3 * std::size_t{b}];
+                if (!separated(p, q, slack) && !separated(q, p, slack)) out.emplace_back(a, b);
+            }
     std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());  // met in several cells
     return out;
 }
 

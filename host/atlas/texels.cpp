@@ -15,15 +15,15 @@ constexpr std::uint32_t none = 0xffffffffu;
 
 // What one chart covers of one texel.
 struct Share {
+    double coverage = 0.0;      // texels^2
+    double area = 0.0;          // m^2
     std::uint32_t next = none;  // share of the same texel
     std::uint32_t chart = 0;
     std::uint32_t triangle = 0;
-    bool centre = false;
-    double b1 = 0.0, b2 = 0.0;
-    double largest = 0.0;   // part of a triangle, texels^2
-    double coverage = 0.0;  // texels^2
-    double area = 0.0;      // m^2
+    float b1 = 0.0f, b2 = 0.0f;
+    float largest = -1.0f;  // part of a triangle, texels^2; beyond any at the centre
 };
+constexpr float at_the_centre = 2.0f;
 
 enum class Place { outside, within, across };
 
@@ -114,13 +114,13 @@ public:
                 Share& share = find(chart, column, row);
                 share.coverage += part.area;
                 share.area += part.area / edges.area() * on_surface;
-                if (share.centre || !(at_centre || part.area > share.largest)) continue;
-                share.centre = at_centre;
-                share.largest = part.area;
+                const float rank = at_centre ? at_the_centre : static_cast<float>(part.area);
+                if (rank <= share.largest) continue;
+                share.largest = rank;
                 share.triangle = t;
                 if (!at_centre) weights = edges.weights(part.centroid);
-                share.b1 = weights.x;
-                share.b2 = weights.y;
+                share.b1 = static_cast<float>(weights.x);
+                share.b2 = static_cast<float>(weights.y);
             }
         const double missing = 1.0 - listed / edges.area();
         if (missing > 1e-9) skipped_ += missing * on_surface;
@@ -165,8 +165,9 @@ private:
 
     // Of several centres the first triangle counts, as for the reference.
     static bool better(const Share& a, const Share& b) {
-        if (a.centre != b.centre) return a.centre;
-        if (a.centre) return a.triangle < b.triangle;
+        const bool centre = a.largest == at_the_centre;
+        if (centre != (b.largest == at_the_centre)) return centre;
+        if (centre) return a.triangle < b.triangle;
         return a.coverage != b.coverage ? a.coverage > b.coverage : a.chart < b.chart;
     }
 
@@ -174,13 +175,13 @@ private:
         AtlasTexel out{};
         out.texel = texel;
         out.triangle = share.triangle;
-        out.b1 = std::clamp(static_cast<float>(share.b1), 0.0f, 1.0f);
-        out.b2 = std::clamp(static_cast<float>(share.b2), 0.0f, 1.0f);
+        out.b1 = std::clamp(share.b1, 0.0f, 1.0f);
+        out.b2 = std::clamp(share.b2, 0.0f, 1.0f);
         if (out.b1 + out.b2 > 1.0f) out.b2 = 1.0f - out.b1;
         out.coverage = std::clamp(static_cast<float>(share.coverage), FLT_MIN, 1.0f);
         out.area = static_cast<float>(share.area);
         out.chart = share.chart;
-        out.centre = share.centre;
+        out.centre = share.largest == at_the_centre;
         return out;
     }
 
