@@ -181,6 +181,30 @@ TEST(AtlasCharts, SplitWhereTheyLieOnThemselves) {
     test::expect_true_to_scale(scene, atlas);
 }
 
+TEST(AtlasCharts, StayWholeWhereVerticesWereRounded) {
+    Scene scene = test::plain_scene();
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 10; ++x)
+            test::add_quad(scene,
+                           {glm::dvec3(x, y, 0), {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}});
+    test::Random random(3);
+    for (glm::dvec3& position : scene.positions)
+        position += glm::dvec3(random(-1e-6, 1e-6), random(-1e-6, 1e-6), random(-1e-6, 1e-6));
+    EXPECT_EQ(sound_atlas(scene, test::regions(scene, 0), made_charts(64)).charts.size(), 1u);
+}
+
+// Side by side across the diagonal: the boxes of all of them overlap.
+TEST(AtlasOverlap, IsFoundAmongSlivers) {
+    std::vector<glm::dvec2> corners;
+    for (int i = 0; i < 10000; ++i) {
+        const glm::dvec2 a(i * 2e-4, -i * 2e-4), along(3, 3), b(2e-4, -2e-4);
+        corners.insert(corners.end(), {a, a + b, a + along});
+    }
+    EXPECT_TRUE(overlapping(corners, 1e-9).empty());
+    corners.insert(corners.end(), {{1.5, 1.2}, {1.55, 1.2}, {1.52, 1.25}});
+    EXPECT_GT(overlapping(corners, 1e-9).size(), 100u);
+}
+
 TEST(AtlasOverlap, IsWhatLiesOnEachOtherNotSideBySide) {
     test::Random random(7);
     std::vector<glm::dvec2> corners;

@@ -36,6 +36,15 @@ Scene unwrapped(int charts) {
     return scene;
 }
 
+// A floor of 2 m whose coordinates in set 1 run from 0 to these.
+Scene charted(const glm::vec2& high) {
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 1.0);
+    for (const glm::vec2 uv : {glm::vec2(0, 1), {1, 1}, {1, 0}, {0, 0}})
+        scene.uvs.emplace_back(0, 0, uv.x * high.x, uv.y * high.y);
+    return scene;
+}
+
 void expect_reference(const Scene& scene, const AtlasLayout& atlas, int size, int set) {
     const report::AtlasPlaces wanted = report::atlas_places(scene, size, set);
     std::size_t next = 0;
@@ -106,6 +115,21 @@ TEST(AtlasOfUvs, HasAChartForWhatIsConnected) {
     EXPECT_NEAR(atlas.texels_per_metre, std::sqrt(256.0 / 8.0), 1e-9);
 }
 
+TEST(AtlasOfUvs, CutsChartsAtSeams) {
+    // Two squares with an edge in common, of which each has coordinates of its own.
+    Scene scene = test::plain_scene();
+    const glm::dvec3 a(0, 0, 0), b(1, 0, 0), c(2, 0, 0), up(0, 1, 0);
+    test::add_quad(scene, {a, b, b + up, a + up});
+    test::add_quad(scene, {b, c, c + up, b + up});
+    for (const float gap : {0.1f, 0.0f}) {
+        scene.uvs.clear();
+        for (const float left : {0.0f, 0.4f + gap})
+            for (const glm::vec2 uv : {glm::vec2(0, 0), {0.4f, 0}, {0.4f, 1}, {0, 1}})
+                scene.uvs.emplace_back(0, 0, left + uv.x, uv.y);
+        EXPECT_EQ(make_atlas(scene, {}, of_set(1, 20)).charts.size(), gap > 0 ? 2u : 1u);
+    }
+}
+
 // A rectangle of coordinates, either way around: shares are products of what each texel has of it
 // along u and along v.
 TEST(AtlasOfUvs, KnowsSharesExactly) {
@@ -148,24 +172,42 @@ TEST(AtlasOfUvs, KnowsSharesExactly) {
         }
 }
 
-// One triangle in one texel, and across four: areas and centroids by hand.
+// A right triangle with legs of 3.8 texels: areas and centroids by hand.
 TEST(AtlasOfUvs, TakesCentroidsWhereCentresAreBare) {
     Scene scene = test::plain_scene();
-    test::add_triangle(scene, {0, 0, 0}, {4, 0, 0}, {0, 4, 0});
-    // In texels: (0, 0), (4, 0), (0, 4), of 8.
-    for (const glm::vec2 uv : {glm::vec2(0, 0), {0.5f, 0}, {0, 0.5f}})
+    test::add_triangle(scene, {0, 0, 0}, {3.8, 0, 0}, {0, 3.8, 0});
+    for (const glm::vec2 uv : {glm::vec2(0, 0), {3.8f / 8, 0}, {0, 3.8f / 8}})
         scene.uvs.emplace_back(uv.x, uv.y, 0, 0);
     const AtlasLayout atlas = make_atlas(scene, {}, of_set(0, 8));
     ASSERT_EQ(atlas.texels.size(), 10u);
     for (const AtlasTexel& texel : atlas.texels) {
         const glm::dvec2 first = test::corner_of(texel, 8);
-        const bool across = first.x + first.y == 3;
-        EXPECT_NEAR(double{texel.coverage}, across ? 0.5 : 1.0, 1e-7);
+        const double diagonal = first.x + first.y;  // of the texels that the long side crosses
+        EXPECT_EQ(texel.centre, diagonal < 3);
+        EXPECT_NEAR(double{texel.coverage},
+                    diagonal == 3   ? 0.5 * 0.8 * 0.8
+                    : diagonal == 2 ? 1 - 0.5 * 0.2 * 0.2
+                                    : 1.0,
+                    1e-6);
         const glm::dvec3 place = test::place_of(scene, texel);
-        const double within = texel.centre ? 0.5 : 1.0 / 3.0;
+        const double within = diagonal < 3 ? 0.5 : 0.8 / 3;
         EXPECT_NEAR(place.x, first.x + within, 1e-6);
         EXPECT_NEAR(place.y, first.y + within, 1e-6);
     }
+}
+
+// A flap that is folded over its own chart.
+TEST(AtlasOfUvs, TakesTheFirstTriangleWhereAChartLiesOnItself) {
+    Scene scene = charted(glm::vec2(0.8f));
+    test::add_triangle(scene, scene.positions[1], scene.positions[0], {0, 1, 2});
+    scene.uvs.push_back(scene.uvs[1]);
+    scene.uvs.push_back(scene.uvs[0]);
+    scene.uvs.emplace_back(0, 0, 0.4f, 0.79f);
+    const AtlasLayout atlas = make_atlas(scene, {}, of_set(1, 100));
+    EXPECT_EQ(atlas.charts.size(), 1u);
+    ASSERT_EQ(atlas.warnings.size(), 1u);
+    test::expect_sound(scene, atlas);
+    expect_reference(scene, atlas, 100, 1);
 }
 
 TEST(AtlasOfUvs, GivesATexelToOneChart) {
@@ -224,6 +266,14 @@ TEST(AtlasOfUvs, CountsTrianglesWithoutAreaAsSkipped) {
     EXPECT_NEAR(atlas.skipped_area, 4.0, 1e-9);
     EXPECT_EQ(atlas.triangle_chart[1], test::no_region);
     ASSERT_EQ(atlas.warnings.size(), 1u);
+}
+
+TEST(AtlasOfUvs, CountsWhatLiesBeyondThePageAsSkipped) {
+    const Scene scene = charted({1.05f, 1.0f});
+    const AtlasLayout atlas = make_atlas(scene, {}, of_set(1, 8));
+    test::expect_sound(scene, atlas);
+    EXPECT_EQ(atlas.texels.size(), 64u);
+    EXPECT_NEAR(atlas.skipped_area, 4.0 * 0.05 / 1.05, 1e-6);
 }
 
 // Every empty texel within the padding has the listed texel that is nearest to it, and no other.

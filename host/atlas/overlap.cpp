@@ -102,16 +102,20 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping(
     for (std::uint32_t t = 0; t < count; ++t)
         grid.each_cell(t, [&](std::size_t cell) { members[next[cell]++] = t; });
 
-    for (std::size_t cell = 0; cell < grid.cells(); ++cell)
-        for (std::size_t i = first[cell]; i < first[cell + 1]; ++i)
-            for (std::size_t j = first[cell]; j < i; ++j) {
-                const std::uint32_t a = members[j], b = members[i];
+    // Slivers side by side share many cells: each pair is looked at once.
+    std::vector<std::uint32_t> seen_by(count, count);
+    for (std::uint32_t b = 0; b < count; ++b)
+        grid.each_cell(b, [&](std::size_t cell) {
+            for (std::size_t i = first[cell]; members[i] < b; ++i) {
+                const std::uint32_t a = members[i];
+                if (seen_by[a] == b) continue;
+                seen_by[a] = b;
                 const glm::dvec2 *p = &corners[3 * std::size_t{a}],
                                  *q = &corners[3 * std::size_t{b}];
                 if (!separated(p, q, slack) && !separated(q, p, slack)) out.emplace_back(a, b);
             }
+        });
     std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());  // met in several cells
     return out;
 }
 
