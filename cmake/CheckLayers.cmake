@@ -58,8 +58,13 @@ list(APPEND core ${top})
 
 forbid("^(clgi/)?(io|cli|report|reference|gl)/" "the library knows no files, program or window"
        ${core})
-forbid("tiny_gltf|^stb_|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/"
+forbid("tiny_gltf|^stb_image|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/"
        "the library stands on OpenCL and GLM alone" ${public} ${library})
+
+# A header without a library to it, compiled into one file.
+file(GLOB packless "${SOURCE_DIR}/host/*/*.?pp")
+list(REMOVE_ITEM packless "${SOURCE_DIR}/host/atlas/pack.cpp")
+forbid("stb_rect_pack" "only the atlas packs, in host/atlas/pack.cpp" ${public} ${packless})
 
 forbid("tiny_gltf" "glTF is io's business" "${SOURCE_DIR}/host/cli/*" "${SOURCE_DIR}/host/report/*"
        "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/host/gl/*")

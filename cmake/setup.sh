@@ -7,8 +7,8 @@ clgi_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 # Debian and Ubuntu names.
 clgi_packages=(
     g++ cmake ninja-build pkg-config                                             # build
-    ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers libglm-dev            # clgi::clgi
-    libopenexr-dev libpng-dev nlohmann-json3-dev libstb-dev libtinygltf-dev      # clgi::io
+    ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers libglm-dev libstb-dev # clgi::clgi
+    libopenexr-dev libpng-dev nlohmann-json3-dev libtinygltf-dev                 # clgi::io
     libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri                 # clgi::gl
     libembree-dev libtbb-dev                                                     # clgi::reference
     libcli11-dev libfmt-dev                                                      # the program

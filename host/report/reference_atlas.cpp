@@ -5,56 +5,23 @@
 
 #include <clgi/error.hpp>
 
-#include "scene/uv_texels.hpp"
+#include "scene/lightmap_uvs.hpp"
 
 namespace clgi::report {
-namespace {
-
-// Why a UV set is no lightmap; empty when it is one.
-std::string fault_of(const UvTexels& found, const Scene& scene) {
-    if (scene.uvs.empty()) return "the scene has no texture coordinates";
-    if (found.without_area == scene.triangles.size()) return "no triangle has an area in it";
-    if (found.outside > 0)
-        return fmt::format("{} of {} triangles reach outside 0..1", found.outside,
-                           scene.triangles.size());
-    if (found.texels.empty()) return "no triangle covers the centre of a texel";
-    if (found.overlapping * 100 > found.texels.size())
-        return fmt::format("charts overlap: {} of {} texels are covered more than once",
-                           found.overlapping, found.texels.size());
-    return "";
-}
-
-}  // namespace
-
 AtlasPlaces atlas_places(const Scene& scene, int size, int uv_set) {
-    std::string faults;
-    for (const int set : {1, 0}) {
-        if (uv_set >= 0 && set != uv_set) continue;
-        const UvTexels found = uv_texels(scene, set, size);
-        const std::string fault = fault_of(found, scene);
-        if (!fault.empty()) {
-            faults += fmt::format("{}uv set {}: {}", faults.empty() ? "" : "; ", set, fault);
-            continue;
-        }
-        AtlasPlaces out;
-        out.size = size;
-        out.uv_set = set;
-        for (const UvTexel& texel : found.texels) {
-            const UvPlace place = place_at(scene, texel);
-            out.texels.push_back(texel.texel);
-            out.places.push_back(
-                {place.position, glm::vec3(place.normal), glm::vec3(place.geometric)});
-        }
-        if (found.overlapping > 0)
-            out.warnings.push_back(
-                fmt::format("{} of {} texels are covered more than once; the first triangle counts",
-                            found.overlapping, found.texels.size()));
-        if (found.without_area > 0)
-            out.warnings.push_back(fmt::format("{} of {} triangles have no area in uv set {}",
-                                               found.without_area, scene.triangles.size(), set));
-        return out;
+    const std::vector<int> sets = uv_set < 0 ? std::vector<int>{1, 0} : std::vector<int>{uv_set};
+    const LightmapUvs lightmap = lightmap_uvs(scene, size, sets);
+    if (lightmap.uv_set < 0) throw InputError("atlas: there is no lightmap: " + lightmap.faults);
+    AtlasPlaces out;
+    out.size = size;
+    out.uv_set = lightmap.uv_set;
+    out.warnings = lightmap.warnings;
+    for (const UvTexel& texel : lightmap.found.texels) {
+        const UvPlace place = place_at(scene, texel);
+        out.texels.push_back(texel.texel);
+        out.places.push_back({place.position, glm::vec3(place.normal), glm::vec3(place.geometric)});
     }
-    throw InputError("atlas: there is no lightmap: " + faults);
+    return out;
 }
 
 io::Image atlas_image(const AtlasPlaces& atlas, const reference::Irradiance& irradiance,

@@ -1,6 +1,3 @@
-// Half-plane tests in double precision on the texture coordinates as they are. An edge is tested
-// from its lesser to its greater end whichever triangle asks, so that two triangles that share it
-// see exactly opposite signs; what lies on it goes to the side that the direction of the edge says.
 // SPDX-License-Identifier: MIT
 #include "scene/uv_texels.hpp"
 
@@ -10,30 +7,10 @@
 #include <cmath>
 #include <string>
 
+#include "scene/texel_centre.hpp"
+
 namespace clgi {
 namespace {
-
-// Twice the area of (a, b, p); exactly the negative of that of (b, a, p).
-double doubled_area(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& p) {
-    const bool swapped = b.x < a.x || (b.x == a.x && b.y < a.y);
-    if (swapped) std::swap(a, b);
-    const double area = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-    return swapped ? -area : area;
-}
-
-bool owns_edge(const glm::dvec2& along) {
-    return along.y > 0.0 || (along.y == 0.0 && along.x > 0.0);
-}
-
-std::array<glm::dvec2, 3> corners_of(const Scene& scene, const SceneTriangle& triangle,
-                                     int uv_set) {
-    std::array<glm::dvec2, 3> out;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const glm::vec4& both = scene.uvs[triangle.vertex[k]];
-        out[k] = uv_set == 0 ? glm::dvec2(both.x, both.y) : glm::dvec2(both.z, both.w);
-    }
-    return out;
-}
 
 // Texels whose centres lie from low to high, as a range.
 std::pair<int, int> covered(double low, double high, int size) {
@@ -42,6 +19,15 @@ std::pair<int, int> covered(double low, double high, int size) {
 }
 
 }  // namespace
+
+std::array<glm::dvec2, 3> uv_corners(const Scene& scene, std::uint32_t triangle, int uv_set) {
+    std::array<glm::dvec2, 3> out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec4& both = scene.uvs[scene.triangles[triangle].vertex[k]];
+        out[k] = uv_set == 0 ? glm::dvec2(both.x, both.y) : glm::dvec2(both.z, both.w);
+    }
+    return out;
+}
 
 UvTexels uv_texels(const Scene& scene, int uv_set, int size) {
     if (uv_set != 0 && uv_set != 1)
@@ -56,9 +42,9 @@ UvTexels uv_texels(const Scene& scene, int uv_set, int size) {
     const auto side = static_cast<std::size_t>(size);
     std::vector<std::uint8_t> times(side * side);  // covered: 0, 1, more
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        std::array<glm::dvec2, 3> corner = corners_of(scene, scene.triangles[t], uv_set);
-        const double whole = doubled_area(corner[0], corner[1], corner[2]);
-        if (whole == 0.0) {
+        const std::array<glm::dvec2, 3> corner = uv_corners(scene, t, uv_set);
+        const TexelCentre centre(corner, size);
+        if (centre.without_area()) {
             ++out.without_area;
             continue;
         }
@@ -69,27 +55,16 @@ UvTexels uv_texels(const Scene& scene, int uv_set, int size) {
             ++out.outside;
             continue;
         }
-        const double sign = whole > 0.0 ? 1.0 : -1.0;  // charts may be mirrored
         const auto [left, right] = covered(low.x, high.x, size);
         const auto [top, bottom] = covered(low.y, high.y, size);
         for (int row = top; row < bottom; ++row)
             for (int column = left; column < right; ++column) {
-                const glm::dvec2 centre((column + 0.5) / size, (row + 0.5) / size);
-                double weight[3];
-                bool inside = true;
-                for (std::size_t k = 0; k < 3 && inside; ++k) {
-                    const glm::dvec2& a = corner[(k + 1) % 3];
-                    const glm::dvec2& b = corner[(k + 2) % 3];
-                    weight[k] = sign * doubled_area(a, b, centre);
-                    inside = weight[k] > 0.0 || (weight[k] == 0.0 && owns_edge(sign * (b - a)));
-                }
-                if (!inside) continue;
+                double b1, b2;
+                if (!centre.covers(column, row, b1, b2)) continue;
                 const auto texel =
                     static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
                 if (times[texel] == 0)
-                    out.texels.push_back({static_cast<std::uint32_t>(texel), t,
-                                          weight[1] / std::abs(whole),
-                                          weight[2] / std::abs(whole)});
+                    out.texels.push_back({static_cast<std::uint32_t>(texel), t, b1, b2});
                 if (times[texel] == 1) ++out.overlapping;
                 times[texel] = static_cast<std::uint8_t>(std::min(times[texel] + 1, 2));
             }

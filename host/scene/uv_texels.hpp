@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <clgi/export.hpp>
 #include <clgi/scene.hpp>
 #include <vector>
@@ -22,6 +23,9 @@ struct UvTexels {
                                    // out
     std::size_t without_area = 0;  // triangles without area in this UV set
 };
+
+// Texture coordinates of a triangle's corners in one of the two sets. There must be some.
+std::array<glm::dvec2, 3> uv_corners(const Scene& scene, std::uint32_t triangle, int uv_set);
 
 // uv_set: 0 or 1. size: texels, side of the square; 1 to 16384. A centre on an edge that two
 // triangles share belongs to one of them. Throws Error for numbers out of range.

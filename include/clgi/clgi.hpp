@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/adjacency.hpp>
+#include <clgi/atlas_layout.hpp>
 #include <clgi/device.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/emitters.hpp>

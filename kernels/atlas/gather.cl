@@ -1,6 +1,6 @@
 // Light of a batch of VPLs at every texel, added to what is there.
 //
-//   I(u, v) += sum_i F'_i(u, v) E_i,   E_i = a_i rho_i A_i I_i               [Scharfig16, Eq. 9]
+//   I(u, v) += sum_i F'_i(u, v) E_i,   E_i = a_i rho_i A_i I_i               [Schaerfig16, Eq. 9]
 //
 // The paper projects the picture of each VPL into the atlas. Here every texel looks up the VPL's
 // depth maps: no seams, no extrapolation, and no two writers of a texel.

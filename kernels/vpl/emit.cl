@@ -1,6 +1,6 @@
 // The shooters give away what they have not shot yet.
 //
-//   P_i = rho_i A_i dI_i,   dI_i <- 0                        [Scharfig16, Eq. 7, 8]
+//   P_i = rho_i A_i dI_i,   dI_i <- 0                        [Schaerfig16, Eq. 7, 8]
 //
 // With SHOOT_STRONGEST there is one shooter, the site of the largest unshot power that arg_max has
 // found; it becomes chosen[first_shooter], and shoots nothing if that power is below the threshold.

@@ -1,5 +1,5 @@
 // Sites from the surface: where each VPL is, which way it faces, and what it reflects: the mean over
-// its sample points, so that a texture counts by area.             [Scharfig16, section 3.1]
+// its sample points, so that a texture counts by area.             [Schaerfig16, section 3.1]
 //
 // Work size    1D, one work-item a site; any local size; tail guarded
 // Writes       its own planes; on the back of a triangle it turns the normals of its samples

@@ -1,6 +1,6 @@
 // The direct irradiance of each site: the mean over its sample points, each lit and shadowed on its
 // own. That is Eq. 5 with the form factor and the visibility of every sample instead of the VPL's
-// form factor times the share of samples that are lit.            [Scharfig16, Eq. 5, 6]
+// form factor times the share of samples that are lit.            [Schaerfig16, Eq. 5, 6]
 //
 // Work size    1D, one work-item a site; any local size; tail guarded
 // Writes       its own light: the same irradiance as unshot and as received

@@ -1,6 +1,6 @@
 // What the shooters sent arrives at all sites.
 //
-//   R = b_j sum_i a_i T_ij P_i,   dI_j <- dI_j + R,   I_j <- I_j + R        [Scharfig16, Eq. 8]
+//   R = b_j sum_i a_i T_ij P_i,   dI_j <- dI_j + R,   I_j <- I_j + R        [Schaerfig16, Eq. 8]
 //
 // a, b: factors that balance the transport (balance_shooters.cl). The power that a site can send on
 // is computed at once, for the choice of the next shooter (Eq. 7); of the three channels the sum

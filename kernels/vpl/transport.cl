@@ -4,7 +4,7 @@
 //
 // over the sample points k of the receiver, each seen or not in the shooter's hemicube. The paper
 // takes the form factor of the two VPLs times the share of samples that are seen (Eq. 6); the
-// samples' own form factors cost nothing more and are right near by. [Scharfig16, Eq. 6]
+// samples' own form factors cost nothing more and are right near by. [Schaerfig16, Eq. 6]
 //
 // Work size    2D, one work-item a receiver, and the shooters; any local size; tail guarded
 // Writes       its own number of the row, as half, times row_scale

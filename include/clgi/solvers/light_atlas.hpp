@@ -1,5 +1,5 @@
 // Light atlas: multi-bounce diffuse light, exchanged between VPLs with visibility and gathered into
-// the texels of an atlas.                                                     [Scharfig16]
+// the texels of an atlas.                                                     [Schaerfig16]
 // SPDX-License-Identifier: MIT
 #pragma once
 
