@@ -193,6 +193,48 @@ TEST(AtlasCharts, StayWholeWhereVerticesWereRounded) {
     EXPECT_EQ(sound_atlas(scene, test::regions(scene, 0), made_charts(64)).charts.size(), 1u);
 }
 
+// The part of one triangle within another, by clipping.
+double common_area(const glm::dvec2* a, const glm::dvec2* b) {
+    std::vector<glm::dvec2> polygon(b, b + 3);
+    const auto side = [](const glm::dvec2& from, const glm::dvec2& to, const glm::dvec2& p) {
+        return (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
+    };
+    for (int k = 0; k < 3; ++k) {
+        std::vector<glm::dvec2> kept;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const glm::dvec2 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
+            const double at_p = side(a[k], a[(k + 1) % 3], p), at_q = side(a[k], a[(k + 1) % 3], q);
+            if (at_p >= 0.0) kept.push_back(p);
+            if ((at_p < 0.0) != (at_q < 0.0)) kept.push_back(glm::mix(p, q, at_p / (at_p - at_q)));
+        }
+        polygon = kept;
+    }
+    double area = 0.0;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        area += 0.5 * side(polygon[0], polygon[i - 1], polygon[i]);
+    return area;
+}
+
+TEST(AtlasOverlap, IsWhatAllPairsSay) {
+    test::Random random(11);
+    std::vector<glm::dvec2> corners;
+    while (corners.size() < 3 * 400) {
+        const glm::dvec2 a(random(0, 5), random(0, 2));
+        const double size = random(0, 1) < 0.1 ? 2.0 : 0.2;
+        const auto offset = [&] { return glm::dvec2(random(-size, size), random(-size, size)); };
+        const glm::dvec2 u = offset(), v = offset();
+        const bool left = u.x * v.y - u.y * v.x > 0.0;
+        corners.insert(corners.end(), {a, a + (left ? u : v), a + (left ? v : u)});
+    }
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> wanted;
+    for (std::uint32_t b = 0; b < 400; ++b)
+        for (std::uint32_t a = 0; a < b; ++a)
+            if (common_area(&corners[3 * a], &corners[3 * b]) > 0.0) wanted.emplace_back(a, b);
+    std::sort(wanted.begin(), wanted.end());
+    EXPECT_GT(wanted.size(), 1000u);
+    EXPECT_EQ(overlapping(corners, 0.0), wanted);
+}
+
 // Side by side across the diagonal: the boxes of all of them overlap.
 TEST(AtlasOverlap, IsFoundAmongSlivers) {
     std::vector<glm::dvec2> corners;

@@ -231,6 +231,50 @@ TEST(AtlasOfUvs, GivesATexelToOneChart) {
     EXPECT_NEAR(atlas.skipped_area, 4.0 * 0.3 / 2.3, 1e-6);
 }
 
+// Two squares on 8 texels; the second in its own place of the coordinates.
+Scene two_squares(const glm::vec2& high, const glm::vec2& low, const glm::vec2& far) {
+    Scene scene = charted(high / 8.0f);
+    test::add_floor(scene, 1.0, 2.0);
+    for (const glm::vec2 uv : {glm::vec2(0, 1), {1, 1}, {1, 0}, {0, 0}})
+        scene.uvs.emplace_back(0, 0, glm::mix(low.x, far.x, uv.x) / 8,
+                               glm::mix(low.y, far.y, uv.y) / 8);
+    return scene;
+}
+
+TEST(AtlasOfUvs, GivesATexelToTheChartThatHasMoreOfIt) {
+    const Scene scene = two_squares({4.2f, 4.2f}, {4.6f, 4.6f}, {8, 8});
+    const AtlasLayout atlas = make_atlas(scene, {}, of_set(1, 8));
+    test::expect_sound(scene, atlas);
+    const auto texel = std::find_if(atlas.texels.begin(), atlas.texels.end(),
+                                    [](const AtlasTexel& t) { return t.texel == 4 * 8 + 4; });
+    ASSERT_NE(texel, atlas.texels.end());
+    EXPECT_EQ(texel->chart, 1u);
+    EXPECT_FALSE(texel->centre);
+    EXPECT_NEAR(double{texel->coverage}, 0.16, 1e-6);
+}
+
+// At a centre the first counts, even with less of the texel: half a texel of 64 is in both.
+TEST(AtlasOfUvs, GivesACentreToTheFirstTriangle) {
+    const Scene scene = two_squares({3.95f, 8}, {3.875f, 0}, {8, 0.5f});
+    const AtlasLayout atlas = make_atlas(scene, {}, of_set(1, 64));
+    test::expect_sound(scene, atlas);
+    expect_reference(scene, atlas, 64, 1);
+    EXPECT_NE(atlas.warnings.at(0).find("covered more than once"), std::string::npos);
+}
+
+// A part so near to the side opposite to the first corner that its weight is lost in rounding.
+TEST(AtlasOfUvs, KeepsWeightsWithinTheTriangle) {
+    Scene scene = test::plain_scene();
+    test::add_triangle(scene, {0, 0.5, 0}, {1, 0, 0}, {1, 1, 0});
+    const float side = std::nextafter(0.5f, 1.0f);
+    for (const glm::vec2 uv : {glm::vec2(0, 0.5f), {side, 0}, {side, 1}})
+        scene.uvs.emplace_back(0, 0, uv.x, uv.y);
+    const AtlasLayout atlas = make_atlas(scene, {}, of_set(1, 64));
+    test::expect_sound(scene, atlas);
+    EXPECT_TRUE(std::any_of(atlas.texels.begin(), atlas.texels.end(),
+                            [](const AtlasTexel& t) { return t.texel % 64 == 32; }));
+}
+
 TEST(AtlasOfUvs, RefusesWhatIsNoLightmap) {
     const auto regions = [](const Scene& scene) { return test::regions(scene, 2); };
     Scene scene = unwrapped(3);
@@ -246,6 +290,11 @@ TEST(AtlasOfUvs, RefusesWhatIsNoLightmap) {
     EXPECT_EQ(atlas.charts.size(), 6u);
     EXPECT_TRUE(atlas.warnings.empty());
     EXPECT_THROW(make_atlas(scene, {}, {}), Error);
+    // Set 0 is for textures, unless it is asked for.
+    Scene textured = unwrapped(3);
+    for (glm::vec4& uv : textured.uvs) uv = {uv.z, uv.w, 0, 0};
+    EXPECT_EQ(make_atlas(textured, regions(textured), {}).uv_set, -1);
+    EXPECT_EQ(make_atlas(textured, {}, of_set(0, 64)).uv_set, 0);
     EXPECT_THROW(make_atlas(scene, {}, of_set(0, 64)), InputError);
 
     scene = unwrapped(3);
