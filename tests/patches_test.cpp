@@ -170,7 +170,10 @@ TEST(Patches, DoNotGrowWhereThreeTrianglesMeetOrTwoAreWoundApart) {
     EXPECT_EQ(make_patches(scene).patches.size(), 3u);
     scene.triangles.pop_back();
     std::swap(scene.triangles[1].vertex[0], scene.triangles[1].vertex[1]);
-    EXPECT_EQ(make_patches(scene).patches.size(), 2u);
+    const Patches apart = make_patches(scene);
+    EXPECT_EQ(apart.patches.size(), 2u);
+    for (const auto& sides : apart.neighbours)
+        for (const std::uint32_t next : sides) EXPECT_EQ(next, no_index);
 }
 
 // The same triangle again reflects no more light; its back does, and has no back of its own.

@@ -17,19 +17,9 @@
 namespace clgi {
 namespace {
 
-template <typename Point>
-glm::dvec3 position(const Scene& scene, const Point& p) {
-    const glm::dvec3 a = test::corner(scene, p.triangle, 0);
-    return a + double{p.b1} * (test::corner(scene, p.triangle, 1) - a) +
-           double{p.b2} * (test::corner(scene, p.triangle, 2) - a);
-}
-
-template <typename Point>
-std::vector<glm::dvec3> positions(const Scene& scene, const std::vector<Point>& points) {
-    std::vector<glm::dvec3> out;
-    for (const Point& p : points) out.push_back(position(scene, p));
-    return out;
-}
+using test::least_distance;
+using test::position;
+using test::positions;
 
 // What must hold for any layout. Every stride-th sample is checked against all VPLs.
 void expect_consistent(const Scene& scene, const Patches& patches, const VplLayout& layout,
@@ -84,33 +74,6 @@ void expect_consistent(const Scene& scene, const Patches& patches, const VplLayo
     EXPECT_EQ(not_nearest, 0u);
 }
 
-// In units of the mean spacing sqrt(area / points).
-double least_distance(const std::vector<glm::dvec3>& points, double area) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            least = std::min(least, glm::length(points[i] - points[j]));
-    return least / std::sqrt(area / double(points.size()));
-}
-
-// The largest difference between the share of points in a box and the box's area, over many boxes
-// in the unit square.
-double discrepancy(const std::vector<glm::dvec3>& points, double width, double height) {
-    test::Random random(11);
-    double worst = 0.0;
-    for (int i = 0; i < 2000; ++i) {
-        double x0 = random(0, 1), x1 = random(0, 1), y0 = random(0, 1), y1 = random(0, 1);
-        if (x0 > x1) std::swap(x0, x1);
-        if (y0 > y1) std::swap(y0, y1);
-        const auto in = std::count_if(points.begin(), points.end(), [&](const glm::dvec3& p) {
-            return p.x >= x0 * width && p.x < x1 * width && p.y >= y0 * height && p.y < y1 * height;
-        });
-        worst =
-            std::max(worst, std::abs(double(in) / double(points.size()) - (x1 - x0) * (y1 - y0)));
-    }
-    return worst;
-}
-
 TEST(VplLayout, DividesACubeEquallyAndKeepsOffItsEdges) {
     Scene scene = test::plain_scene();
     test::add_box(scene, {0, 0, 0}, {1, 1, 1}, -1);
@@ -143,28 +106,6 @@ TEST(VplLayout, DividesACubeEquallyAndKeepsOffItsEdges) {
     for (const VplSite& vpl : layout.vpls) ++face[vpl.region];
     for (const int count : face) EXPECT_TRUE(count == 16 || count == 17);
     EXPECT_EQ(layout.vpls.size(), 101u);
-}
-
-// Random points: least distance 0.02, discrepancy of a thousand 0.03.
-TEST(VplLayout, IsEvenHoweverAWallIsCut) {
-    for (const glm::dvec2 size : {glm::dvec2(1, 1), glm::dvec2(3, 2), glm::dvec2(7, 0.5)})
-        for (const std::uint32_t cells : {1u, 9u, 70u}) {
-            const Scene scene = test::crooked_wall(size.x, size.y, cells);
-            const Patches patches = make_patches(scene);
-            const VplLayout layout = place_vpls(scene, patches, {.count = 100});
-            expect_consistent(scene, patches, layout);
-            ASSERT_EQ(layout.vpls.size(), 100u);
-            ASSERT_EQ(layout.samples.size(), 1000u);
-            const std::vector<glm::dvec3> vpls = positions(scene, layout.vpls);
-            const std::vector<glm::dvec3> samples = positions(scene, layout.samples);
-            EXPECT_GT(least_distance(vpls, size.x * size.y), 0.55);
-            EXPECT_GT(least_distance(samples, size.x * size.y), 0.4);
-            EXPECT_LT(discrepancy(samples, size.x, size.y), size.x == 7 ? 0.05 : 0.02);
-            for (const VplSite& vpl : layout.vpls) {
-                EXPECT_GE(vpl.sample_count, 5u);
-                EXPECT_LE(vpl.sample_count, 16u);
-            }
-        }
 }
 
 // A triangle far smaller than C has a sample only now and then; the crooked half of the wall has no

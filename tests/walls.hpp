@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <clgi/scene.hpp>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
+#include <vector>
 
 #include "scenes.hpp"
 
@@ -61,6 +64,30 @@ inline double area_of(const Scene& scene) {
 inline Scene moved(Scene scene, const glm::dvec3& by) {
     for (glm::dvec3& p : scene.positions) p += by;
     return scene;
+}
+
+// Of a VPL or sample, metres.
+template <typename Point>
+glm::dvec3 position(const Scene& scene, const Point& p) {
+    const glm::dvec3 a = corner(scene, p.triangle, 0);
+    return a + double{p.b1} * (corner(scene, p.triangle, 1) - a) +
+           double{p.b2} * (corner(scene, p.triangle, 2) - a);
+}
+
+template <typename Point>
+std::vector<glm::dvec3> positions(const Scene& scene, const std::vector<Point>& points) {
+    std::vector<glm::dvec3> out;
+    for (const Point& p : points) out.push_back(position(scene, p));
+    return out;
+}
+
+// In units of the mean spacing sqrt(area / points).
+inline double least_distance(const std::vector<glm::dvec3>& points, double area) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            least = std::min(least, glm::length(points[i] - points[j]));
+    return least / std::sqrt(area / double(points.size()));
 }
 
 }  // namespace clgi::test

@@ -19,6 +19,7 @@ constexpr double narrow_cone = 0.25 * pi, widest_cone = 0.5 * pi;  // half angle
 constexpr double largest_excess = 0.25;                            // share of the VPLs
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    if (a == glm::dvec3(0.0) || b == glm::dvec3(0.0)) return pi;  // as when opposite normals cancel
     // Not acos of the scalar product, which loses half the digits at small angles.
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
