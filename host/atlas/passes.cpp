@@ -17,16 +17,19 @@ AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options) 
     BuildOptions full = options;
     full.storage = Storage::full;
     gather_ = programs.kernel("atlas", "gather", full);
+    nearest_ = programs.kernel("atlas", "nearest", full);
+    complete_ = programs.kernel("atlas", "complete", full);
 }
 
 void AtlasPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({gather_}, passes);
+    build_named({gather_, nearest_, complete_}, passes);
 }
 
 cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& params,
                               const SiteBuffers& b, const cl::Buffer& views,
                               const cl::Buffer& depth, const cl::Buffer& texels,
-                              const cl::Buffer& irradiance, const WaitList& wait) const {
+                              const cl::Buffer& irradiance, const cl::Buffer& filled,
+                              const WaitList& wait) const {
     need_stride(gather_, "stride", params.stride, params.texel_count);
     need(gather_, "chosen", b.chosen,
          (std::size_t{params.first_shooter} + params.shooter_count) * word);
@@ -36,11 +39,38 @@ cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& p
     need(gather_, "light", b.light, SITE_LIGHT_PLANES * word * params.site_stride);
     need(gather_, "balance", b.balance, BALANCE_PLANES * word * params.site_stride);
     need(gather_, "samples", b.samples, GBUFFER_PLANES * word * params.sample_stride);
+    need(gather_, "weights", b.weights, word * params.sample_stride);
     need(gather_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
     need(gather_, "irradiance", irradiance, 3 * word * params.stride);
+    need(gather_, "filled", filled, word * params.stride);
     return launch(gather_, queue, packets(gather_, params.texel_count - params.first_texel), wait,
                   params, b.chosen, views, depth, b.sites, b.planes, b.light, b.balance, b.samples,
-                  texels, irradiance);
+                  b.weights, texels, irradiance, filled);
+}
+
+cl::Event AtlasPasses::nearest(const cl::CommandQueue& queue, const FillParams& params,
+                               const SiteBuffers& b, const cl::Buffer& texels,
+                               const cl::Buffer& reach, const WaitList& wait) const {
+    need_stride(nearest_, "stride", params.stride, params.texel_count);
+    need(nearest_, "planes", b.planes, SITE_PLANES * word * params.site_stride);
+    need(nearest_, "balance", b.balance, BALANCE_PLANES * word * params.site_stride);
+    need(nearest_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
+    need(nearest_, "reach", reach, word * params.stride);
+    return launch(nearest_, queue, packets(nearest_, params.texel_count - params.first_texel), wait,
+                  params, b.planes, b.balance, texels, reach);
+}
+
+cl::Event AtlasPasses::complete(const cl::CommandQueue& queue, const FillParams& params,
+                                const cl::Buffer& reach, const cl::Buffer& filled,
+                                const cl::Buffer& irradiance, const cl::Buffer& non_finite,
+                                const WaitList& wait) const {
+    need_stride(complete_, "stride", params.stride, params.texel_count);
+    need(complete_, "reach", reach, word * params.stride);
+    need(complete_, "filled", filled, word * params.stride);
+    need(complete_, "irradiance", irradiance, 3 * word * params.stride);
+    need(complete_, "non_finite", non_finite, word);
+    return launch(complete_, queue, packets(complete_, params.texel_count - params.first_texel),
+                  wait, params, reach, filled, irradiance, non_finite);
 }
 
 }  // namespace clgi

@@ -9,6 +9,7 @@ namespace clgi::cli {
 void add_devices(CLI::App& app);
 void add_scene(CLI::App& app);
 void add_render(CLI::App& app);
+void add_bake(CLI::App& app);
 void add_reference(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_sweep(CLI::App& app);

@@ -72,8 +72,8 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     gbuffer.build({"raster_views"}, Pixels::depth);
     lights.build({"direct"});
     vpl.build({"place", "receive", "transport", "reach", "balance_receivers", "balance_shooters",
-               "emit", "shoot"});
-    atlas.build({"gather"});
+               "emit", "shoot", "weigh"});
+    atlas.build({"gather", "nearest", "complete"});
     emitters.write(record);
     upload(vpl_layout, atlas_layout);
 }
@@ -270,11 +270,16 @@ void LightAtlasSolver::State::shoot_strongest() {
 
 // What the VPLs received, sent on to the texels. [section 4]
 void LightAtlasSolver::State::fill() {
-    if (options.direct)
-        light_points(b.texels, b.texel_count, b.irradiance);
-    else
-        record.fill(b.irradiance, 0);
+    record.fill(b.irradiance, 0);
+    record.fill(b.filled, 0);
     const std::uint32_t n = b.sites.site_count;
+    FillParams all{0, n, b.sites.stride, b.sites.sample_stride, b.texel_count, b.texel_stride, 0, 1};
+    record("atlas.nearest", b.texel_count, [&](const WaitList& wait) {
+        return atlas.nearest(queue, all, b.sites, b.texels.planes, b.reach, wait);
+    });
+    record("vpl.weigh", n, [&](const WaitList& wait) {
+        return vpl.weigh(queue, b.sites, b.sample_irradiance, wait);
+    });
     for (std::uint32_t first = 0; first < n && !record.cancelled(); first += b.filling_batch) {
         const std::uint32_t count = std::min(b.filling_batch, n - first);
         hemicubes(first, count, options.filling_size, Pixels::depth);
@@ -282,10 +287,13 @@ void LightAtlasSolver::State::fill() {
                                 b.texel_stride, 0, 1};
         record("atlas.gather", std::size_t{count} * b.texel_count, [&](const WaitList& wait) {
             return atlas.gather(queue, params, b.sites, b.views, b.pixels, b.texels.planes,
-                                b.irradiance, wait);
+                                b.irradiance, b.filled, wait);
         });
         if (first % (16 * b.filling_batch) == 0) record.report(0.45 + 0.55 * first / n);
     }
+    record("atlas.complete", b.texel_count, [&](const WaitList& wait) {
+        return atlas.complete(queue, all, b.reach, b.filled, b.irradiance, b.non_finite, wait);
+    });
 }
 
 bool LightAtlasSolver::State::run(const Progress& progress) {

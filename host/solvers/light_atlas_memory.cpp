@@ -59,11 +59,14 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
           GBUFFER_ID_PLANES * word * s.sample_stride);
     t.add(b.sample_irradiance, "irradiance of sample points", points,
           irradiance_bytes(Storage::full, s.sample_stride));
+    t.add(s.weights, "weights of sample points", points, word * s.sample_stride);
     t.add(b.texel_list, "texels", size, texels * sizeof(SurfaceSample));
     t.add(b.texels.planes, "planes of texels", size, gbuffer_bytes(Storage::full, b.texel_stride));
     t.add(b.texels.ids, "ids of texels", size, GBUFFER_ID_PLANES * word * b.texel_stride);
     t.add(b.irradiance, "irradiance of texels", size,
           irradiance_bytes(Storage::full, b.texel_stride));
+    t.add(b.reach, "reach of texels", size, word * b.texel_stride);
+    t.add(b.filled, "form factors of texels", size, word * b.texel_stride);
     t.add(b.strongest, "maxima", vpls, sizeof(ArgMax));
     t.add(b.arg_max_scratch, "maxima of tiles", vpls, arg_max_scratch_bytes(sites));
     const std::size_t batch = std::max(b.exchange_batch, b.filling_batch);

@@ -19,6 +19,7 @@ struct Buffers {
     cl::Buffer sample_list, texel_list;  // SurfaceSample
     cl::Buffer sample_irradiance;        // [IRRADIANCE_PLANES][sample_stride]
     cl::Buffer irradiance;               // [IRRADIANCE_PLANES][texel_stride]
+    cl::Buffer reach, filled;            // [texel_stride]
     cl::Buffer rows;                     // transport, half
     cl::Buffer strongest, arg_max_scratch;
     cl::Buffer views, pixels;  // hemicubes of a batch

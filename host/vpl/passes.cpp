@@ -62,11 +62,12 @@ VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
     balance_shooters_ = few("balance_shooters", full(options));
     emit_ = few("emit", scalar(options));
     shoot_ = few("shoot", full(options));
+    weigh_ = few("weigh", scalar(options));
 }
 
 void VplPasses::build(std::initializer_list<const char*> passes) const {
     build_named({place_, receive_, transport_, reach_, balance_receivers_, balance_shooters_,
-                 emit_, shoot_},
+                 emit_, shoot_, weigh_},
                 passes);
 }
 
@@ -86,6 +87,16 @@ cl::Event VplPasses::receive(const cl::CommandQueue& queue, const SiteBuffers& b
     need(receive_, "light", b.light, SITE_LIGHT_PLANES * word * b.stride);
     return launch(receive_, queue, b.site_count, wait, site_params(b), b.sites, irradiance,
                   b.light);
+}
+
+cl::Event VplPasses::weigh(const cl::CommandQueue& queue, const SiteBuffers& b,
+                           const cl::Buffer& irradiance, const WaitList& wait) const {
+    need_sites(weigh_, b);
+    need(weigh_, "irradiance", irradiance, IRRADIANCE_PLANES * word * b.sample_stride);
+    need(weigh_, "light", b.light, SITE_LIGHT_PLANES * word * b.stride);
+    need(weigh_, "weights", b.weights, word * b.sample_stride);
+    return launch(weigh_, queue, b.site_count, wait, site_params(b), b.sites, irradiance, b.light,
+                  b.samples, b.weights);
 }
 
 cl::Event VplPasses::transport(const cl::CommandQueue& queue, const TransportParams& params,

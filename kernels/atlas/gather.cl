@@ -7,7 +7,7 @@
 //
 // Unlike paper  visibility by depth test at the texel; form factor as vpl/exchange.clh
 // Work size     1D, one work-item for every CLGI_WIDTH texels; any local size; tail guarded
-// Writes        its own texels
+// Writes        its own texels; beside the light, the share of the hemisphere that the VPLs fill
 // Cost          some 90 flops and one look-up a pair that faces each other; 15 for others
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/atlas.h"
@@ -24,8 +24,10 @@ kernel void atlas_gather(
     global const float*  restrict light,       // [SITE_LIGHT_PLANES][site_stride]
     global const float*  restrict balance,     // [BALANCE_PLANES][site_stride]
     global const float*  restrict samples,     // [GBUFFER_PLANES][sample_stride]
+    global const float*  restrict weights,     // [sample_stride] of the samples
     global const float*  restrict texels,      // [>= GBUFFER_GEOMETRIC + 3][stride]
-    global float*        restrict irradiance)  // [3][stride] lux, exposed
+    global float*        restrict irradiance,  // [3][stride] lux, exposed
+    global float*        restrict filled)      // [stride] sum of form factors
 {
     uint at = params.first_texel + (uint)get_global_id(0) * CLGI_WIDTH;
     if (at >= params.texel_count) return;
@@ -38,6 +40,7 @@ kernel void atlas_gather(
     floatp gx = packet_load(from), gy = packet_load(from + stride), gz = packet_load(from + 2 * stride);
     floatp zero = packet_zero;
     floatp sum[3] = {zero, zero, zero};
+    floatp form_factors = zero;
     for (uint s = 0; s < params.shooter_count; ++s) {
         uint site = chosen[params.first_shooter + s];
         float power[3];
@@ -46,7 +49,6 @@ kernel void atlas_gather(
         for (int c = 0; c < 3; ++c)
             power[c] = factor * site_planes[(SITE_ALBEDO + c) * params.site_stride + site] *
                        light[(SITE_RECEIVED + c) * params.site_stride + site];
-        if (power[0] == 0.0f && power[1] == 0.0f && power[2] == 0.0f) continue;
         Shooter shooter = exchange_shooter(sites, site_planes, params.site_stride, site);
         Hemicube cube = hemicube_of(views + 5 * s, params.words);
         floatp dx = px - packet_splat(cube.eye.x);
@@ -58,11 +60,12 @@ kernel void atlas_gather(
         if (!packet_any(wanted)) continue;
         intp seen = hemicube_sees(&cube, depth, dx, dy, dz, gx, gy, gz, wanted);
         if (!packet_any(seen)) continue;
-        floatp kernel_value = exchange_kernel(&shooter, samples, params.sample_stride, px, py, pz, nx,
+        floatp kernel_value = exchange_kernel(&shooter, samples, weights, params.sample_stride, px, py, pz, nx,
                                               ny, nz, px - packet_splat(shooter.position.x),
                                               py - packet_splat(shooter.position.y),
                                               pz - packet_splat(shooter.position.z));
         kernel_value = packet_select(zero, kernel_value, seen);
+        form_factors = fma(kernel_value, packet_splat(factor), form_factors);
         for (int c = 0; c < 3; ++c)
             sum[c] = fma(kernel_value, packet_splat(power[c]), sum[c]);
     }
@@ -70,4 +73,5 @@ kernel void atlas_gather(
         global float* out = irradiance + c * stride + at;
         packet_store(packet_load(out) + sum[c], out);
     }
+    packet_store(packet_load(filled + at) + form_factors, filled + at);
 }

@@ -2,7 +2,8 @@
 // its sample points, so that a texture counts by area.             [Schaerfig16, section 3.1]
 //
 // Work size    1D, one work-item a site; any local size; tail guarded
-// Writes       its own planes; on the back of a triangle it turns the normals of its samples
+// Writes       its own planes; the base colours of its samples become reflectances, and on the back
+//              of a triangle their normals are turned
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/scene.h"
@@ -35,9 +36,10 @@ kernel void vpl_place(
         int material = ids[GBUFFER_MATERIAL * sample_stride + sample];
         float share = material < 0 ? 0.0f : materials[material].reflectance.x;
         global float* at = samples + sample;
-        sum += share * (float3)(at[GBUFFER_BASE * sample_stride],
-                                at[(GBUFFER_BASE + 1) * sample_stride],
-                                at[(GBUFFER_BASE + 2) * sample_stride]);
+        for (uint plane = GBUFFER_BASE; plane < GBUFFER_EMISSION; ++plane)
+            at[plane * sample_stride] *= share;
+        sum += (float3)(at[GBUFFER_BASE * sample_stride], at[(GBUFFER_BASE + 1) * sample_stride],
+                        at[(GBUFFER_BASE + 2) * sample_stride]);
         for (uint plane = GBUFFER_NORMAL; plane < GBUFFER_BASE; ++plane)
             at[plane * sample_stride] *= sign;
     }

@@ -51,7 +51,7 @@ kernel void vpl_transport(
         if (!packet_any(wanted)) continue;
         intp seen = hemicube_sees(&cube, depth, dx, dy, dz, gx, gy, gz, wanted);
         if (!packet_any(seen)) continue;
-        floatp factor = exchange_kernel(&shooter, samples, stride, px, py, pz, nx, ny, nz,
+        floatp factor = exchange_kernel(&shooter, samples, 0, stride, px, py, pz, nx, ny, nz,
                                         px - packet_splat(shooter.position.x),
                                         py - packet_splat(shooter.position.y),
                                         pz - packet_splat(shooter.position.z));

@@ -20,17 +20,31 @@ public:
         : AtlasPasses(Programs(context, device), options) {}
 
     // Adds the light of a batch of VPLs to texels. views, depth: their hemicubes.
-    // texels: a G-buffer's planes, float; irradiance: [3][stride] float, exposed lux.
+    // texels: a G-buffer's planes, float; irradiance: [3][stride] float, exposed lux; filled:
+    // [stride] float, the sum of the form factors.
     cl::Event gather(const cl::CommandQueue& queue, const FillParams& params,
                      const SiteBuffers& buffers, const cl::Buffer& views, const cl::Buffer& depth,
                      const cl::Buffer& texels, const cl::Buffer& irradiance,
-                     const WaitList& wait = {}) const;
+                     const cl::Buffer& filled, const WaitList& wait = {}) const;
+
+    // The reach of the VPL nearest to each texel, of those that face the same way -> reach [stride]
+    // float. params.shooter_count: all VPLs.
+    cl::Event nearest(const cl::CommandQueue& queue, const FillParams& params,
+                      const SiteBuffers& buffers, const cl::Buffer& texels,
+                      const cl::Buffer& reach, const WaitList& wait = {}) const;
+
+    // Raises the light of texels whose hemisphere the VPLs fill less than surfaces do, once all VPLs
+    // are gathered. non_finite: [1] uint, counts packets with numbers that are not finite.
+    cl::Event complete(const cl::CommandQueue& queue, const FillParams& params,
+                       const cl::Buffer& reach, const cl::Buffer& filled,
+                       const cl::Buffer& irradiance, const cl::Buffer& non_finite,
+                       const WaitList& wait = {}) const;
 
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel gather_;
+    PassKernel gather_, nearest_, complete_;
 };
 
 }  // namespace clgi

@@ -22,6 +22,7 @@ struct SiteBuffers {
     cl::Buffer power;    // [stride] unshot power, exposed lumen; channels summed
     cl::Buffer shot;     // [3][stride] power on its way, exposed lumen
     cl::Buffer samples;  // [GBUFFER_PLANES][sample_stride] of the sample points, then of the sites
+    cl::Buffer weights;  // [sample_stride] by which samples share the power of their site
     cl::Buffer chosen;   // uint: sites in the order in which they shoot
     std::uint32_t site_count = 0;
     std::uint32_t stride = 0;
@@ -44,6 +45,11 @@ public:
     // Direct light: irradiance [IRRADIANCE_PLANES][sample_stride] of the samples -> light.
     cl::Event receive(const cl::CommandQueue& queue, const SiteBuffers& buffers,
                       const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+
+    // How the sample points share the power that their site reflects: by their own direct light and
+    // reflectance. irradiance: as for receive.
+    cl::Event weigh(const cl::CommandQueue& queue, const SiteBuffers& buffers,
+                    const cl::Buffer& irradiance, const WaitList& wait = {}) const;
 
     // Rows of the transport of a batch of shooters. views, depth: their hemicubes, of params.words a
     // pixel. rows: [site_count or shooter_count][stride] half.
@@ -84,7 +90,7 @@ public:
 
 private:
     PassKernel place_, receive_, transport_, reach_, balance_receivers_, balance_shooters_, emit_,
-        shoot_;
+        shoot_, weigh_;
 };
 
 }  // namespace clgi

@@ -23,7 +23,7 @@ struct LightAtlasOptions {
     // How often light is reflected at most before it reaches a texel, at least 1; 0: until the
     // largest unshot power is below the threshold.
     std::uint32_t bounces = 5;
-    float threshold = 1e-4f;  // of the power that direct light makes all VPLs reflect, (0,1]
+    float threshold = 1e-5f;  // of the power that direct light makes all VPLs reflect, (0,1]
     // With bounces = 0: the strongest VPL shoots alone, then the next, as in the paper. Otherwise
     // all shoot at once, which converges to the same light in far less time.
     bool one_at_a_time = false;

@@ -1,0 +1,39 @@
+// VPLs stand off the edges of their patches, so a texel in a corner sees the strip beside it filled
+// by none. What fills the rest of its hemisphere stands for that strip too:
+//
+//   I <- I clamp(h / sum_i F_i, 1, COMPLETE_MOST)        [derived: sum of form factors, h: nearest.cl]
+//
+// In a closed scene h is 1 and the sum of all form factors becomes what it has to be.
+//
+// Work size     1D, one work-item for every CLGI_WIDTH texels; any local size; tail guarded
+// Writes        its own texels; packets with numbers that are not finite are counted
+// SPDX-License-Identifier: MIT
+#include "clgi/shared/atlas.h"
+#include "packet.clh"
+
+#define COMPLETE_MOST 4.0f
+
+kernel void atlas_complete(
+    const FillParams       params,
+    global const float*    restrict reach,       // [stride]
+    global const float*    restrict filled,      // [stride]
+    global float*          restrict irradiance,  // [3][stride] lux, exposed
+    volatile global uint*  restrict non_finite)  // [1]
+{
+    uint at = params.first_texel + (uint)get_global_id(0) * CLGI_WIDTH;
+    if (at >= params.texel_count) return;
+    floatp one = packet_splat(1.0f);
+    floatp sum = packet_load(filled + at);
+    floatp raised = packet_load(reach + at) / packet_select(one, sum, sum > 0.0f);
+    raised = packet_min(packet_max(raised, one), packet_splat(COMPLETE_MOST));
+    raised = packet_select(one, raised, sum > 0.0f);
+    uintp worst = (uintp)(0);
+    for (int c = 0; c < 3; ++c) {
+        global float* out = irradiance + c * params.stride + at;
+        floatp value = packet_load(out) * raised;
+        worst = max(worst, packet_magnitude(value));
+        packet_store(value, out);
+    }
+    intp bad = (as_intp(worst) >= NOT_FINITE) & ((int)at + packet_lanes < (int)params.texel_count);
+    if (packet_any(bad)) atomic_inc(non_finite);
+}
