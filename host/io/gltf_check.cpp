@@ -1,80 +1,74 @@
+// check_meshes: what the buffers hold.
 // SPDX-License-Identifier: MIT
-#include "io/gltf_check.hpp"
-
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <optional>
 #include <string_view>
 
 #include "io/gltf_accessor.hpp"
-#include "io/gltf_text.hpp"
 
 namespace clgi::io::gltf {
 
 namespace {
 
 // Formats of components as bits; which of the two an integer is depends on "normalized".
-constexpr unsigned floats = 1;
-constexpr unsigned unsigned_integers = 2;  // of 8 or 16 bits
-constexpr unsigned unsigned_units = 4;
-constexpr unsigned signed_integers = 8;
-constexpr unsigned signed_units = 16;
-constexpr unsigned any_unit = floats | unsigned_units | signed_units;
-constexpr unsigned any_small = any_unit | unsigned_integers | signed_integers;
+enum : unsigned {
+    floats = 1,
+    unsigned_integers = 2,  // of 8 or 16 bits
+    unsigned_units = 4,
+    signed_integers = 8,
+    signed_units = 16,
+    long_integers = 32,
+    any_unit = floats | unsigned_units | signed_units,
+    any_small = any_unit | unsigned_integers | signed_integers,
+    joints = unsigned_integers | unsigned_units,
+    unit_floats = floats | unsigned_units,
+    signed_floats = floats | signed_units
+};
 
 unsigned format_of(const Accessor& accessor) {
-    switch (accessor.componentType) {
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return floats;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return accessor.normalized ? unsigned_units : unsigned_integers;
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return accessor.normalized ? signed_units : signed_integers;
-        default:
-            return 0;
-    }
+    const int type = accessor.componentType;
+    if (type == TINYGLTF_COMPONENT_TYPE_FLOAT) return floats;
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) return long_integers;
+    const bool has_sign =
+        type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
+    if (accessor.normalized) return has_sign ? signed_units : unsigned_units;
+    return has_sign ? signed_integers : unsigned_integers;
 }
 
+enum Use { plain, quantized, target, instance };
+
+// allowed[use] is 0 where the specification knows no such attribute.
 struct Format {
     std::string_view name;  // with '_' at its end: followed by a number
     std::size_t rows;
-    unsigned plain;
-    unsigned quantized;  // with KHR_mesh_quantization
-    unsigned target;     // of the differences in a morph target; 0: not there
-    std::size_t target_rows;
+    unsigned allowed[4];
 };
-constexpr Format formats[] = {
-    {"POSITION", 3, floats, any_small, any_small, 3},
-    {"NORMAL", 3, floats, floats | signed_units, any_small, 3},
-    {"TANGENT", 4, floats, floats | signed_units, any_small, 3},
-    {"TEXCOORD_", 2, floats | unsigned_units, any_small, any_small, 2},
-    {"COLOR_", 4, floats | unsigned_units, floats | unsigned_units, any_unit, 4},
-    {"JOINTS_", 4, unsigned_integers | unsigned_units, unsigned_integers | unsigned_units, 0, 0},
-    {"WEIGHTS_", 4, floats | unsigned_units, floats | unsigned_units, 0, 0}};
+constexpr Format formats[] = {{"POSITION", 3, {floats, any_small, any_small, 0}},
+                              {"NORMAL", 3, {floats, signed_floats, any_small, 0}},
+                              {"TANGENT", 4, {floats, signed_floats, any_small, 0}},
+                              {"TEXCOORD_", 2, {unit_floats, any_small, any_small, 0}},
+                              {"COLOR_", 4, {unit_floats, unit_floats, any_unit, 0}},
+                              {"JOINTS_", 4, {joints, joints, 0, 0}},
+                              {"WEIGHTS_", 4, {unit_floats, unit_floats, 0, 0}},
+                              {"TRANSLATION", 3, {0, 0, 0, floats}},
+                              {"ROTATION", 4, {0, 0, 0, signed_floats}},
+                              {"SCALE", 3, {0, 0, 0, floats}}};
 
 // Null for names that are not of the specification, which may look like anything.
-const Format* find_format(std::string_view name, bool target) {
+const Format* find_format(std::string_view name, Use use) {
     for (const Format& format : formats) {
         const bool numbered = format.name.back() == '_' && name.starts_with(format.name);
-        if (numbered || name == format.name) return target && !format.target ? nullptr : &format;
+        if ((numbered || name == format.name) && format.allowed[use]) return &format;
     }
     return nullptr;
 }
 
-bool is_allowed(const Format& format, const Accessor& accessor, bool target, bool quantized) {
-    const std::size_t expected = target ? format.target_rows : format.rows;
-    const bool without_alpha = format.name == "COLOR_" && rows(accessor) == 3;
-    const unsigned allowed = target ? format.target : quantized ? format.quantized : format.plain;
-    return columns(accessor) == 1 && (rows(accessor) == expected || without_alpha) &&
-           (format_of(accessor) & allowed) != 0;
-}
-
-bool is_indices(const Accessor& accessor) {
-    return accessor.type == TINYGLTF_TYPE_SCALAR &&
-           (format_of(accessor) == unsigned_integers || format_of(accessor) == unsigned_units ||
-            accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+bool is_allowed(const Format& format, const Accessor& accessor, Use use) {
+    const Layout layout(accessor);
+    const bool without_sign = format.name == "TANGENT" && use == target;
+    const bool without_alpha = format.name == "COLOR_" && layout.rows == 3;
+    return layout.columns == 1 && (layout.rows == format.rows - without_sign || without_alpha) &&
+           (format_of(accessor) & format.allowed[use]) != 0;
 }
 
 // Elements to look through, more than scenes within max_triangles have. Accessors may overlap: a
@@ -97,14 +91,25 @@ public:
         const int first = position >= 0 ? position : primitive.attributes.begin()->second;
         const std::size_t vertices = accessors_[first].count;
 
-        check_attributes(name, primitive.attributes, vertices, false);
-        for (const auto& target : primitive.targets) {
-            check_attributes(name + " target", target, vertices, true);
-            require_finite(name + " target POSITION of vertex ", attribute(target, "POSITION"));
+        const Use use = document_.quantized ? quantized : plain;
+        check_attributes(name, primitive.attributes, vertices, use);
+        for (const auto& differences : primitive.targets) {
+            check_attributes(name + " target", differences, vertices, target);
+            require_finite(name + " target POSITION of vertex ",
+                           attribute(differences, "POSITION"));
         }
         if (position < 0) return;  // nothing will be drawn
         require_finite(name + " POSITION of vertex ", position);
-        check_indices(name, primitive.indices, vertices);
+        if (primitive.indices >= 0) check_indices(name, primitive.indices, vertices);
+    }
+
+    void check_copies(const Node& node, const std::string& name) {
+        const auto attributes = copies_of(node);
+        for (const char* first : {"TRANSLATION", "ROTATION", "SCALE"}) {
+            const int accessor = attribute(attributes, first);
+            if (accessor < 0) continue;
+            return check_attributes(name, attributes, accessors_[accessor].count, instance);
+        }
     }
 
     // Accessors of animations and skins, and those that nothing uses.
@@ -116,42 +121,43 @@ public:
     }
 
 private:
-    void check_attributes(const std::string& owner, const std::map<std::string, int>& attributes,
-                          std::size_t vertices, bool target) {
+    void check_attributes(const std::string& owner, const Attributes& attributes, std::size_t count,
+                          Use use) {
         for (const auto& [key, accessor] : attributes) {
-            if (key != "POSITION") mended_[accessor] = true;
-            const Format* format = find_format(key, target);
+            if (use != instance && key != "POSITION") mended_[accessor] = true;
+            const Format* format = find_format(key, use);
             if (!format) continue;
             const Accessor& found = accessors_[accessor];
             const std::string reference =
                 owner + " " + printable(key) + " (" + entry("accessors", accessor) + ")";
-            if (!is_allowed(*format, found, target, document_.quantized)) {
-                throw InputError(reference + " has a format that is not allowed there");
+            if (!is_allowed(*format, found, use)) {
+                refuse(reference, "has a format that is not allowed there");
             }
-            if (found.count != vertices) {
-                throw InputError(reference + " has " + std::to_string(found.count) +
-                                 " elements, there are " + std::to_string(vertices) + " vertices");
+            if (found.count != count) {
+                refuse(reference, "has " + std::to_string(found.count) + " elements, there are " +
+                                      std::to_string(count) +
+                                      (use == instance ? " copies" : " vertices"));
             }
         }
     }
 
     void check_indices(const std::string& name, int accessor, std::size_t vertices) {
-        if (accessor < 0) return;
-        if (!is_indices(accessors_[accessor])) {
-            throw InputError(name + " has indices that are not unsigned integers");
+        const Accessor& declared = accessors_[accessor];
+        if (declared.type != TINYGLTF_TYPE_SCALAR ||
+            !(format_of(declared) & (unsigned_integers | unsigned_units | long_integers))) {
+            refuse(name, "has indices that are not unsigned integers");
         }
         std::optional<std::uint32_t>& largest = largest_index_[accessor];
         if (!largest) {
             const AccessorReader reader(document_, accessor);
             spend(reader.size(), most_indices, indices_read_, name);
-            std::uint32_t seen = 0;
+            largest = 0;
             for (std::size_t i = 0; i < reader.size(); ++i) {
-                seen = std::max(seen, reader.integer(i));
+                largest = std::max(*largest, reader.integer(i));
             }
-            largest = seen;
         }
         if (*largest >= vertices) {
-            throw InputError(name + " names vertex " + std::to_string(*largest) + ", there are " +
+            refuse(name, "names vertex " + std::to_string(*largest) + ", there are " +
                              std::to_string(vertices));
         }
     }
@@ -164,7 +170,7 @@ private:
         const bool zeros = declared.bufferView < 0 && !declared.sparse.isSparse;
         if (zeros || format_of(declared) != floats) return;
         // check_accessors has bounded the count by the bytes that there are.
-        const std::size_t read = declared.count * (element_bytes(declared) / sizeof(float));
+        const std::size_t read = declared.count * (Layout(declared).bytes / sizeof(float));
         spend(read, most_floats, floats_read_, entry("accessors", accessor));
         const std::size_t bad = AccessorReader(document_, accessor).first_not_finite();
         if (bad < declared.count) throw InputError(name + std::to_string(bad) + " is not finite");
@@ -195,6 +201,9 @@ void check_meshes(const Document& document) {
         for (std::size_t k = 0; k < primitives.size(); ++k) {
             checker.check(primitives[k], entry("meshes", i) + entry(".primitives", k));
         }
+    }
+    for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {
+        checker.check_copies(document.model.nodes[i], entry("nodes", i));
     }
     checker.check_others();
 }

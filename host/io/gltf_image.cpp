@@ -2,14 +2,12 @@
 #include "io/gltf_image.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <clgi/error.hpp>
 #include <climits>
 #include <cstring>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "io/png_decode.hpp"
 
@@ -36,46 +34,43 @@ bool has_at(Bytes bytes, std::size_t at, std::string_view expected) {
            std::memcmp(bytes.data() + at, expected.data(), expected.size()) == 0;
 }
 
+bool is_png(Bytes bytes) { return has_at(bytes, 0, "\x89PNG\r\n\x1a\n"sv); }
+
 std::uint32_t big_endian(Bytes bytes, std::size_t at) {
     return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 |
            std::uint32_t{bytes[at + 2]} << 8 | std::uint32_t{bytes[at + 3]};
 }
 
 struct Size {
-    std::uint64_t width;
-    std::uint64_t height;
+    std::uint32_t width;
+    std::uint32_t height;
+
+    std::string text() const { return std::to_string(width) + "x" + std::to_string(height); }
 };
-
-std::string to_text(Size size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-void require_pixels(Size size) {
-    if (size.width == 0 || size.height == 0 || size.width > INT_MAX || size.height > INT_MAX) {
-        throw InputError("is of " + to_text(size) + " pixels");
-    }
-}
-
-// Refuses a size that is too large, or that so few bytes cannot stand for: the densest coding
-// spends most_per_byte pixels on a byte.
-void judge(Size size, std::size_t most, std::size_t bytes, std::size_t most_per_byte) {
-    require_pixels(size);
-    const std::string text = to_text(size);
-    const std::uint64_t pixels = size.width * size.height;
-    if (pixels > most) {
-        throw InputError("is of " + text + " pixels, " + std::to_string(most) + " are allowed");
-    }
-    if (pixels / most_per_byte > bytes) {
-        throw InputError("says " + text + " pixels, but has only " + std::to_string(bytes) +
-                         " bytes");
-    }
-}
 
 Size png_size(Bytes bytes) {
     if (bytes.size() < 33 || !has_at(bytes, 8, "\0\0\0\rIHDR"sv)) {
         throw InputError("is no complete PNG");
     }
-    return {big_endian(bytes, 16), big_endian(bytes, 20)};
+    const Size size{big_endian(bytes, 16), big_endian(bytes, 20)};
+    if (size.width == 0 || size.height == 0 || size.width > INT_MAX || size.height > INT_MAX) {
+        throw InputError("is of " + size.text() + " pixels");
+    }
+    return size;
+}
+
+// Refuses a size that is too large, or that so few bytes cannot stand for: the densest coding
+// spends most_per_byte pixels on a byte.
+void judge(Size size, std::size_t most, std::size_t bytes, std::size_t most_per_byte) {
+    const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
+    if (pixels > most) {
+        throw InputError("is of " + size.text() + " pixels, " + std::to_string(most) +
+                         " are allowed");
+    }
+    if (pixels / most_per_byte > bytes) {
+        throw InputError("says " + size.text() + " pixels, but has only " + std::to_string(bytes) +
+                         " bytes");
+    }
 }
 
 // Follows the segments of a JPEG to the one with its size.
@@ -103,52 +98,45 @@ Pixels decode_png_file(Bytes bytes, std::size_t most) {
     // Deflate at best packs 1032 bytes into one, and a byte holds up to 8 pixels.
     judge(size, most, bytes.size(), 1032 * 8);
     Pixels pixels{static_cast<int>(size.width), static_cast<int>(size.height), {}};
-    if (!decode_png(bytes, static_cast<std::uint32_t>(size.width),
-                    static_cast<std::uint32_t>(size.height), pixels.rgba)) {
+    if (!decode_png(bytes, size.width, size.height, pixels.rgba)) {
         throw InputError("is a damaged PNG");
     }
     return pixels;
 }
 
 Pixels decode_jpeg_file(Bytes bytes, std::size_t most) {
-    int width = 0;
-    int height = 0;
-    int channels = 0;
     if (bytes.size() > INT_MAX) throw InputError("is a JPEG of more than 2 GiB");
     const int length = static_cast<int>(bytes.size());
-    if (!stbi_info_from_memory(bytes.data(), length, &width, &height, &channels)) {
+    Pixels pixels;
+    int channels = 0;
+    if (!stbi_info_from_memory(bytes.data(), length, &pixels.width, &pixels.height, &channels)) {
         throw InputError("is a damaged JPEG");
     }
-    // A block of 64 pixels takes at least one bit.
-    judge({static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)}, most,
-          bytes.size(), 512);
+    const Size size{static_cast<std::uint32_t>(pixels.width),
+                    static_cast<std::uint32_t>(pixels.height)};
+    judge(size, most, bytes.size(), 512);  // a block of 64 pixels takes at least one bit
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
-        stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4),
+        stbi_load_from_memory(bytes.data(), length, &pixels.width, &pixels.height, &channels, 4),
         stbi_image_free);
     if (!decoded) throw InputError("is a damaged JPEG");
-    const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
-    return {width, height, std::vector<std::uint8_t>(decoded.get(), decoded.get() + size)};
+    const std::size_t count = std::size_t{size.width} * size.height;
+    pixels.rgba.assign(decoded.get(), decoded.get() + count * 4);
+    return pixels;
 }
-
-bool is_png(Bytes bytes) { return has_at(bytes, 0, "\x89PNG\r\n\x1a\n"sv); }
 
 }  // namespace
 
 ImageFormat inspect_image(Bytes bytes) {
-    if (is_png(bytes)) {
-        require_pixels(png_size(bytes));
-        return ImageFormat::png;
-    }
+    if (is_png(bytes)) return png_size(bytes), ImageFormat::png;
     if (has_at(bytes, 0, "\xff\xd8\xff"sv)) {
         check_jpeg_start(bytes.first(std::min(bytes.size(), inspected_bytes)));
         return ImageFormat::jpeg;
     }
     const bool webp = has_at(bytes, 0, "RIFF"sv) && has_at(bytes, 8, "WEBP"sv);
     const bool avif = has_at(bytes, 4, "ftyp"sv);
-    const bool ktx = has_at(bytes, 0, "\xabKTX "sv);
-    const bool other =
-        has_at(bytes, 0, "DDS "sv) || has_at(bytes, 0, "GIF8"sv) || has_at(bytes, 0, "BM"sv);
-    if (!webp && !avif && !ktx && !other) throw InputError("is neither PNG nor JPEG");
+    const bool other = has_at(bytes, 0, "\xabKTX "sv) || has_at(bytes, 0, "DDS "sv) ||
+                       has_at(bytes, 0, "GIF8"sv) || has_at(bytes, 0, "BM"sv);
+    if (!webp && !avif && !other) throw InputError("is neither PNG nor JPEG");
     return ImageFormat::unsupported;
 }
 

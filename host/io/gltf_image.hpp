@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string_view>
-#include <vector>
 
-#include "io/gltf_container.hpp"
+#include "io/gltf_file.hpp"
 
 namespace clgi::io::gltf {
 

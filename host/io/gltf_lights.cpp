@@ -1,11 +1,10 @@
-// Lights and cameras of a model as those of a Scene, at the origin.
+// Lights and cameras: first at the origin, as the file describes them, then where their nodes are.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "io/gltf_place.hpp"
-#include "io/gltf_text.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 
@@ -13,44 +12,37 @@ namespace {
 
 constexpr double largest = 1e18;  // metres, candela: its square is still a float
 
-void read_perspective(const tinygltf::PerspectiveCamera& source, const std::string& name,
-                      Camera& camera) {
-    if (source.yfov >= std::numbers::pi) refuse(name + ".yfov", "is not within 0 and pi");
-    // Below a micro-radian the picture is one point and its projection overflows.
-    camera.vertical_fov = static_cast<float>(std::clamp(source.yfov, 1e-6, 3.1415));
-    if (source.znear > largest) refuse(name + ".znear", "is too large");
-    camera.near = static_cast<float>(source.znear);
-}
-
-void read_orthographic(const tinygltf::OrthographicCamera& source, const std::string& name,
-                       Camera& camera) {
-    camera.kind = Camera::Kind::orthographic;
-    const double half_height = std::abs(source.ymag);
-    if (half_height < 1e-18 || half_height > largest) refuse(name + ".ymag", "is 0 or too large");
-    camera.half_height = static_cast<float>(half_height);
-    if (source.znear > largest) refuse(name + ".znear", "is too large");
-    if (source.zfar <= source.znear) refuse(name + ".zfar", "is not beyond znear");
-    camera.near = static_cast<float>(source.znear);
-}
-
 Camera read_camera(const tinygltf::Camera& source, const std::string& name) {
+    const auto require = [&](bool right, const char* member, const char* what) {
+        if (!right) refuse(name + "." + source.type + member, what);
+    };
     Camera camera;
     camera.name = short_name(source.name);
     if (source.type == "perspective") {
-        read_perspective(source.perspective, name + ".perspective", camera);
-    } else {
-        read_orthographic(source.orthographic, name + ".orthographic", camera);
+        const double angle = source.perspective.yfov;
+        require(angle < std::numbers::pi, ".yfov", "is not within 0 and pi");
+        // Below a micro-radian the picture is one point and its projection overflows.
+        camera.vertical_fov = static_cast<float>(std::clamp(angle, 1e-6, 3.1415));
+        camera.near = static_cast<float>(source.perspective.znear);
+        require(source.perspective.znear <= largest, ".znear", "is too large");
+        return camera;
     }
+    camera.kind = Camera::Kind::orthographic;
+    const auto& [xmag, ymag, far, near, extensions, extras, text, more_text] = source.orthographic;
+    require(std::abs(ymag) >= 1e-18 && std::abs(ymag) <= largest, ".ymag", "is 0 or too large");
+    require(near <= largest, ".znear", "is too large");
+    require(far > near, ".zfar", "is not beyond znear");
+    camera.half_height = static_cast<float>(std::abs(ymag));
+    camera.near = static_cast<float>(near);
     return camera;
 }
 
 void read_cone(const tinygltf::SpotLight& cone, Light& light, Warnings& warnings) {
     constexpr double right_angle = std::numbers::pi / 2.0;
-    double outer = cone.outerConeAngle;
-    if (outer > right_angle + 1e-6) {
+    const double outer = std::min(cone.outerConeAngle, right_angle);
+    if (cone.outerConeAngle > right_angle + 1e-6) {
         warnings.add("a spot light wider than a hemisphere is narrowed to one");
     }
-    outer = std::min(outer, right_angle);
     if (cone.innerConeAngle > outer) {
         warnings.add("a spot light's inner cone is narrowed to its outer cone");
     }
@@ -84,6 +76,28 @@ Light read_light(const tinygltf::Light& source, const std::string& name, Warning
     return light;
 }
 
+// Where a node stands and where it looks, along its -Z.
+struct Place {
+    explicit Place(const glm::dmat4& matrix) : position(matrix[3]) {
+        const glm::dvec3 back(matrix[2]);
+        const glm::dvec3 y(matrix[1]);
+        is_near = glm::length(position) <= largest;
+        is_directed = glm::length(back) > 1e-30;
+        if (is_directed) forward = -glm::normalize(back);
+        if (!is_directed || !(glm::length(y) > 1e-30)) return;
+        right = glm::cross(forward, glm::normalize(y));
+        has_axes = glm::length(right) > 1e-9;
+        if (has_axes) right = glm::normalize(right);
+    }
+
+    glm::dvec3 position;
+    glm::dvec3 forward = glm::dvec3(0.0);
+    glm::dvec3 right = glm::dvec3(0.0);
+    bool is_near = false;
+    bool is_directed = false;
+    bool has_axes = false;
+};
+
 }  // namespace
 
 void read_lights(Document& document) {
@@ -94,6 +108,41 @@ void read_lights(Document& document) {
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
         const std::string name = entry("extensions.KHR_lights_punctual.lights", i);
         document.lights.push_back(read_light(model.lights[i], name, document.warnings));
+    }
+}
+
+void place_lights(Document& document, const std::vector<int>& nodes, Scene& scene) {
+    for (const int index : nodes) {
+        const Node& node = document.model.nodes[index];
+        const tinygltf::Value* carried = extension(node.extensions, "KHR_lights_punctual");
+        if (!carried) continue;
+        Light light = document.lights[index_in(*carried, "light")];
+        if (light.name.empty()) light.name = short_name(node.name);
+        const Place place(document.matrices[index]);
+        const bool directed = light.kind != Light::Kind::point;
+        if (!place.is_near || (directed && !place.is_directed)) {
+            document.warnings.add("a light whose node has no direction or place is left out");
+            continue;
+        }
+        light.position = place.position;
+        if (directed) light.direction = glm::vec3(place.forward);
+        scene.lights.push_back(std::move(light));
+    }
+    for (const int index : nodes) {
+        const Node& node = document.model.nodes[index];
+        if (node.camera < 0) continue;
+        const Place place(document.matrices[index]);
+        if (!place.is_near || !place.has_axes) {
+            document.warnings.add("a camera whose node has no direction or place is left out");
+            continue;
+        }
+        Camera camera = document.cameras[node.camera];
+        if (camera.name.empty()) camera.name = short_name(node.name);
+        camera.position = place.position;
+        camera.right = glm::vec3(place.right);
+        camera.up = glm::vec3(glm::cross(place.right, place.forward));
+        camera.forward = glm::vec3(place.forward);
+        scene.cameras.push_back(std::move(camera));
     }
 }
 

@@ -1,12 +1,10 @@
+// The rest pose of a primitive's vertices.
 // SPDX-License-Identifier: MIT
-#include "io/gltf_pose.hpp"
-
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <cmath>
-#include <optional>
 
 #include "io/gltf_accessor.hpp"
+#include "io/gltf_primitive.hpp"
 
 namespace clgi::io::gltf {
 
@@ -24,15 +22,12 @@ struct Placement {
 
     explicit Placement(const glm::dmat4& m) : matrix(m) {
         const glm::dmat3 linear(m);
-        const double determinant = glm::determinant(linear);
-        mirrored = determinant < 0.0;
+        mirrored = glm::determinant(linear) < 0.0;
         normal_matrix =
             glm::dmat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                        glm::cross(linear[0], linear[1])) *
             (mirrored ? -1.0 : 1.0);
     }
-
-    glm::dvec3 position(const glm::dvec3& p) const { return glm::dvec3(matrix * glm::dvec4(p, 1)); }
 
     glm::dvec3 normal(const glm::dvec3& n) const {
         // Scaled first, so that a model in nanometres does not underflow.
@@ -48,16 +43,15 @@ struct Placement {
 // The joints of one vertex with their weights, added up and made to sum to 1.
 class SkinReader {
 public:
-    SkinReader(const Document& document, const Primitive& primitive,
+    SkinReader(const Document& document, const Attributes& attributes,
                const std::vector<glm::dmat4>& joints)
         : joints_(joints) {
         for (int set = 0;; ++set) {
             const std::string number = std::to_string(set);
-            const int joint_set = attribute(primitive.attributes, "JOINTS_" + number);
-            if (joint_set < 0) return;
-            joint_sets_.emplace_back(document, joint_set);
-            weight_sets_.emplace_back(document,
-                                      attribute(primitive.attributes, "WEIGHTS_" + number));
+            const auto joint_set = reader_of(document, attributes, "JOINTS_" + number);
+            if (!joint_set) return;
+            joint_sets_.push_back(*joint_set);
+            weight_sets_.push_back(*reader_of(document, attributes, "WEIGHTS_" + number));
         }
     }
 
@@ -89,19 +83,19 @@ private:
 }  // namespace
 
 const std::vector<glm::dmat4>& Poser::joint_matrices(int skin) {
-    const auto known = joint_matrices_.find(skin);
-    if (known != joint_matrices_.end()) return known->second;
-
-    const Skin& source = document_.model.skins[skin];
-    std::optional<AccessorReader> inverse_bind;
-    if (source.inverseBindMatrices >= 0)
-        inverse_bind.emplace(document_, source.inverseBindMatrices);
-    std::vector<glm::dmat4> matrices;
-    for (std::size_t i = 0; i < source.joints.size(); ++i) {
-        const glm::dmat4& joint = document_.matrices[source.joints[i]];
-        matrices.push_back(inverse_bind ? joint * inverse_bind->mat4(i) : joint);
+    const auto [found, fresh] = joint_matrices_.try_emplace(skin);
+    std::vector<glm::dmat4>& matrices = found->second;
+    if (!fresh) return matrices;
+    const tinygltf::Skin& source = document_.model.skins[skin];
+    for (const int joint : source.joints) matrices.push_back(document_.matrices[joint]);
+    if (source.inverseBindMatrices < 0) return matrices;
+    const AccessorReader inverse_bind(document_, source.inverseBindMatrices);
+    for (std::size_t i = 0; i < matrices.size(); ++i) {
+        glm::dmat4 to_joint;
+        for (int k = 0; k < 4; ++k) to_joint[k] = inverse_bind.vector<4>(i, 4 * k);
+        matrices[i] = matrices[i] * to_joint;
     }
-    return joint_matrices_[skin] = std::move(matrices);
+    return matrices;
 }
 
 void Poser::morph(const Primitive& primitive, const Node& node,
@@ -112,34 +106,34 @@ void Poser::morph(const Primitive& primitive, const Node& node,
         if (weights[t] == 0.0) continue;
         differences_read_ += vertices.size();
         if (differences_read_ > most_differences) throw InputError("too many morph targets");
-
-        const auto add = [&](int accessor, std::vector<glm::dvec3>& values) {
-            if (accessor < 0 || values.empty()) return;
-            const AccessorReader difference(document_, accessor);
+        const auto add = [&](const char* name, std::vector<glm::dvec3>& values) {
+            const auto differences = reader_of(document_, primitive.targets[t], name);
+            if (!differences || values.empty()) return;
             for (std::size_t i = 0; i < vertices.size(); ++i) {
-                values[i] += weights[t] * difference.vec3(vertices[i]);
+                values[i] += weights[t] * differences->vector<3>(vertices[i]);
             }
         };
-        add(attribute(primitive.targets[t], "POSITION"), pose.positions);
-        add(attribute(primitive.targets[t], "NORMAL"), pose.normals);
+        add("POSITION", pose.positions);
+        add("NORMAL", pose.normals);
     }
 }
 
 Pose Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4& matrix,
                  const std::vector<std::uint32_t>& vertices) {
     Pose pose;
-    const AccessorReader positions(document_, attribute(primitive.attributes, "POSITION"));
-    for (const std::uint32_t vertex : vertices) pose.positions.push_back(positions.vec3(vertex));
-    const int normal = attribute(primitive.attributes, "NORMAL");
-    if (normal >= 0) {
-        const AccessorReader normals(document_, normal);
-        for (const std::uint32_t vertex : vertices) pose.normals.push_back(normals.vec3(vertex));
-    }
+    const auto read = [&](const char* name, std::vector<glm::dvec3>& values) {
+        const auto reader = reader_of(document_, primitive.attributes, name);
+        if (!reader) return;
+        values.reserve(vertices.size());
+        for (const std::uint32_t vertex : vertices) values.push_back(reader->vector<3>(vertex));
+    };
+    read("POSITION", pose.positions);
+    read("NORMAL", pose.normals);
     morph(primitive, node, vertices, pose);
 
     pose.mirrored.resize(vertices.size());
     const auto place = [&](std::size_t i, const Placement& placement) {
-        pose.positions[i] = placement.position(pose.positions[i]);
+        pose.positions[i] = glm::dvec3(placement.matrix * glm::dvec4(pose.positions[i], 1.0));
         if (!pose.normals.empty()) pose.normals[i] = placement.normal(pose.normals[i]);
         pose.mirrored[i] = placement.mirrored;
     };
@@ -149,7 +143,7 @@ Pose Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4&
         return pose;
     }
     // The skin alone places its vertices; the node's own matrix has no say.
-    const SkinReader skin(document_, primitive, joint_matrices(node.skin));
+    const SkinReader skin(document_, primitive.attributes, joint_matrices(node.skin));
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const auto blended = skin.blended(vertices[i]);
         if (!blended) document_.warnings.add("a skinned vertex without weights stays in place");

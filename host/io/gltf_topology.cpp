@@ -1,47 +1,34 @@
+// The triangles of a primitive, whatever its mode, and normals that are made of them.
 // SPDX-License-Identifier: MIT
-#include "io/gltf_topology.hpp"
-
 #include <algorithm>
-#include <optional>
+#include <cmath>
 
 #include "io/gltf_accessor.hpp"
+#include "io/gltf_primitive.hpp"
 
 namespace clgi::io::gltf {
 
 namespace {
 
-// Renumbers vertices in the order of their ids. A table is faster; but a primitive of one triangle
-// may point into an array of millions, and thousands of primitives into the same one.
-void renumber(Topology& topology, std::size_t vertex_count) {
-    std::vector<std::uint32_t>& used = topology.vertices;
-    const std::size_t corners = topology.triangles.size() * 3;
-    if (vertex_count <= corners * 4) {
-        constexpr std::uint32_t unused = UINT32_MAX;
-        std::vector<std::uint32_t> number(vertex_count, unused);
-        for (const auto& triangle : topology.triangles) {
-            for (const std::uint32_t vertex : triangle) number[vertex] = 0;
-        }
-        for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
-            if (number[vertex] == unused) continue;
-            number[vertex] = static_cast<std::uint32_t>(used.size());
-            used.push_back(vertex);
-        }
-        for (auto& triangle : topology.triangles) {
-            for (std::uint32_t& vertex : triangle) vertex = number[vertex];
-        }
-        return;
-    }
-    for (const auto& triangle : topology.triangles) {
-        used.insert(used.end(), triangle.begin(), triangle.end());
-    }
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (auto& triangle : topology.triangles) {
-        for (std::uint32_t& vertex : triangle) {
-            const auto found = std::lower_bound(used.begin(), used.end(), vertex);
-            vertex = static_cast<std::uint32_t>(found - used.begin());
-        }
-    }
+constexpr std::uint32_t unused = UINT32_MAX;
+
+glm::dvec3 unit_or_zero(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 1e-300 && std::isfinite(length) ? v / length : glm::dvec3(0.0);
+}
+
+// Zero for a triangle without area. Its corners are still in the order of the file, which a
+// mirroring transform has turned around.
+glm::dvec3 front_of(const Corners& corner, const Pose& pose) {
+    const glm::dvec3 a = pose.positions[corner[0]];
+    const glm::dvec3 normal =
+        unit_or_zero(glm::cross(pose.positions[corner[1]] - a, pose.positions[corner[2]] - a));
+    return pose.mirrored[corner[0]] ? -normal : normal;
+}
+
+// For want of any direction, up.
+glm::dvec3 or_up(const glm::dvec3& normal) {
+    return normal == glm::dvec3(0.0) ? glm::dvec3(0.0, 1.0, 0.0) : normal;
 }
 
 }  // namespace
@@ -55,7 +42,26 @@ std::size_t triangle_count(const Document& document, const Primitive& primitive)
     return std::max<std::size_t>(corners, 2) - 2;  // of a strip or a fan
 }
 
-Topology triangles_of(const Document& document, const Primitive& primitive) {
+std::vector<std::uint32_t> Renumberer::renumber(std::vector<Corners>& triangles) {
+    std::vector<std::uint32_t> used;
+    for (const Corners& triangle : triangles) {
+        for (const std::uint32_t vertex : triangle) {
+            if (vertex >= number_.size()) number_.resize(std::size_t{vertex} + 1, unused);
+            if (number_[vertex] == unused) used.push_back(vertex);
+            number_[vertex] = 0;
+        }
+    }
+    std::sort(used.begin(), used.end());
+    for (std::uint32_t i = 0; i < used.size(); ++i) number_[used[i]] = i;
+    for (Corners& triangle : triangles) {
+        for (std::uint32_t& vertex : triangle) vertex = number_[vertex];
+    }
+    for (const std::uint32_t vertex : used) number_[vertex] = unused;
+    return used;
+}
+
+Topology triangles_of(const Document& document, const Primitive& primitive,
+                      Renumberer& renumberer) {
     std::optional<AccessorReader> indices;
     if (primitive.indices >= 0) indices.emplace(document, primitive.indices);
     const auto corner = [&](std::size_t i) {
@@ -66,20 +72,51 @@ Topology triangles_of(const Document& document, const Primitive& primitive) {
     const std::size_t count = triangle_count(document, primitive);
     topology.triangles.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        std::array<std::uint32_t, 3> triangle;
+        Corners triangle = {corner(i + 1), corner(i + 2), corner(0)};  // of a fan
         if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
             triangle = {corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)};
         } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
             triangle = {corner(i), corner(i + 1 + i % 2), corner(i + 2 - i % 2)};
-        } else {
-            triangle = {corner(i + 1), corner(i + 2), corner(0)};
         }
         const auto [a, b, c] = triangle;
         if (a != b && b != c && c != a) topology.triangles.push_back(triangle);
     }
-    const int position = attribute(primitive.attributes, "POSITION");
-    renumber(topology, document.model.accessors[position].count);
+    topology.vertices = renumberer.renumber(topology.triangles);
     return topology;
+}
+
+void make_flat(Topology& topology, Pose& pose) {
+    Topology split;
+    Pose flat;
+    for (const Corners& corner : topology.triangles) {
+        const glm::dvec3 normal = or_up(front_of(corner, pose));
+        const auto first = static_cast<std::uint32_t>(split.vertices.size());
+        split.triangles.push_back({first, first + 1, first + 2});
+        for (const std::uint32_t vertex : corner) {
+            split.vertices.push_back(topology.vertices[vertex]);
+            flat.positions.push_back(pose.positions[vertex]);
+            flat.normals.push_back(normal);
+            flat.mirrored.push_back(pose.mirrored[corner[0]]);
+        }
+    }
+    topology = std::move(split);
+    pose = std::move(flat);
+}
+
+bool mend_normals(const Topology& topology, Pose& pose) {
+    std::map<std::uint32_t, glm::dvec3> sums;
+    for (std::uint32_t i = 0; i < pose.normals.size(); ++i) {
+        if (pose.normals[i] == glm::dvec3(0.0)) sums.emplace(i, 0.0);
+    }
+    if (sums.empty()) return false;
+    for (const Corners& corner : topology.triangles) {
+        for (const std::uint32_t vertex : corner) {
+            const auto sum = sums.find(vertex);
+            if (sum != sums.end()) sum->second += front_of(corner, pose);
+        }
+    }
+    for (const auto& [vertex, sum] : sums) pose.normals[vertex] = or_up(unit_or_zero(sum));
+    return true;
 }
 
 }  // namespace clgi::io::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_container.hpp"
+#include "io/gltf_file.hpp"
 
 #include <algorithm>
 #include <clgi/error.hpp>
@@ -12,10 +12,6 @@ namespace clgi::io::gltf {
 
 namespace {
 
-constexpr std::uint32_t glb_magic = 0x46546C67;   // "glTF"
-constexpr std::uint32_t json_chunk = 0x4E4F534A;  // "JSON"
-constexpr std::uint32_t bin_chunk = 0x004E4942;   // "BIN\0"
-
 // glTF nests about ten deep; the rest is for extras. Parsers and printers of JSON recurse.
 constexpr int deepest_nesting = 256;
 
@@ -25,33 +21,30 @@ std::uint32_t little_endian(Bytes bytes, std::size_t at) {
 }
 
 Container open_glb(Bytes file) {
-    if (file.size() < 20) throw InputError("a GLB of " + std::to_string(file.size()) + " bytes");
+    const auto require = [](bool right, const std::string& what) {
+        if (!right) throw InputError(what);
+    };
+    require(file.size() >= 20, "a GLB of " + std::to_string(file.size()) + " bytes");
     const std::uint32_t version = little_endian(file, 4);
-    if (version != 2) throw InputError("GLB version " + std::to_string(version) + ", not 2");
+    require(version == 2, "GLB version " + std::to_string(version) + ", not 2");
     const std::uint32_t length = little_endian(file, 8);
-    if (length != file.size()) {
-        throw InputError("the GLB header says " + std::to_string(length) + " bytes, the file has " +
-                         std::to_string(file.size()));
-    }
-
+    require(length == file.size(), "the GLB header says " + std::to_string(length) +
+                                       " bytes, the file has " + std::to_string(file.size()));
     Container container;
     int chunk = 0;
     for (std::size_t at = 12; at < file.size(); ++chunk) {
-        if (file.size() - at < 8) throw InputError("the GLB ends inside a chunk header");
+        require(file.size() - at >= 8, "the GLB ends inside a chunk header");
         const std::uint32_t bytes = little_endian(file, at);
-        const std::uint32_t type = little_endian(file, at + 4);
+        const bool is_json = little_endian(file, at + 4) == 0x4E4F534A;    // "JSON"
+        const bool is_binary = little_endian(file, at + 4) == 0x004E4942;  // "BIN\0"
         at += 8;
-        if (bytes > file.size() - at) throw InputError("the GLB ends inside a chunk");
-        if (bytes % 4 != 0) throw InputError("a GLB chunk of a length not divisible by 4");
-        if ((chunk == 0) != (type == json_chunk)) {
-            throw InputError(chunk == 0 ? "the first GLB chunk is not JSON"
-                                        : "a second JSON chunk in the GLB");
-        }
-        if (type == json_chunk) container.json = file.subspan(at, bytes);
-        if (type == bin_chunk) {
-            if (chunk != 1) throw InputError("a BIN chunk that is not the second of the GLB");
-            container.binary = file.subspan(at, bytes);
-        }
+        require(bytes <= file.size() - at, "the GLB ends inside a chunk");
+        require(bytes % 4 == 0, "a GLB chunk of a length not divisible by 4");
+        require(is_json || chunk != 0, "the first GLB chunk is not JSON");
+        require(!is_json || chunk == 0, "a second JSON chunk in the GLB");
+        require(!is_binary || chunk == 1, "a BIN chunk that is not the second of the GLB");
+        if (is_json) container.json = file.subspan(at, bytes);
+        if (is_binary) container.binary = file.subspan(at, bytes);
         at += bytes;
     }
     return container;
@@ -62,17 +55,12 @@ void check_nesting(Bytes text) {
     bool quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = static_cast<char>(text[i]);
-        if (quoted) {
-            if (c == '\\') ++i;
-            if (c == '"') quoted = false;
-        } else if (c == '"') {
-            quoted = true;
-        } else if (c == '{' || c == '[') {
-            if (++depth > deepest_nesting) {
-                throw InputError("JSON nested deeper than " + std::to_string(deepest_nesting));
-            }
-        } else if (c == '}' || c == ']') {
-            --depth;
+        if (c == '"') quoted = !quoted;
+        if (quoted && c == '\\') ++i;
+        if (quoted) continue;
+        depth += (c == '{' || c == '[') - (c == '}' || c == ']');
+        if (depth > deepest_nesting) {
+            throw InputError("JSON nested deeper than " + std::to_string(deepest_nesting));
         }
     }
 }
@@ -90,16 +78,14 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
     if (error || !stream) throw InputError("cannot be opened");
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(size, limit)));
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
-        throw InputError("cannot be read to its end");
-    }
+    if (!stream) throw InputError("cannot be read to its end");
     return bytes;
 }
 
 Container open_container(Bytes file) {
-    if (file.size() >= 4 && little_endian(file, 0) == glb_magic) return open_glb(file);
     if (file.empty()) throw InputError("the file is empty");
-    return {file, std::nullopt};
+    const bool is_glb = file.size() >= 4 && little_endian(file, 0) == 0x46546C67;  // "glTF"
+    return is_glb ? open_glb(file) : Container{file, std::nullopt};
 }
 
 nlohmann::json parse_json(Bytes text) {
