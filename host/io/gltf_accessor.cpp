@@ -35,71 +35,18 @@ double load_component(const std::uint8_t* bytes, int type) {
     }
 }
 
-const std::uint8_t* view_data(const Document& document, int view) {
-    const tinygltf::BufferView& range = document.model.bufferViews[view];
-    return document.buffers[range.buffer].data() + range.byteOffset;
-}
-
-std::size_t stride_of(const Document& document, const Accessor& accessor) {
-    const std::size_t declared = document.model.bufferViews[accessor.bufferView].byteStride;
-    return declared > 0 ? declared : Layout(accessor).bytes;
-}
-
-// Whether `count` elements of `bytes` each, `stride` apart from `offset` on, end inside the view.
-// Written with divisions: every one of these numbers may be near 2^64.
-void check_range(const Document& document, const std::string& name, int view, std::size_t offset,
-                 std::size_t count, std::size_t stride, std::size_t bytes) {
-    const tinygltf::BufferView& range = document.model.bufferViews[view];
-    if (document.buffers[range.buffer].empty()) {
-        refuse(name,
-               "needs data that only EXT_meshopt_compression gives, which clgi does not read");
-    }
-    const std::size_t length = range.byteLength;
-    if (bytes > length || offset > length - bytes ||
-        count - 1 > (length - bytes - offset) / stride) {
-        refuse(name, "reads " + std::to_string(count) + " elements at " + std::to_string(offset) +
-                         ", beyond the " + std::to_string(length) + " bytes of " +
-                         entry("bufferViews", view));
-    }
-}
-
-void check_sparse(const Document& document, const std::string& name, const Accessor& accessor) {
-    const auto& where = accessor.sparse.indices;
-    const auto& values = accessor.sparse.values;
-    const auto count = static_cast<std::size_t>(accessor.sparse.count);
-    if (count == 0 || count > accessor.count) {
-        refuse(name + ".sparse", "replaces " + std::to_string(count) + " of " +
-                                     std::to_string(accessor.count) + " elements");
-    }
-    const std::size_t index_bytes = tinygltf::GetComponentSizeInBytes(where.componentType);
-    const std::size_t value_bytes = Layout(accessor).bytes;
-    check_range(document, name + ".sparse.indices", where.bufferView, where.byteOffset, count,
-                index_bytes, index_bytes);
-    check_range(document, name + ".sparse.values", values.bufferView, values.byteOffset, count,
-                value_bytes, value_bytes);
-
-    const std::uint8_t* indices = view_data(document, where.bufferView) + where.byteOffset;
-    double previous = -1.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double index = load_component(indices + i * index_bytes, where.componentType);
-        if (index <= previous || index >= static_cast<double>(accessor.count)) {
-            refuse(name + ".sparse", "has indices that do not increase, or that are beyond the " +
-                                         std::to_string(accessor.count) + " elements");
-        }
-        previous = index;
-    }
+std::size_t size_of(int component) {
+    return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(component));
 }
 
 }  // namespace
 
-// tinygltf's types: VEC2 is 2, MAT2 32 + 2, SCALAR 64 + 1. Columns of matrices begin at
-// multiples of 4.
-Layout::Layout(const Accessor& accessor)
-    : component_bytes(tinygltf::GetComponentSizeInBytes(accessor.componentType)),
-      rows(accessor.type % 32),
-      columns(accessor.type / 32 == 1 ? rows : 1),
-      column_bytes(columns == 1 ? component_bytes * rows : (component_bytes * rows + 3) / 4 * 4),
-      bytes(column_bytes * columns) {}
+// tinygltf's types: VEC2 is 2, MAT2 32 + 2, SCALAR 64 + 1.
+std::size_t rows(const Accessor& accessor) { return accessor.type % 32; }
+
+std::size_t columns(const Accessor& accessor) {
+    return accessor.type / 32 == 1 ? rows(accessor) : 1;
+}
 
 void check_accessors(const Document& document) {
     // Elements that no bytes stand for cost nothing in the file; bound them by what does.
@@ -107,69 +54,86 @@ void check_accessors(const Document& document) {
     for (const Bytes buffer : document.buffers) most_zeros += buffer.size();
     std::size_t sparse_total = 0;
 
-    for (std::size_t i = 0; i < document.model.accessors.size(); ++i) {
-        const Accessor& accessor = document.model.accessors[i];
-        const std::string name = entry("accessors", i);
-        const std::size_t bytes = Layout(accessor).bytes;
-        if (accessor.bufferView >= 0) {
-            const std::size_t stride = stride_of(document, accessor);
-            if (stride < bytes) {
-                refuse(name, "has elements of " + std::to_string(bytes) +
-                                 " bytes, its view a stride of " + std::to_string(stride));
-            }
-            check_range(document, name, accessor.bufferView, accessor.byteOffset, accessor.count,
-                        stride, bytes);
-        } else if (accessor.count > most_zeros) {
-            refuse(name, "has " + std::to_string(accessor.count) + " elements and no data");
-        }
-        if (!accessor.sparse.isSparse) continue;
+    each("accessors", document.model.accessors, [&](const Accessor& accessor) {
+        require(accessor.bufferView >= 0 || accessor.count <= most_zeros, "has ", accessor.count,
+                " elements and no data");
+        const AccessorReader reader(document, accessor);
+        if (!accessor.sparse.isSparse) return;
         // Many accessors may share one list of indices, each check reads all of it.
         sparse_total += accessor.sparse.count;
-        if (sparse_total > std::size_t{1} << 28) refuse(name, "has too much sparse data");
-        check_sparse(document, name, accessor);
-    }
+        require(sparse_total <= std::size_t{1} << 28, "has too much sparse data");
+        require(reader.is_in_order(), ".sparse has indices that do not increase below ",
+                accessor.count);
+    });
 }
 
-AccessorReader::AccessorReader(const Document& document, int accessor)
-    : accessor_(document.model.accessors[accessor]), layout_(accessor_) {
-    if (accessor_.bufferView >= 0) {
-        data_ = view_data(document, accessor_.bufferView) + accessor_.byteOffset;
-        stride_ = stride_of(document, accessor_);
+AccessorReader::AccessorReader(const Document& document, const Accessor& accessor)
+    : accessor_(accessor),
+      component_bytes_(size_of(accessor.componentType)),
+      column_bytes_(component_bytes_ * rows(accessor)) {
+    if (columns(accessor) > 1) column_bytes_ = (column_bytes_ + 3) / 4 * 4;
+    bytes_ = column_bytes_ * columns(accessor);
+    if (accessor.bufferView >= 0) {
+        dense_ = elements(document, accessor.bufferView, accessor.byteOffset, accessor.count,
+                          bytes_, true);
     }
-    const auto& sparse = accessor_.sparse;
-    if (!sparse.isSparse) return;
-    sparse_count_ = sparse.count;
-    sparse_indices_ = view_data(document, sparse.indices.bufferView) + sparse.indices.byteOffset;
-    sparse_values_ = view_data(document, sparse.values.bufferView) + sparse.values.byteOffset;
+    if (!accessor.sparse.isSparse) return;
+    const auto& indices = accessor.sparse.indices;
+    const auto& values = accessor.sparse.values;
+    sparse_count_ = accessor.sparse.count;
+    require(sparse_count_ > 0 && sparse_count_ <= accessor.count, ".sparse replaces ",
+            sparse_count_, " of ", accessor.count, " elements");
+    sparse_indices_ = elements(document, indices.bufferView, indices.byteOffset, sparse_count_,
+                               size_of(indices.componentType), false);
+    sparse_values_ =
+        elements(document, values.bufferView, values.byteOffset, sparse_count_, bytes_, false);
 }
 
-std::size_t AccessorReader::sparse_index(std::size_t i) const {
-    const int type = accessor_.sparse.indices.componentType;
+AccessorReader::Elements AccessorReader::elements(const Document& document, int view,
+                                                  std::size_t offset, std::size_t count,
+                                                  std::size_t bytes, bool strided) {
+    const tinygltf::BufferView& range = document.model.bufferViews[view];
+    const Bytes buffer = document.buffers[range.buffer];
+    require(!buffer.empty(),
+            "needs data that only EXT_meshopt_compression gives, which clgi does not read");
+    const std::size_t stride = strided && range.byteStride > 0 ? range.byteStride : bytes;
+    require(stride >= bytes, "has elements of ", bytes, " bytes, its view a stride of ", stride);
+    // Written with divisions: every one of these numbers may be near 2^64.
+    const std::size_t length = range.byteLength;
+    require(bytes <= length && offset <= length - bytes &&
+                count - 1 <= (length - bytes - offset) / stride,
+            "reads ", count, " elements at ", offset, ", beyond the ", length,
+            " bytes of bufferViews[", view, "]");
+    return {buffer.data() + range.byteOffset + offset, stride};
+}
+
+std::size_t AccessorReader::replaced(std::size_t i) const {
     return static_cast<std::size_t>(
-        load_component(sparse_indices_ + i * tinygltf::GetComponentSizeInBytes(type), type));
+        load_component(sparse_indices_.at(i), accessor_.sparse.indices.componentType));
 }
 
-const std::uint8_t* AccessorReader::dense(std::size_t element) const {
-    return data_ ? data_ + element * stride_ : nullptr;
+bool AccessorReader::is_in_order() const {
+    for (std::size_t i = 0; i < sparse_count_; ++i) {
+        if (replaced(i) >= size() || (i > 0 && replaced(i) <= replaced(i - 1))) return false;
+    }
+    return true;
 }
 
 const std::uint8_t* AccessorReader::find(std::size_t element) const {
     if (sparse_count_ > 0) {
         const auto numbers = std::views::iota(std::size_t{0}, sparse_count_);
-        const auto found = std::ranges::lower_bound(numbers, element, {},
-                                                    [this](auto i) { return sparse_index(i); });
-        if (found != numbers.end() && sparse_index(*found) == element) {
-            return sparse_values_ + *found * layout_.bytes;
-        }
+        const auto found =
+            std::ranges::lower_bound(numbers, element, {}, [this](auto i) { return replaced(i); });
+        if (found != numbers.end() && replaced(*found) == element) return sparse_values_.at(*found);
     }
-    return dense(element);
+    return dense_.at(element);
 }
 
 double AccessorReader::number(std::size_t element, std::size_t component) const {
     const std::uint8_t* bytes = find(element);
     if (!bytes) return 0.0;
-    bytes += component / layout_.rows * layout_.column_bytes +
-             component % layout_.rows * layout_.component_bytes;
+    const std::size_t height = rows(accessor_);
+    bytes += component / height * column_bytes_ + component % height * component_bytes_;
     const int type = accessor_.componentType;
     const double value = load_component(bytes, type);
     constexpr double largest[] = {127.0, 255.0, 32767.0, 65535.0};
@@ -181,17 +145,15 @@ std::uint32_t AccessorReader::integer(std::size_t element, std::size_t component
     const std::uint8_t* bytes = find(element);
     if (!bytes) return 0;
     return static_cast<std::uint32_t>(
-        load_component(bytes + component * layout_.component_bytes, accessor_.componentType));
+        load_component(bytes + component * component_bytes_, accessor_.componentType));
 }
 
 std::size_t AccessorReader::first_not_finite() const {
-    if (accessor_.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) return size();
     std::size_t next = 0;  // of those replaced; quicker than to find each
     for (std::size_t element = 0; element < size(); ++element) {
-        const bool replaced = next < sparse_count_ && sparse_index(next) == element;
-        const std::uint8_t* bytes =
-            replaced ? sparse_values_ + next++ * layout_.bytes : dense(element);
-        for (std::size_t at = 0; bytes && at < layout_.bytes; at += sizeof(float)) {
+        const bool is_replaced = next < sparse_count_ && replaced(next) == element;
+        const std::uint8_t* bytes = is_replaced ? sparse_values_.at(next++) : dense_.at(element);
+        for (std::size_t at = 0; bytes && at < bytes_; at += sizeof(float)) {
             if (!std::isfinite(load<float>(bytes + at))) return element;
         }
     }

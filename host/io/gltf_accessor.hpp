@@ -8,23 +8,15 @@
 
 namespace clgi::io::gltf {
 
-// How the numbers of an element lie in memory.
-struct Layout {
-    explicit Layout(const Accessor& accessor);
-
-    std::size_t component_bytes;
-    std::size_t rows;
-    std::size_t columns;  // above 1: a matrix
-    std::size_t column_bytes;
-    std::size_t bytes;
-};
+std::size_t rows(const Accessor& accessor);
+std::size_t columns(const Accessor& accessor);  // above 1: a matrix
 
 class AccessorReader {
 public:
-    AccessorReader(const Document& document, int accessor);
+    // Throws InputError if the accessor, or its sparse part, reads outside its view.
+    AccessorReader(const Document& document, const Accessor& accessor);
 
     std::size_t size() const { return accessor_.count; }
-    std::size_t width() const { return layout_.rows; }
 
     // element < size(). number maps normalised integers to [0,1] or [-1,1].
     double number(std::size_t element, std::size_t component) const;
@@ -37,21 +29,34 @@ public:
         return v;
     }
 
+    // Reading expects that replaced elements are in order.
+    bool is_in_order() const;
+
     // The first element with a number that is not finite, size() when there is none.
     std::size_t first_not_finite() const;
 
 private:
+    struct Elements {
+        const std::uint8_t* data = nullptr;
+        std::size_t stride = 0;
+
+        // Null without data.
+        const std::uint8_t* at(std::size_t i) const { return data ? data + i * stride : nullptr; }
+    };
+
+    static Elements elements(const Document& document, int view, std::size_t offset,
+                             std::size_t count, std::size_t bytes, bool strided);
     const std::uint8_t* find(std::size_t element) const;  // null: zeros
-    const std::uint8_t* dense(std::size_t element) const;
-    std::size_t sparse_index(std::size_t i) const;
+    std::size_t replaced(std::size_t i) const;
 
     const Accessor& accessor_;
-    Layout layout_;
-    const std::uint8_t* data_ = nullptr;
-    std::size_t stride_ = 0;
+    std::size_t component_bytes_;
+    std::size_t column_bytes_;
+    std::size_t bytes_;
     std::size_t sparse_count_ = 0;
-    const std::uint8_t* sparse_indices_ = nullptr;
-    const std::uint8_t* sparse_values_ = nullptr;
+    Elements dense_;
+    Elements sparse_indices_;
+    Elements sparse_values_;
 };
 
 // Nothing where there is no attribute of that name.
@@ -60,7 +65,7 @@ inline std::optional<AccessorReader> reader_of(const Document& document,
                                                const std::string& name) {
     const int accessor = attribute(attributes, name);
     if (accessor < 0) return std::nullopt;
-    return AccessorReader(document, accessor);
+    return AccessorReader(document, document.model.accessors[accessor]);
 }
 
 }  // namespace clgi::io::gltf

@@ -64,11 +64,10 @@ const Format* find_format(std::string_view name, Use use) {
 }
 
 bool is_allowed(const Format& format, const Accessor& accessor, Use use) {
-    const Layout layout(accessor);
     const bool without_sign = format.name == "TANGENT" && use == target;
-    const bool without_alpha = format.name == "COLOR_" && layout.rows == 3;
-    return layout.columns == 1 && (layout.rows == format.rows - without_sign || without_alpha) &&
-           (format_of(accessor) & format.allowed[use]) != 0;
+    const bool without_alpha = format.name == "COLOR_" && rows(accessor) == 3;
+    return columns(accessor) == 1 && (format_of(accessor) & format.allowed[use]) != 0 &&
+           (rows(accessor) == format.rows - without_sign || without_alpha);
 }
 
 // Elements to look through, more than scenes within max_triangles have. Accessors may overlap: a
@@ -85,101 +84,81 @@ public:
           finite_(accessors_.size()),
           mended_(accessors_.size()) {}
 
-    void check(const Primitive& primitive, const std::string& name) {
+    void check(const Primitive& primitive) {
         if (primitive.attributes.empty()) return;
         const int position = attribute(primitive.attributes, "POSITION");
         const int first = position >= 0 ? position : primitive.attributes.begin()->second;
         const std::size_t vertices = accessors_[first].count;
 
-        const Use use = document_.quantized ? quantized : plain;
-        check_attributes(name, primitive.attributes, vertices, use);
-        for (const auto& differences : primitive.targets) {
-            check_attributes(name + " target", differences, vertices, target);
-            require_finite(name + " target POSITION of vertex ",
-                           attribute(differences, "POSITION"));
-        }
+        check_attributes(primitive.attributes, vertices, document_.quantized ? quantized : plain);
+        each(".targets", primitive.targets, [&](const Attributes& differences) {
+            check_attributes(differences, vertices, target);
+            require_finite(attribute(differences, "POSITION"), "POSITION of vertex ");
+        });
         if (position < 0) return;  // nothing will be drawn
-        require_finite(name + " POSITION of vertex ", position);
-        if (primitive.indices >= 0) check_indices(name, primitive.indices, vertices);
+        require_finite(position, "POSITION of vertex ");
+        if (primitive.indices >= 0) check_indices(primitive.indices, vertices);
     }
 
-    void check_copies(const Node& node, const std::string& name) {
-        const auto attributes = copies_of(node);
-        for (const char* first : {"TRANSLATION", "ROTATION", "SCALE"}) {
-            const int accessor = attribute(attributes, first);
-            if (accessor < 0) continue;
-            return check_attributes(name, attributes, accessors_[accessor].count, instance);
-        }
+    void check_copies(const Node& node) {
+        check_attributes(copies_of(node), copy_count(document_, node), instance);
     }
 
     // Accessors of animations and skins, and those that nothing uses.
     void check_others() {
         for (std::size_t i = 0; i < accessors_.size(); ++i) {
             if (mended_[i]) continue;
-            require_finite(entry("accessors", i) + " element ", static_cast<int>(i));
+            of_entry("accessors", i, [&] { require_finite(static_cast<int>(i), "element "); });
         }
     }
 
 private:
-    void check_attributes(const std::string& owner, const Attributes& attributes, std::size_t count,
-                          Use use) {
+    void check_attributes(const Attributes& attributes, std::size_t count, Use use) {
         for (const auto& [key, accessor] : attributes) {
             if (use != instance && key != "POSITION") mended_[accessor] = true;
             const Format* format = find_format(key, use);
             if (!format) continue;
             const Accessor& found = accessors_[accessor];
-            const std::string reference =
-                owner + " " + printable(key) + " (" + entry("accessors", accessor) + ")";
-            if (!is_allowed(*format, found, use)) {
-                refuse(reference, "has a format that is not allowed there");
-            }
-            if (found.count != count) {
-                refuse(reference, "has " + std::to_string(found.count) + " elements, there are " +
-                                      std::to_string(count) +
-                                      (use == instance ? " copies" : " vertices"));
-            }
+            const std::string name = printable(key) + " (" + entry("accessors", accessor) + ") ";
+            require(is_allowed(*format, found, use), name,
+                    "has a format that is not allowed there");
+            require(found.count == count, name, "has ", found.count, " elements, there are ", count,
+                    use == instance ? " copies" : " vertices");
         }
     }
 
-    void check_indices(const std::string& name, int accessor, std::size_t vertices) {
+    void check_indices(int accessor, std::size_t vertices) {
         const Accessor& declared = accessors_[accessor];
-        if (declared.type != TINYGLTF_TYPE_SCALAR ||
-            !(format_of(declared) & (unsigned_integers | unsigned_units | long_integers))) {
-            refuse(name, "has indices that are not unsigned integers");
-        }
+        require(declared.type == TINYGLTF_TYPE_SCALAR &&
+                    format_of(declared) & (unsigned_integers | unsigned_units | long_integers),
+                "has indices that are not unsigned integers");
         std::optional<std::uint32_t>& largest = largest_index_[accessor];
         if (!largest) {
-            const AccessorReader reader(document_, accessor);
-            spend(reader.size(), most_indices, indices_read_, name);
+            const AccessorReader reader(document_, declared);
+            spend(reader.size(), most_indices, indices_read_);
             largest = 0;
             for (std::size_t i = 0; i < reader.size(); ++i) {
                 largest = std::max(*largest, reader.integer(i));
             }
         }
-        if (*largest >= vertices) {
-            refuse(name, "names vertex " + std::to_string(*largest) + ", there are " +
-                             std::to_string(vertices));
-        }
+        require(*largest < vertices, "names vertex ", *largest, ", there are ", vertices);
     }
 
-    // The name is followed by the number of an element.
-    void require_finite(const std::string& name, int accessor) {
+    void require_finite(int accessor, const char* element) {
         if (accessor < 0 || finite_[accessor]) return;
         finite_[accessor] = true;
         const Accessor& declared = accessors_[accessor];
         const bool zeros = declared.bufferView < 0 && !declared.sparse.isSparse;
         if (zeros || format_of(declared) != floats) return;
         // check_accessors has bounded the count by the bytes that there are.
-        const std::size_t read = declared.count * (Layout(declared).bytes / sizeof(float));
-        spend(read, most_floats, floats_read_, entry("accessors", accessor));
-        const std::size_t bad = AccessorReader(document_, accessor).first_not_finite();
-        if (bad < declared.count) throw InputError(name + std::to_string(bad) + " is not finite");
+        spend(declared.count * rows(declared) * columns(declared), most_floats, floats_read_);
+        const std::size_t bad = AccessorReader(document_, declared).first_not_finite();
+        require(bad == declared.count, element, bad, " is not finite");
     }
 
-    static void spend(std::size_t elements, std::size_t most, std::size_t& spent,
-                      const std::string& name) {
+    static void spend(std::size_t elements, std::size_t most, std::size_t& spent) {
         spent += elements;
-        if (spent > most) throw InputError(name + ": too many elements");
+        require(spent <= most, "reads too many elements, with those before it");
     }
 
     const Document& document_;
@@ -196,15 +175,10 @@ private:
 
 void check_meshes(const Document& document) {
     MeshChecker checker(document);
-    for (std::size_t i = 0; i < document.model.meshes.size(); ++i) {
-        const std::vector<Primitive>& primitives = document.model.meshes[i].primitives;
-        for (std::size_t k = 0; k < primitives.size(); ++k) {
-            checker.check(primitives[k], entry("meshes", i) + entry(".primitives", k));
-        }
-    }
-    for (std::size_t i = 0; i < document.model.nodes.size(); ++i) {
-        checker.check_copies(document.model.nodes[i], entry("nodes", i));
-    }
+    each("meshes", document.model.meshes, [&](const Mesh& mesh) {
+        each(".primitives", mesh.primitives, [&](const Primitive& p) { checker.check(p); });
+    });
+    each("nodes", document.model.nodes, [&](const Node& node) { checker.check_copies(node); });
     checker.check_others();
 }
 

@@ -54,6 +54,12 @@ inline const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions
     return found == extensions.end() ? nullptr : &found->second;
 }
 
+inline int wrap_code(Wrap wrap) {
+    if (wrap == Wrap::mirrored_repeat) return TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
+    return wrap == Wrap::clamp_to_edge ? TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE
+                                       : TINYGLTF_TEXTURE_WRAP_REPEAT;
+}
+
 // An index that an extension gives, -1 where it gives none.
 inline int index_in(const tinygltf::Value& value, const char* key) {
     return value.Has(key) ? value.Get(key).GetNumberAsInt() : -1;

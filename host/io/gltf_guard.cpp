@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_guard.hpp"
 
+#include <algorithm>
 #include <climits>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -49,12 +51,14 @@ public:
     }
 
 private:
-    [[noreturn]] static void fail(const Place& place, const std::string& what) {
-        refuse(place.path(), what);
+    template <typename... Parts>
+    [[noreturn]] static void fail_at(const Place& place, const Parts&... what) {
+        const std::string path = place.path();
+        fail(path, path.empty() ? "" : " ", what...);
     }
 
     static void expect(bool right, const json& value, const char* kind, const Place& place) {
-        if (!right) fail(place, std::string("is ") + value.type_name() + ", not " + kind);
+        if (!right) fail_at(place, "is ", value.type_name(), ", not ", kind);
     }
 
     static const json* rule_for(const std::string& name, const json& rules) {
@@ -70,9 +74,7 @@ private:
         expect(value.is_object(), value, "an object", place);
         for (const auto& [key, rule] : rules.items()) {
             const std::string_view name(key.data(), key.size() - 1);
-            if (key.back() == '!' && !value.contains(name)) {
-                fail(place, "has no " + std::string(name));
-            }
+            if (key.back() == '!' && !value.contains(name)) fail_at(place, "has no ", name);
         }
         for (auto member = value.begin(); member != value.end();) {
             const json* rule = rule_for(member.key(), rules);
@@ -89,17 +91,15 @@ private:
     static void check_size(const json& value, std::size_t most, const Place& place) {
         expect(value.is_array(), value, "an array", place);
         if (value.size() <= most) return;
-        fail(place, "has " + std::to_string(value.size()) + " entries, at most " +
-                        std::to_string(most) + " are read");
+        fail_at(place, "has ", value.size(), " entries, at most ", most, " are read");
     }
 
     static std::uint64_t whole(json& value, const Place& place) {
-        expect(value.is_number(), value, "a number", place);
         if (!value.is_number_unsigned()) {
             const double real = value.get<double>();
             // 2^53: up to here a double that is whole is the number that was written.
             if (real < 0.0 || real > 9007199254740992.0 || real != std::floor(real)) {
-                fail(place, "is " + value.dump() + ", not a whole number");
+                fail_at(place, "is ", value.dump(), ", not a whole number");
             }
             value = static_cast<std::uint64_t>(real);
         }
@@ -109,16 +109,16 @@ private:
     static void check_numbers(const json& value, std::string_view length, const Place& place) {
         check_size(value, most_entries, place);
         if (!length.empty() && std::to_string(value.size()) != length) {
-            fail(place,
-                 "has " + std::to_string(value.size()) + " numbers, not " + std::string(length));
+            fail_at(place, "has ", value.size(), " numbers, not ", length);
         }
         for (const json& number : value) expect(number.is_number(), number, "a number", place);
     }
 
     static void check_among(const std::string& word, std::string_view all, const Place& place) {
-        const std::string list = " " + std::string(all) + " ";
-        if (word.find(' ') != std::string::npos || list.find(" " + word + " ") == std::string::npos)
-            fail(place, "is " + printable(word) + ", none of " + std::string(all));
+        std::istringstream words{std::string(all)};
+        using Words = std::istream_iterator<std::string>;
+        if (std::find(Words(words), Words(), word) != Words()) return;
+        fail_at(place, "is ", printable(word), ", none of ", all);
     }
 
     void check_value(json& value, std::string_view kind, std::string_view arguments,
@@ -130,24 +130,22 @@ private:
             if (kind == "word") check_among(value.get<std::string>(), arguments, place);
             return;
         }
-        if (kind == "number" || kind == "above_zero" || kind == "not_negative") {
-            expect(value.is_number(), value, "a number", place);
-            if (kind != "number" && value.get<double>() < 0.0) fail(place, "is negative");
-            if (kind == "above_zero" && value == 0) fail(place, "is not above 0");
+        expect(value.is_number(), value, "a number", place);
+        if (kind == "number") return;
+        if (kind == "above_zero" || kind == "not_negative") {
+            if (value.get<double>() < 0.0) fail_at(place, "is negative");
+            if (kind == "above_zero" && value == 0) fail_at(place, "is not above 0");
             return;
         }
         const std::uint64_t number = whole(value, place);
-        const std::string shown = "is " + std::to_string(number);
         if (kind == "code") check_among(std::to_string(number), arguments, place);
-        if (kind == "count" && number == 0) fail(place, "is 0, at least 1 is needed");
-        if (kind == "int" && number > INT_MAX) fail(place, shown);
+        if (kind == "count" && number == 0) fail_at(place, "is 0, at least 1 is needed");
+        if (kind == "int" && number > INT_MAX) fail_at(place, "is ", number);
         if (kind != "index") return;
         const auto size = sizes_.find(arguments);
         const std::size_t there = size == sizes_.end() ? 0 : size->second;
-        if (number >= there) {
-            fail(place,
-                 shown + ", there are " + std::to_string(there) + " " + std::string(arguments));
-        }
+        if (number < there) return;
+        fail_at(place, "is ", number, ", there are ", there, " ", arguments);
     }
 
     const json& rules_;

@@ -12,28 +12,26 @@ namespace {
 
 constexpr double largest = 1e18;  // metres, candela: its square is still a float
 
-Camera read_camera(const tinygltf::Camera& source, const std::string& name) {
-    const auto require = [&](bool right, const char* member, const char* what) {
-        if (!right) refuse(name + "." + source.type + member, what);
-    };
+Camera read_camera(const tinygltf::Camera& source) {
     Camera camera;
     camera.name = short_name(source.name);
     if (source.type == "perspective") {
-        const double angle = source.perspective.yfov;
-        require(angle < std::numbers::pi, ".yfov", "is not within 0 and pi");
+        const tinygltf::PerspectiveCamera& view = source.perspective;
+        require(view.yfov < std::numbers::pi, ".perspective.yfov is not within 0 and pi");
+        require(view.znear <= largest, ".perspective.znear is too large");
         // Below a micro-radian the picture is one point and its projection overflows.
-        camera.vertical_fov = static_cast<float>(std::clamp(angle, 1e-6, 3.1415));
-        camera.near = static_cast<float>(source.perspective.znear);
-        require(source.perspective.znear <= largest, ".znear", "is too large");
+        camera.vertical_fov = static_cast<float>(std::clamp(view.yfov, 1e-6, 3.1415));
+        camera.near = static_cast<float>(view.znear);
         return camera;
     }
     camera.kind = Camera::Kind::orthographic;
-    const auto& [xmag, ymag, far, near, extensions, extras, text, more_text] = source.orthographic;
-    require(std::abs(ymag) >= 1e-18 && std::abs(ymag) <= largest, ".ymag", "is 0 or too large");
-    require(near <= largest, ".znear", "is too large");
-    require(far > near, ".zfar", "is not beyond znear");
-    camera.half_height = static_cast<float>(std::abs(ymag));
-    camera.near = static_cast<float>(near);
+    const tinygltf::OrthographicCamera& box = source.orthographic;
+    const double half_height = std::abs(box.ymag);
+    require(half_height >= 1e-18 && half_height <= largest, ".orthographic.ymag is 0 or too large");
+    require(box.znear <= largest, ".orthographic.znear is too large");
+    require(box.zfar > box.znear, ".orthographic.zfar is not beyond znear");
+    camera.half_height = static_cast<float>(half_height);
+    camera.near = static_cast<float>(box.znear);
     return camera;
 }
 
@@ -50,15 +48,15 @@ void read_cone(const tinygltf::SpotLight& cone, Light& light, Warnings& warnings
     light.inner_angle = std::min(static_cast<float>(cone.innerConeAngle), light.outer_angle);
 }
 
-Light read_light(const tinygltf::Light& source, const std::string& name, Warnings& warnings) {
+Light read_light(const tinygltf::Light& source, Warnings& warnings) {
     Light light;
     light.name = short_name(source.name);
     for (int i = 0; i < 3; ++i) {
         const double color = source.color.empty() ? 1.0 : source.color[i];
-        if (color < 0.0) refuse(name + ".color", "is negative");
         const double channel = color * source.intensity;
-        if (channel < 0.0) refuse(name + ".intensity", "is negative");
-        if (channel > largest) refuse(name, "is brighter than 1e18");
+        require(color >= 0.0, ".color is negative");
+        require(channel >= 0.0, ".intensity is negative");
+        require(channel <= largest, "is brighter than 1e18");
         light.intensity[i] = static_cast<float>(channel);
     }
     if (source.type == "directional") {
@@ -101,14 +99,12 @@ struct Place {
 }  // namespace
 
 void read_lights(Document& document) {
-    const Model& model = document.model;
-    for (std::size_t i = 0; i < model.cameras.size(); ++i) {
-        document.cameras.push_back(read_camera(model.cameras[i], entry("cameras", i)));
-    }
-    for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        const std::string name = entry("extensions.KHR_lights_punctual.lights", i);
-        document.lights.push_back(read_light(model.lights[i], name, document.warnings));
-    }
+    each("cameras", document.model.cameras,
+         [&](const tinygltf::Camera& camera) { document.cameras.push_back(read_camera(camera)); });
+    each("extensions.KHR_lights_punctual.lights", document.model.lights,
+         [&](const tinygltf::Light& light) {
+             document.lights.push_back(read_light(light, document.warnings));
+         });
 }
 
 void place_lights(Document& document, const std::vector<int>& nodes, Scene& scene) {

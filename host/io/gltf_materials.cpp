@@ -16,8 +16,10 @@ using tinygltf::Value;
 constexpr std::size_t most_encoded = std::size_t{1} << 32;  // bytes, of all images read
 
 Wrap wrap(int code) {
-    if (code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirrored_repeat;
-    return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE ? Wrap::clamp_to_edge : Wrap::repeat;
+    for (const Wrap each : {Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+        if (code == wrap_code(each)) return each;
+    }
+    return Wrap::repeat;
 }
 
 class TextureLoader {
@@ -29,9 +31,7 @@ public:
           most_texels_(options.max_texels),
           texels_left_(options.max_texels),
           averaged_left_(options.max_texels) {
-        for (std::size_t i = 0; i < document.images.size(); ++i) {
-            of_entry("images", i, [&] { inspect(document.images[i]); });
-        }
+        each("images", document.images, [&](const Image& image) { inspect(image); });
     }
 
     // Index into scene.textures; -1 where there is no image that can be read.
@@ -77,9 +77,8 @@ private:
         formats_.push_back(inspect_image(image_bytes(document_, image, inspected_bytes, held)));
         // What a data uri says of itself must be true; files and views are known by their bytes.
         for (const std::string& type : image.types) {
-            if (!contradicts(type, formats_.back())) continue;
-            throw InputError("calls its data " + printable(type) + ", but they are a " +
-                             (formats_.back() == ImageFormat::png ? "PNG" : "JPEG"));
+            require(!contradicts(type, formats_.back()), "calls its data ", printable(type),
+                    ", but they are a ", formats_.back() == ImageFormat::png ? "PNG" : "JPEG");
         }
     }
 
@@ -97,13 +96,13 @@ private:
             const Bytes bytes =
                 image_bytes(document_, document_.images[image], most_encoded - encoded_, held);
             encoded_ += bytes.size();
-            if (encoded_ >= most_encoded) throw InputError("is too large with those before it");
+            require(encoded_ < most_encoded, "is too large with those before it");
             try {
                 Pixels pixels = decode_image(bytes, budget);
                 budget -= pixels.rgba.size() / 4;
                 return pixels;
             } catch (const InputError& error) {
-                throw InputError(error.what() + std::string(shared));
+                fail(error.what(), shared);
             }
         });
     }
@@ -132,14 +131,13 @@ glm::dvec2 pair_in(const Value& object, const char* key, double fallback) {
 
 // KHR_texture_transform: scale, then turn counter-clockwise as seen with v pointing down, then
 // shift.
-glm::mat3 uv_transform(const Value& transform, const std::string& name) {
+glm::mat3 uv_transform(const Value& transform) {
     const glm::dvec2 offset = pair_in(transform, "offset", 0.0);
     const glm::dvec2 scale = pair_in(transform, "scale", 1.0);
     const double angle = number_in(&transform, "rotation", 0.0);
     for (const glm::dvec2& pair : {offset, scale}) {
-        if (std::max(std::abs(pair.x), std::abs(pair.y)) > 1e9) {
-            refuse(name, "has a texture that is shifted or scaled by more than 1e9");
-        }
+        require(std::max(std::abs(pair.x), std::abs(pair.y)) <= 1e9,
+                "has a texture that is shifted or scaled by more than 1e9");
     }
     const double c = std::cos(angle);
     const double s = std::sin(angle);
@@ -186,7 +184,7 @@ public:
         slot.texture = info.index;
         slot.uv_set = info.texCoord;
         if (const Value* transform = extension(info.extensions, "KHR_texture_transform")) {
-            slot.transform = uv_transform(*transform, name_);
+            slot.transform = uv_transform(*transform);
             if (transform->Has("texCoord")) slot.uv_set = index_in(*transform, "texCoord");
         }
         if (slot.uv_set <= 1) return slot;
@@ -225,14 +223,16 @@ void load_materials(Document& document, const GltfOptions& options, Scene& scene
     for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
         const tinygltf::Material& source = document.model.materials[i];
         const MaterialReader reader(entry("materials", i), document.warnings);
-        Material material = reader.read(source);
+        Material material = of_entry("materials", i, [&] { return reader.read(source); });
         material.base_texture.texture = textures.load(material.base_texture.texture);
         // A texture that is multiplied by black need not be there.
         const bool dark = material.emission == glm::vec3(0.0f);
         material.emission_texture.texture =
             dark ? -1 : textures.load(material.emission_texture.texture);
-        const glm::vec2 mean(textures.mean_metal_rough(
-            reader.slot(source.pbrMetallicRoughness.metallicRoughnessTexture).texture));
+        const TextureSlot slot = of_entry("materials", i, [&] {
+            return reader.slot(source.pbrMetallicRoughness.metallicRoughnessTexture);
+        });
+        const glm::vec2 mean(textures.mean_metal_rough(slot.texture));
         material.metallic *= mean.x;
         material.roughness *= mean.y;
         scene.materials.push_back(std::move(material));

@@ -44,10 +44,8 @@ public:
             const std::size_t triangles = found->second.triangles;
             if (triangles == 0) continue;
             const std::size_t copies = copy_count(document_, node);
-            if (copies > most / triangles || total > most - copies * triangles) {
-                throw InputError("places more than the " + std::to_string(most) +
-                                 " triangles that are allowed");
-            }
+            require(copies <= most / triangles && total <= most - copies * triangles,
+                    "places more than the ", most, " triangles that are allowed");
             total += copies * triangles;
             if (node.skin >= 0 && extension(node.extensions, "EXT_mesh_gpu_instancing")) {
                 document_.warnings.add("copies of a skinned mesh all stand in the same place");
@@ -88,8 +86,8 @@ private:
                const glm::dmat4& matrix) {
         Pose pose = poser_.pose(primitive, node, matrix, topology.vertices);
         for (const glm::dvec3& p : pose.positions) {
-            if (glm::length(p) <= farthest) continue;
-            refuse(entry("meshes", node.mesh), "is placed at a distance beyond 1e18 m");
+            require(glm::length(p) <= farthest, "meshes[", node.mesh,
+                    "] is placed at a distance beyond 1e18 m");
         }
         if (pose.normals.empty()) {
             Topology split = topology;
@@ -105,9 +103,8 @@ private:
 
     void append(const Node& node, const Primitive& primitive, const Topology& topology,
                 const Pose& pose) {
-        if (topology.vertices.size() > UINT32_MAX - scene_.positions.size()) {
-            throw InputError("has more than 2^32 vertices");
-        }
+        require(topology.vertices.size() <= UINT32_MAX - scene_.positions.size(),
+                "has more than 2^32 vertices");
         const std::string& mesh_name = document_.model.meshes[node.mesh].name;
         scene_.parts.push_back({short_name(node.name.empty() ? mesh_name : node.name),
                                 static_cast<std::uint32_t>(scene_.triangles.size()),
@@ -153,11 +150,13 @@ private:
 
     void append_colors(const Attributes& attributes, const std::vector<std::uint32_t>& vertices) {
         const auto colors = reader_of(document_, attributes, "COLOR_0");
-        const int channels = colors ? static_cast<int>(colors->width()) : 0;
+        const int accessor = attribute(attributes, "COLOR_0");
+        const auto channels = colors ? rows(document_.model.accessors[accessor]) : 0;
         for (const std::uint32_t vertex : vertices) {
             glm::vec4 color(1.0f);
-            for (int i = 0; i < channels; ++i) {
-                color[i] = std::clamp(finite_or(colors->number(vertex, i), 1.0f), 0.0f, 1.0f);
+            for (std::size_t i = 0; i < channels; ++i) {
+                color[static_cast<int>(i)] =
+                    std::clamp(finite_or(colors->number(vertex, i), 1.0f), 0.0f, 1.0f);
             }
             scene_.colors.push_back(color);
         }

@@ -55,11 +55,8 @@ void set_parents(Document& document) {
     parents.assign(nodes.size(), -1);
     for (int parent = 0; parent < static_cast<int>(nodes.size()); ++parent) {
         for (const int child : nodes[parent].children) {
-            if (parents[child] >= 0) {
-                refuse(entry("nodes", child), "is a child twice, of " +
-                                                  entry("nodes", parents[child]) + " and " +
-                                                  entry("nodes", parent));
-            }
+            require(parents[child] < 0, "nodes[", child, "] is a child twice, of nodes[",
+                    parents[child], "] and nodes[", parent, "]");
             parents[child] = parent;
         }
     }
@@ -67,9 +64,8 @@ void set_parents(Document& document) {
 
 void require_usable(const glm::dmat4& matrix, int node) {
     for (int i = 0; i < 16; ++i) {
-        if (!(std::abs(matrix[i / 4][i % 4]) <= largest_entry)) {
-            refuse(entry("nodes", node), "has a transform that overflows");
-        }
+        require(std::abs(matrix[i / 4][i % 4]) <= largest_entry, "nodes[", node,
+                "] has a transform that overflows");
     }
 }
 
@@ -96,7 +92,7 @@ void place_nodes(Document& document) {
     set_parents(document);
     const std::vector<int> order = with_descendants(document, roots_of(document));
     // Every node has at most one parent, so what no root reaches lies on or below a cycle.
-    if (order.size() != document.parents.size()) throw InputError("the nodes form a cycle");
+    require(order.size() == document.parents.size(), "the nodes form a cycle");
 
     std::vector<glm::dmat4>& matrices = document.matrices;
     for (const Node& node : document.model.nodes) {
@@ -114,10 +110,8 @@ void place_nodes(Document& document) {
 std::vector<int> scene_nodes(Document& document, int scene) {
     const std::vector<tinygltf::Scene>& scenes = document.model.scenes;
     if (scene < 0) scene = std::max(document.model.defaultScene, 0);
-    if (scene >= static_cast<int>(std::max<std::size_t>(scenes.size(), 1))) {
-        throw InputError("has no scene " + std::to_string(scene) + ", it has " +
-                         std::to_string(scenes.size()));
-    }
+    require(scene < static_cast<int>(std::max<std::size_t>(scenes.size(), 1)), "has no scene ",
+            scene, ", it has ", scenes.size());
     if (scenes.empty()) {
         const std::vector<int> roots = roots_of(document);
         if (!roots.empty()) document.warnings.add("the file has no scene, all its nodes are taken");
@@ -126,11 +120,8 @@ std::vector<int> scene_nodes(Document& document, int scene) {
     std::vector<int> roots;
     std::vector<bool> listed(document.parents.size());
     for (const int root : scenes[scene].nodes) {
-        if (document.parents[root] >= 0) {
-            refuse(entry("scenes", scene), "lists " + entry("nodes", root) +
-                                               ", which is a child of " +
-                                               entry("nodes", document.parents[root]));
-        }
+        require(document.parents[root] < 0, "scenes[", scene, "] lists nodes[", root,
+                "], which is a child of nodes[", document.parents[root], "]");
         if (!listed[root]) roots.push_back(root);
         listed[root] = true;
     }

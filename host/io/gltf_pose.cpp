@@ -63,10 +63,8 @@ public:
             const double weight = weight_sets_[i / 4].number(vertex, i % 4);
             if (!(weight > 0.0) || !std::isfinite(weight)) continue;
             const std::uint32_t joint = joint_sets_[i / 4].integer(vertex, i % 4);
-            if (joint >= joints_.size()) {
-                throw InputError("a vertex follows joint " + std::to_string(joint) +
-                                 ", its skin has " + std::to_string(joints_.size()));
-            }
+            require(joint < joints_.size(), "a vertex follows joint ", joint, ", its skin has ",
+                    joints_.size());
             sum += joints_[joint] * weight;
             total += weight;
         }
@@ -89,7 +87,8 @@ const std::vector<glm::dmat4>& Poser::joint_matrices(int skin) {
     const tinygltf::Skin& source = document_.model.skins[skin];
     for (const int joint : source.joints) matrices.push_back(document_.matrices[joint]);
     if (source.inverseBindMatrices < 0) return matrices;
-    const AccessorReader inverse_bind(document_, source.inverseBindMatrices);
+    const AccessorReader inverse_bind(document_,
+                                      document_.model.accessors[source.inverseBindMatrices]);
     for (std::size_t i = 0; i < matrices.size(); ++i) {
         glm::dmat4 to_joint;
         for (int k = 0; k < 4; ++k) to_joint[k] = inverse_bind.vector<4>(i, 4 * k);
@@ -105,7 +104,7 @@ void Poser::morph(const Primitive& primitive, const Node& node,
     for (std::size_t t = 0; t < weights.size(); ++t) {
         if (weights[t] == 0.0) continue;
         differences_read_ += vertices.size();
-        if (differences_read_ > most_differences) throw InputError("too many morph targets");
+        require(differences_read_ <= most_differences, "too many morph targets");
         const auto add = [&](const char* name, std::vector<glm::dvec3>& values) {
             const auto differences = reader_of(document_, primitive.targets[t], name);
             if (!differences || values.empty()) return;

@@ -36,7 +36,7 @@ std::string version(const json& asset, const char* key) {
     for (const std::string& part : {text.substr(0, point), text.substr(point).erase(0, 1)}) {
         if (part.empty() || part.size() > 4 ||
             part.find_first_not_of("0123456789") != std::string::npos) {
-            refuse(std::string("asset.") + key, "is \"" + printable(text) + "\", not a version");
+            fail("asset.", key, " is \"", printable(text), "\", not a version");
         }
     }
     return text;
@@ -50,14 +50,13 @@ void read_head(const json& root, Document& document) {
     }
     guard(head);
     const std::string written = version(head["asset"], "version");
-    if (!written.starts_with("2.")) refuse("asset", "says glTF " + written + ", clgi reads 2.0");
+    require(written.starts_with("2."), "asset says glTF ", written, ", clgi reads 2.0");
     const std::string least = version(head["asset"], "minVersion");
-    if (least != "2.0") {
-        refuse("asset.minVersion", "asks for a reader of glTF " + least + ", clgi reads 2.0");
-    }
+    require(least == "2.0", "asset.minVersion asks for a reader of glTF ", least,
+            ", clgi reads 2.0");
     for (const std::string name : head["extensionsRequired"]) {
-        if (contains(supported, name)) continue;
-        refuse("requires the extension", printable(name) + ", which clgi does not read");
+        require(contains(supported, name), "requires the extension ", printable(name),
+                ", which clgi does not read");
     }
     for (const std::string name : head["extensionsUsed"]) {
         if (name == "KHR_mesh_quantization") document.quantized = true;
@@ -82,15 +81,13 @@ Document read_document(const std::filesystem::path& path) {
     if (!container.binary) document.files.clear();
     read_head(root, document);
     guard(root);
-    const json& accessors = root["accessors"];
-    for (std::size_t i = 0; i < accessors.size(); ++i) {
-        if (accessors[i].contains("byteOffset") && !accessors[i].contains("bufferView")) {
-            refuse(entry("accessors", i), "has an offset into no view");
-        }
-    }
+    each("accessors", root["accessors"], [](const json& accessor) {
+        require(accessor.contains("bufferView") || !accessor.contains("byteOffset"),
+                "has an offset into no view");
+    });
     take_sources(root, container.binary, document);
     const std::string text = std::exchange(root, nullptr).dump();
-    if (text.size() > INT_MAX) throw InputError("the JSON is larger than 2 GiB");
+    require(text.size() <= INT_MAX, "the JSON is larger than 2 GiB");
 
     std::string error;
     std::string warning;

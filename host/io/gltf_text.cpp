@@ -19,10 +19,6 @@ std::string shortened(const std::string& text, std::size_t length) {
 
 }  // namespace
 
-void refuse(const std::string& path, const std::string& what) {
-    throw InputError(path.empty() ? what : path + " " + what);
-}
-
 std::string entry(const char* array, std::size_t index) {
     return std::string(array) + "[" + std::to_string(index) + "]";
 }

@@ -3,26 +3,43 @@
 #pragma once
 
 #include <clgi/error.hpp>
-#include <string>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 namespace clgi::io::gltf {
 
-// Throws InputError "<path> <what>".
-[[noreturn]] void refuse(const std::string& path, const std::string& what);
+// Throws InputError. The parts, which may be numbers, are joined to its text.
+template <typename... Parts>
+[[noreturn]] void fail(const Parts&... parts) {
+    std::ostringstream text;
+    (text << ... << parts);
+    throw InputError(text.str());
+}
+
+template <typename... Parts>
+void require(bool right, const Parts&... parts) {
+    if (!right) fail(parts...);
+}
 
 // "nodes[3]"
 std::string entry(const char* array, std::size_t index);
 
-// Does the work; what it refuses is said of that entry.
+// Does the work. What it refuses is said of that entry: "nodes[3] has ...", or, where the text
+// begins with a point, "nodes[3].scale has ...".
 template <typename Work>
 auto of_entry(const char* array, std::size_t index, Work work) {
     try {
         return work();
     } catch (const InputError& error) {
-        refuse(entry(array, index), error.what());
+        const std::string what = error.what();
+        fail(entry(array, index), what[0] == '.' ? "" : " ", what);
     }
+}
+
+template <typename List, typename Work>
+void each(const char* array, List& list, Work work) {
+    for (std::size_t i = 0; i < list.size(); ++i) of_entry(array, i, [&] { work(list[i]); });
 }
 
 // For messages.

@@ -63,7 +63,8 @@ std::vector<std::uint32_t> Renumberer::renumber(std::vector<Corners>& triangles)
 Topology triangles_of(const Document& document, const Primitive& primitive,
                       Renumberer& renumberer) {
     std::optional<AccessorReader> indices;
-    if (primitive.indices >= 0) indices.emplace(document, primitive.indices);
+    if (primitive.indices >= 0)
+        indices.emplace(document, document.model.accessors[primitive.indices]);
     const auto corner = [&](std::size_t i) {
         return indices ? indices->integer(i) : static_cast<std::uint32_t>(i);
     };
