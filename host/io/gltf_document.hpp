@@ -67,11 +67,13 @@ inline int index_in(const tinygltf::Value& value, const char* key) {
 
 // The steps of load_gltf in their order. Each throws InputError for what it finds wrong.
 
-// Fills folder to model and quantized. Members are of their kind, indices in their range and views
-// inside their buffers; what the buffers hold is not judged yet.
-Document read_document(const std::filesystem::path& path);
+// Every member of the JSON that will be read is of its kind and every index in
+// its range, or "nodes[3].mesh is 99, there are 24 meshes". Whole numbers that are written
+// like 3.0, which glTF allows, become integers. Members that are not read are taken out: in
+// tinygltf's model they would be a hundred times the size of their text.
+void guard(nlohmann::json& root);
 
-// Of read_document: replaces the buffers and images of the JSON by those of the document. Their
+// Replaces the buffers and images of the JSON by those of the document. Their
 // uris name data, or files in the folder of the scene.
 void take_sources(nlohmann::json& root, std::optional<Bytes> binary, Document& document);
 

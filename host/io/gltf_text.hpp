@@ -25,16 +25,21 @@ void require(bool right, const Parts&... parts) {
 // "nodes[3]"
 std::string entry(const char* array, std::size_t index);
 
-// Does the work. What it refuses is said of that entry: "nodes[3] has ...", or, where the text
-// begins with a point, "nodes[3].scale has ...".
-template <typename Work>
-auto of_entry(const char* array, std::size_t index, Work work) {
+// Does the work. What it refuses is said of that place: "nodes[3] has ...", or, where the text
+// begins with a point or a bracket, "nodes[3].scale has ...".
+template <typename Place, typename Work>
+auto within(Place place, Work work) {
     try {
         return work();
     } catch (const InputError& error) {
         const std::string what = error.what();
-        fail(entry(array, index), what[0] == '.' ? "" : " ", what);
+        fail(place(), what[0] == '.' || what[0] == '[' ? "" : " ", what);
     }
+}
+
+template <typename Work>
+auto of_entry(const char* array, std::size_t index, Work work) {
+    return within([&] { return entry(array, index); }, work);
 }
 
 template <typename List, typename Work>
