@@ -5,8 +5,9 @@
 #include <clgi/io/gltf.hpp>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
-#include "io/gltf_file.hpp"
+#include "io/gltf_image.hpp"
 #include "io/gltf_text.hpp"
 #include "io/gltf_tiny.hpp"
 
@@ -64,6 +65,20 @@ inline int wrap_code(Wrap wrap) {
 inline int index_in(const tinygltf::Value& value, const char* key) {
     return value.Has(key) ? value.Get(key).GetNumberAsInt() : -1;
 }
+
+// The first `limit` bytes of a regular file, fewer when it is shorter.
+std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
+                                    std::uint64_t limit = UINT64_MAX);
+
+// The parts of a .glb, or bare JSON.
+struct Container {
+    Bytes json;
+    std::optional<Bytes> binary;  // the BIN chunk
+};
+Container open_container(Bytes file);
+
+// An object that nests no deeper than glTF can need.
+nlohmann::json parse_json(Bytes text);
 
 // The steps of load_gltf in their order. Each throws InputError for what it finds wrong.
 

@@ -1,12 +1,12 @@
+// Files, the parts of a .glb, and their JSON.
 // SPDX-License-Identifier: MIT
-#include "io/gltf_file.hpp"
-
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
+
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 
@@ -21,15 +21,12 @@ std::uint32_t little_endian(Bytes bytes, std::size_t at) {
 }
 
 Container open_glb(Bytes file) {
-    const auto require = [](bool right, const std::string& what) {
-        if (!right) throw InputError(what);
-    };
-    require(file.size() >= 20, "a GLB of " + std::to_string(file.size()) + " bytes");
+    require(file.size() >= 20, "a GLB of ", file.size(), " bytes");
     const std::uint32_t version = little_endian(file, 4);
-    require(version == 2, "GLB version " + std::to_string(version) + ", not 2");
+    require(version == 2, "GLB version ", version, ", not 2");
     const std::uint32_t length = little_endian(file, 8);
-    require(length == file.size(), "the GLB header says " + std::to_string(length) +
-                                       " bytes, the file has " + std::to_string(file.size()));
+    require(length == file.size(), "the GLB header says ", length, " bytes, the file has ",
+            file.size());
     Container container;
     int chunk = 0;
     for (std::size_t at = 12; at < file.size(); ++chunk) {
@@ -59,9 +56,7 @@ void check_nesting(Bytes text) {
         if (quoted && c == '\\') ++i;
         if (quoted) continue;
         depth += (c == '{' || c == '[') - (c == '}' || c == ']');
-        if (depth > deepest_nesting) {
-            throw InputError("JSON nested deeper than " + std::to_string(deepest_nesting));
-        }
+        require(depth <= deepest_nesting, "JSON nested deeper than ", deepest_nesting);
     }
 }
 
@@ -70,38 +65,35 @@ void check_nesting(Bytes text) {
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint64_t limit) {
     std::error_code error;
     // Not a folder, and not a pipe or device either: those block or never end.
-    if (!std::filesystem::is_regular_file(path, error)) {
-        throw InputError(std::filesystem::exists(path, error) ? "not a file" : "no such file");
-    }
+    require(std::filesystem::is_regular_file(path, error),
+            std::filesystem::exists(path, error) ? "not a file" : "no such file");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     std::ifstream stream(path, std::ios::binary);
-    if (error || !stream) throw InputError("cannot be opened");
+    require(!error && stream.is_open(), "cannot be opened");
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(size, limit)));
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!stream) throw InputError("cannot be read to its end");
+    require(!stream.fail(), "cannot be read to its end");
     return bytes;
 }
 
 Container open_container(Bytes file) {
-    if (file.empty()) throw InputError("the file is empty");
+    require(!file.empty(), "the file is empty");
     const bool is_glb = file.size() >= 4 && little_endian(file, 0) == 0x46546C67;  // "glTF"
     return is_glb ? open_glb(file) : Container{file, std::nullopt};
 }
 
 nlohmann::json parse_json(Bytes text) {
-    if (text.size() >= 3 && text[0] == 0xEF && text[1] == 0xBB && text[2] == 0xBF) {
-        throw InputError("the JSON begins with a byte order mark");
-    }
+    require(text.size() < 3 || text[0] != 0xEF || text[1] != 0xBB || text[2] != 0xBF,
+            "the JSON begins with a byte order mark");
     check_nesting(text);
     try {
         nlohmann::json json = nlohmann::json::parse(text.begin(), text.end());
-        if (!json.is_object()) throw InputError("the JSON is not an object");
+        require(json.is_object(), "the JSON is not an object");
         return json;
     } catch (const nlohmann::json::parse_error& error) {
-        throw InputError("neither a GLB nor JSON: syntax error at byte " +
-                         std::to_string(error.byte));
+        fail("neither a GLB nor JSON: syntax error at byte ", error.byte);
     } catch (const nlohmann::json::exception&) {
-        throw InputError("a number in the JSON is too large");
+        fail("a number in the JSON is too large");
     }
 }
 

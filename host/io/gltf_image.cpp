@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <clgi/error.hpp>
 #include <climits>
 #include <cstring>
 #include <memory>
 #include <string>
 
+#include "io/gltf_text.hpp"
 #include "io/png_decode.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -49,13 +49,10 @@ struct Size {
 };
 
 Size png_size(Bytes bytes) {
-    if (bytes.size() < 33 || !has_at(bytes, 8, "\0\0\0\rIHDR"sv)) {
-        throw InputError("is no complete PNG");
-    }
+    require(bytes.size() >= 33 && has_at(bytes, 8, "\0\0\0\rIHDR"sv), "is no complete PNG");
     const Size size{big_endian(bytes, 16), big_endian(bytes, 20)};
-    if (size.width == 0 || size.height == 0 || size.width > INT_MAX || size.height > INT_MAX) {
-        throw InputError("is of " + size.text() + " pixels");
-    }
+    require(size.width > 0 && size.height > 0 && size.width <= INT_MAX && size.height <= INT_MAX,
+            "is of ", size.text(), " pixels");
     return size;
 }
 
@@ -63,14 +60,9 @@ Size png_size(Bytes bytes) {
 // spends most_per_byte pixels on a byte.
 void judge(Size size, std::size_t most, std::size_t bytes, std::size_t most_per_byte) {
     const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
-    if (pixels > most) {
-        throw InputError("is of " + size.text() + " pixels, " + std::to_string(most) +
-                         " are allowed");
-    }
-    if (pixels / most_per_byte > bytes) {
-        throw InputError("says " + size.text() + " pixels, but has only " + std::to_string(bytes) +
-                         " bytes");
-    }
+    require(pixels <= most, "is of ", size.text(), " pixels, ", most, " are allowed");
+    require(pixels / most_per_byte <= bytes, "says ", size.text(), " pixels, but has only ", bytes,
+            " bytes");
 }
 
 // Follows the segments of a JPEG to the one with its size.
@@ -87,10 +79,10 @@ void check_jpeg_start(Bytes start) {
         if (frame && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) return;
         const std::size_t length = std::size_t{start[at + 2]} << 8 | start[at + 3];
         const bool segment = frame || marker >= 0xdb;  // not a restart, an end, or the pixels
-        if (!segment || length < 2) throw InputError("is a damaged JPEG");
+        require(segment && length >= 2, "is a damaged JPEG");
         at += 2 + length;
     }
-    if (start.size() < inspected_bytes) throw InputError("is no complete JPEG");
+    require(start.size() >= inspected_bytes, "is no complete JPEG");
 }
 
 Pixels decode_png_file(Bytes bytes, std::size_t most) {
@@ -98,27 +90,24 @@ Pixels decode_png_file(Bytes bytes, std::size_t most) {
     // Deflate at best packs 1032 bytes into one, and a byte holds up to 8 pixels.
     judge(size, most, bytes.size(), 1032 * 8);
     Pixels pixels{static_cast<int>(size.width), static_cast<int>(size.height), {}};
-    if (!decode_png(bytes, size.width, size.height, pixels.rgba)) {
-        throw InputError("is a damaged PNG");
-    }
+    require(decode_png(bytes, size.width, size.height, pixels.rgba), "is a damaged PNG");
     return pixels;
 }
 
 Pixels decode_jpeg_file(Bytes bytes, std::size_t most) {
-    if (bytes.size() > INT_MAX) throw InputError("is a JPEG of more than 2 GiB");
+    require(bytes.size() <= INT_MAX, "is a JPEG of more than 2 GiB");
     const int length = static_cast<int>(bytes.size());
     Pixels pixels;
     int channels = 0;
-    if (!stbi_info_from_memory(bytes.data(), length, &pixels.width, &pixels.height, &channels)) {
-        throw InputError("is a damaged JPEG");
-    }
+    require(stbi_info_from_memory(bytes.data(), length, &pixels.width, &pixels.height, &channels),
+            "is a damaged JPEG");
     const Size size{static_cast<std::uint32_t>(pixels.width),
                     static_cast<std::uint32_t>(pixels.height)};
     judge(size, most, bytes.size(), 512);  // a block of 64 pixels takes at least one bit
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
         stbi_load_from_memory(bytes.data(), length, &pixels.width, &pixels.height, &channels, 4),
         stbi_image_free);
-    if (!decoded) throw InputError("is a damaged JPEG");
+    require(decoded != nullptr, "is a damaged JPEG");
     const std::size_t count = std::size_t{size.width} * size.height;
     pixels.rgba.assign(decoded.get(), decoded.get() + count * 4);
     return pixels;
@@ -136,7 +125,7 @@ ImageFormat inspect_image(Bytes bytes) {
     const bool avif = has_at(bytes, 4, "ftyp"sv);
     const bool other = has_at(bytes, 0, "\xabKTX "sv) || has_at(bytes, 0, "DDS "sv) ||
                        has_at(bytes, 0, "GIF8"sv) || has_at(bytes, 0, "BM"sv);
-    if (!webp && !avif && !other) throw InputError("is neither PNG nor JPEG");
+    require(webp || avif || other, "is neither PNG nor JPEG");
     return ImageFormat::unsupported;
 }
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string_view>
-
-#include "io/gltf_file.hpp"
+#include <vector>
 
 namespace clgi::io::gltf {
+
+using Bytes = std::span<const std::uint8_t>;
 
 enum class ImageFormat { png, jpeg, unsupported };
 

@@ -61,43 +61,25 @@ struct Placement {
     }
 };
 
-// The joints of one vertex with their weights, added up and made to sum to 1.
-class SkinReader {
-public:
-    SkinReader(const Document& document, const Attributes& attributes,
-               const std::vector<glm::dmat4>& joints)
-        : joints_(joints) {
-        for (int set = 0;; ++set) {
-            const std::string number = std::to_string(set);
-            const auto joint_set = reader_of(document, attributes, "JOINTS_" + number);
-            if (!joint_set) return;
-            joint_sets_.push_back(*joint_set);
-            weight_sets_.push_back(*reader_of(document, attributes, "WEIGHTS_" + number));
-        }
+// The joints of one vertex, by their weights, which are made to sum to 1. Nothing when no weight is
+// above zero.
+std::optional<glm::dmat4> blended(const std::vector<AccessorReader>& joint_sets,
+                                  const std::vector<AccessorReader>& weight_sets,
+                                  const std::vector<glm::dmat4>& joints, std::size_t vertex) {
+    glm::dmat4 sum(0.0);
+    double total = 0.0;
+    for (std::size_t i = 0; i < 4 * joint_sets.size(); ++i) {
+        const double weight = weight_sets[i / 4].number(vertex, i % 4);
+        if (!(weight > 0.0) || !std::isfinite(weight)) continue;
+        const std::uint32_t joint = joint_sets[i / 4].integer(vertex, i % 4);
+        require(joint < joints.size(), "a vertex follows joint ", joint, ", its skin has ",
+                joints.size());
+        sum += joints[joint] * weight;
+        total += weight;
     }
-
-    // Nothing when no weight is above zero.
-    std::optional<glm::dmat4> blended(std::size_t vertex) const {
-        glm::dmat4 sum(0.0);
-        double total = 0.0;
-        for (std::size_t i = 0; i < 4 * joint_sets_.size(); ++i) {
-            const double weight = weight_sets_[i / 4].number(vertex, i % 4);
-            if (!(weight > 0.0) || !std::isfinite(weight)) continue;
-            const std::uint32_t joint = joint_sets_[i / 4].integer(vertex, i % 4);
-            require(joint < joints_.size(), "a vertex follows joint ", joint, ", its skin has ",
-                    joints_.size());
-            sum += joints_[joint] * weight;
-            total += weight;
-        }
-        if (total == 0.0) return std::nullopt;
-        return sum / total;
-    }
-
-private:
-    const std::vector<glm::dmat4>& joints_;
-    std::vector<AccessorReader> joint_sets_;
-    std::vector<AccessorReader> weight_sets_;
-};
+    if (total == 0.0) return std::nullopt;
+    return sum / total;
+}
 
 }  // namespace
 
@@ -211,16 +193,24 @@ Pose Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4&
         pose.mirrored[i] = placement.mirrored;
     };
     const Placement rigid(matrix);
-    if (node.skin < 0 || attribute(primitive.attributes, "JOINTS_0") < 0) {
+    std::vector<AccessorReader> joints;
+    std::vector<AccessorReader> weights;
+    while (const auto set = reader_of(document_, primitive.attributes,
+                                      "JOINTS_" + std::to_string(joints.size()))) {
+        const std::string name = "WEIGHTS_" + std::to_string(joints.size());
+        weights.push_back(*reader_of(document_, primitive.attributes, name));
+        joints.push_back(*set);
+    }
+    if (node.skin < 0 || joints.empty()) {
         for (std::size_t i = 0; i < vertices.size(); ++i) place(i, rigid);
         return pose;
     }
     // The skin alone places its vertices; the node's own matrix has no say.
-    const SkinReader skin(document_, primitive.attributes, joint_matrices(node.skin));
+    const std::vector<glm::dmat4>& matrices = joint_matrices(node.skin);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const auto blended = skin.blended(vertices[i]);
-        if (!blended) document_.warnings.add("a skinned vertex without weights stays in place");
-        place(i, blended ? Placement(*blended) : rigid);
+        const auto skinned = blended(joints, weights, matrices, vertices[i]);
+        if (!skinned) document_.warnings.add("a skinned vertex without weights stays in place");
+        place(i, skinned ? Placement(*skinned) : rigid);
     }
     return pose;
 }
