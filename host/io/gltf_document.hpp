@@ -82,14 +82,14 @@ nlohmann::json parse_json(Bytes text);
 
 // The steps of load_gltf in their order. Each throws InputError for what it finds wrong.
 
-// Every member of the JSON that will be read is of its kind and every index in
-// its range, or "nodes[3].mesh is 99, there are 24 meshes". Whole numbers that are written
-// like 3.0, which glTF allows, become integers. Members that are not read are taken out: in
-// tinygltf's model they would be a hundred times the size of their text.
+// That every member of the JSON that will be read is of its kind and every index in its range, or
+// "nodes[3].mesh is 99, there are 24 meshes". Whole numbers that are written like 3.0, which glTF
+// allows, become integers. Members that are not read are removed: in tinygltf's model they would be
+// a hundred times the size of their text.
 void guard(nlohmann::json& root);
 
-// Replaces the buffers and images of the JSON by those of the document. Their
-// uris name data, or files in the folder of the scene.
+// Replaces the buffers and images of the JSON by those of the document. Their uris name data, or
+// files in the folder of the scene.
 void take_sources(nlohmann::json& root, std::optional<Bytes> binary, Document& document);
 
 // That weights, joints, morph targets and keys of animations match in number and shape, and that

@@ -74,26 +74,24 @@ Light read_light(const tinygltf::Light& source, Warnings& warnings) {
     return light;
 }
 
-// Where a node stands and where it looks, along its -Z.
+glm::dvec3 unit_or_zero(const glm::dvec3& v, double least) {
+    return glm::length(v) > least ? glm::normalize(v) : glm::dvec3(0.0);
+}
+
+// Where a node stands and where it looks, along its -Z. Zero: it has no such direction.
 struct Place {
-    explicit Place(const glm::dmat4& matrix) : position(matrix[3]) {
-        const glm::dvec3 back(matrix[2]);
-        const glm::dvec3 y(matrix[1]);
-        is_near = glm::length(position) <= largest;
-        is_directed = glm::length(back) > 1e-30;
-        if (is_directed) forward = -glm::normalize(back);
-        if (!is_directed || !(glm::length(y) > 1e-30)) return;
-        right = glm::cross(forward, glm::normalize(y));
-        has_axes = glm::length(right) > 1e-9;
-        if (has_axes) right = glm::normalize(right);
+    explicit Place(const glm::dmat4& matrix)
+        : position(matrix[3]),
+          forward(-unit_or_zero(matrix[2], 1e-30)),
+          right(unit_or_zero(glm::cross(forward, unit_or_zero(matrix[1], 1e-30)), 1e-9)) {}
+
+    bool is_usable(const glm::dvec3& direction) const {
+        return glm::length(position) <= largest && direction != glm::dvec3(0.0);
     }
 
     glm::dvec3 position;
-    glm::dvec3 forward = glm::dvec3(0.0);
-    glm::dvec3 right = glm::dvec3(0.0);
-    bool is_near = false;
-    bool is_directed = false;
-    bool has_axes = false;
+    glm::dvec3 forward;
+    glm::dvec3 right;
 };
 
 }  // namespace
@@ -116,7 +114,7 @@ void place_lights(Document& document, const std::vector<int>& nodes, Scene& scen
         if (light.name.empty()) light.name = short_name(node.name);
         const Place place(document.matrices[index]);
         const bool directed = light.kind != Light::Kind::point;
-        if (!place.is_near || (directed && !place.is_directed)) {
+        if (!place.is_usable(directed ? place.forward : glm::dvec3(1.0))) {
             document.warnings.add("a light whose node has no direction or place is left out");
             continue;
         }
@@ -128,7 +126,7 @@ void place_lights(Document& document, const std::vector<int>& nodes, Scene& scen
         const Node& node = document.model.nodes[index];
         if (node.camera < 0) continue;
         const Place place(document.matrices[index]);
-        if (!place.is_near || !place.has_axes) {
+        if (!place.is_usable(place.right)) {
             document.warnings.add("a camera whose node has no direction or place is left out");
             continue;
         }
