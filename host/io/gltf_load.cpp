@@ -4,6 +4,7 @@
 #include <climits>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <stdexcept>
 
 #include "io/gltf_document.hpp"
@@ -32,16 +33,11 @@ bool contains(std::span<const char* const> names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Anything else than digits, a point and digits is refused.
 std::string version(const json& asset, const char* key) {
+    static const std::regex digits("[0-9]{1,4}[.][0-9]{1,4}");
     const std::string text = asset.value(key, "2.0");
-    const std::size_t point = std::min(text.find('.'), text.size());
-    for (const std::string& part : {text.substr(0, point), text.substr(point).erase(0, 1)}) {
-        if (part.empty() || part.size() > 4 ||
-            part.find_first_not_of("0123456789") != std::string::npos) {
-            fail("asset.", key, " is \"", printable(text), "\", not a version");
-        }
-    }
+    require(std::regex_match(text, digits), "asset.", key, " is \"", printable(text),
+            "\", not a version");
     return text;
 }
 

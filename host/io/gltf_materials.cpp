@@ -118,9 +118,9 @@ private:
     std::map<int, glm::dvec2> means_;
 };
 
-// What an object of an extension says; the fallback where it, or the member, is absent.
-double number_in(const Value* object, const char* key, double fallback) {
-    return object && object->Has(key) ? object->Get(key).GetNumberAsDouble() : fallback;
+// What an object of an extension says; the fallback where it says nothing.
+double number_in(const Value& object, const char* key, double fallback) {
+    return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
 }
 
 glm::dvec2 pair_in(const Value& object, const char* key, double fallback) {
@@ -134,7 +134,7 @@ glm::dvec2 pair_in(const Value& object, const char* key, double fallback) {
 glm::mat3 uv_transform(const Value& transform) {
     const glm::dvec2 offset = pair_in(transform, "offset", 0.0);
     const glm::dvec2 scale = pair_in(transform, "scale", 1.0);
-    const double angle = number_in(&transform, "rotation", 0.0);
+    const double angle = number_in(transform, "rotation", 0.0);
     for (const glm::dvec2& pair : {offset, scale}) {
         require(std::max(std::abs(pair.x), std::abs(pair.y)) <= 1e9,
                 "has a texture that is shifted or scaled by more than 1e9");
@@ -146,75 +146,61 @@ glm::mat3 uv_transform(const Value& transform) {
                                 offset.x, offset.y, 1.0));
 }
 
-class MaterialReader {
-public:
-    MaterialReader(std::string name, Warnings& warnings)
-        : name_(std::move(name)), warnings_(warnings) {}
-
-    // Its slots name textures of the model.
-    Material read(const tinygltf::Material& source) const {
-        const tinygltf::PbrMetallicRoughness& metal_rough = source.pbrMetallicRoughness;
-        Material material;
-        material.name = short_name(source.name);
-        for (int i = 0; i < 4; ++i) material.base_color[i] = unit(metal_rough.baseColorFactor[i]);
-        material.metallic = unit(metal_rough.metallicFactor);
-        material.roughness = unit(metal_rough.roughnessFactor);
-        material.base_texture = slot(metal_rough.baseColorTexture);
-        const double strength = emissive_strength(source);
-        for (int i = 0; i < 3; ++i) {
-            material.emission[i] = static_cast<float>(unit(source.emissiveFactor[i]) * strength);
-        }
-        material.emission_texture = slot(source.emissiveTexture);
-        if (source.alphaMode != "OPAQUE") material.alpha_mode = AlphaMode::mask;
-        if (source.alphaMode == "MASK") {
-            material.alpha_cutoff = static_cast<float>(std::clamp(source.alphaCutoff, 0.0, 1e6));
-        } else if (source.alphaMode == "BLEND") {
-            warnings_.add("a blended material is cut out where its alpha is below 0.5");
-        }
-        material.double_sided = source.doubleSided;
-        if (extension(source.extensions, "KHR_materials_unlit")) {
-            warnings_.add("an unlit material is lit like any other");
-        }
-        return material;
+TextureSlot read_slot(const tinygltf::TextureInfo& info, Warnings& warnings) {
+    TextureSlot slot;
+    if (info.index < 0) return slot;
+    slot.texture = info.index;
+    slot.uv_set = info.texCoord;
+    if (const Value* transform = extension(info.extensions, "KHR_texture_transform")) {
+        slot.transform = uv_transform(*transform);
+        if (transform->Has("texCoord")) slot.uv_set = index_in(*transform, "texCoord");
     }
+    if (slot.uv_set <= 1) return slot;
+    warnings.add("a texture on TEXCOORD_2 or above is ignored");
+    return {};
+}
 
-    TextureSlot slot(const tinygltf::TextureInfo& info) const {
-        TextureSlot slot;
-        if (info.index < 0) return slot;
-        slot.texture = info.index;
-        slot.uv_set = info.texCoord;
-        if (const Value* transform = extension(info.extensions, "KHR_texture_transform")) {
-            slot.transform = uv_transform(*transform);
-            if (transform->Has("texCoord")) slot.uv_set = index_in(*transform, "texCoord");
-        }
-        if (slot.uv_set <= 1) return slot;
-        warnings_.add("a texture on TEXCOORD_2 or above is ignored");
-        return {};
-    }
-
-private:
+// Its slots name textures of the model.
+Material read_material(const tinygltf::Material& source, const std::string& name,
+                       Warnings& warnings) {
     // What leaves the range of the specification is mended, not refused.
-    double clamped(double number, double most, const std::string& warning) const {
-        if (number >= 0.0 && number <= most) return number;
-        warnings_.add(warning);
+    const auto clamped = [&](double number, double most, const std::string& warning) {
+        if (number < 0.0 || number > most) warnings.add(warning);
         return std::clamp(number, 0.0, most);
-    }
-
-    float unit(double number) const {
+    };
+    const auto unit = [&](double number) {
         const char* warning = "a material factor outside 0..1 is clamped, first in ";
-        return static_cast<float>(clamped(number, 1.0, warning + name_));
+        return static_cast<float>(clamped(number, 1.0, warning + name));
+    };
+    const tinygltf::PbrMetallicRoughness& metal_rough = source.pbrMetallicRoughness;
+    Material material;
+    material.name = short_name(source.name);
+    for (int i = 0; i < 4; ++i) material.base_color[i] = unit(metal_rough.baseColorFactor[i]);
+    material.metallic = unit(metal_rough.metallicFactor);
+    material.roughness = unit(metal_rough.roughnessFactor);
+    material.base_texture = read_slot(metal_rough.baseColorTexture, warnings);
+    const Value* emissive = extension(source.extensions, "KHR_materials_emissive_strength");
+    double strength = 1.0;
+    if (emissive && source.emissiveFactor != std::vector<double>(3, 0.0)) {
+        strength = clamped(number_in(*emissive, "emissiveStrength", 1.0), 1e30,
+                           "an emissive strength outside 0..1e30 is clamped");
     }
-
-    double emissive_strength(const tinygltf::Material& source) const {
-        if (source.emissiveFactor == std::vector<double>(3, 0.0)) return 1.0;
-        const Value* found = extension(source.extensions, "KHR_materials_emissive_strength");
-        return clamped(number_in(found, "emissiveStrength", 1.0), 1e30,
-                       "an emissive strength outside 0..1e30 is clamped");
+    for (int i = 0; i < 3; ++i) {
+        material.emission[i] = static_cast<float>(unit(source.emissiveFactor[i]) * strength);
     }
-
-    std::string name_;
-    Warnings& warnings_;
-};
+    material.emission_texture = read_slot(source.emissiveTexture, warnings);
+    if (source.alphaMode != "OPAQUE") material.alpha_mode = AlphaMode::mask;
+    if (source.alphaMode == "MASK") {
+        material.alpha_cutoff = static_cast<float>(std::clamp(source.alphaCutoff, 0.0, 1e6));
+    } else if (source.alphaMode == "BLEND") {
+        warnings.add("a blended material is cut out where its alpha is below 0.5");
+    }
+    material.double_sided = source.doubleSided;
+    if (extension(source.extensions, "KHR_materials_unlit")) {
+        warnings.add("an unlit material is lit like any other");
+    }
+    return material;
+}
 
 }  // namespace
 
@@ -222,17 +208,19 @@ void load_materials(Document& document, const GltfOptions& options, Scene& scene
     TextureLoader textures(document, options, scene);
     for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
         const tinygltf::Material& source = document.model.materials[i];
-        const MaterialReader reader(entry("materials", i), document.warnings);
-        Material material = of_entry("materials", i, [&] { return reader.read(source); });
+        const std::string name = entry("materials", i);
+        Material material = of_entry(
+            "materials", i, [&] { return read_material(source, name, document.warnings); });
         material.base_texture.texture = textures.load(material.base_texture.texture);
         // A texture that is multiplied by black need not be there.
         const bool dark = material.emission == glm::vec3(0.0f);
         material.emission_texture.texture =
             dark ? -1 : textures.load(material.emission_texture.texture);
-        const TextureSlot slot = of_entry("materials", i, [&] {
-            return reader.slot(source.pbrMetallicRoughness.metallicRoughnessTexture);
+        const TextureSlot metal_rough = of_entry("materials", i, [&] {
+            return read_slot(source.pbrMetallicRoughness.metallicRoughnessTexture,
+                             document.warnings);
         });
-        const glm::vec2 mean(textures.mean_metal_rough(slot.texture));
+        const glm::vec2 mean(textures.mean_metal_rough(metal_rough.texture));
         material.metallic *= mean.x;
         material.roughness *= mean.y;
         scene.materials.push_back(std::move(material));

@@ -181,11 +181,10 @@ private:
         add(model_.textures, std::move(written));
     }
 
-    void declare(const char* extension) {
+    void extend(tinygltf::ExtensionMap& extensions, const char* name, Value value) {
+        extensions[name] = std::move(value);
         std::vector<std::string>& used = model_.extensionsUsed;
-        if (std::find(used.begin(), used.end(), extension) == used.end()) {
-            used.push_back(extension);
-        }
+        if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
     }
 
     tinygltf::TextureInfo info_of(const TextureSlot& slot) {
@@ -193,8 +192,8 @@ private:
         info.index = slot.texture;  // -1, none, is not written
         info.texCoord = slot.uv_set;
         if (slot.texture >= 0 && slot.transform != glm::mat3(1.0f)) {
-            declare("KHR_texture_transform");
-            info.extensions["KHR_texture_transform"] = transform_of(glm::dmat3(slot.transform));
+            extend(info.extensions, "KHR_texture_transform",
+                   transform_of(glm::dmat3(slot.transform)));
         }
         return info;
     }
@@ -217,10 +216,9 @@ private:
         // tinygltf takes factors below 1e-12 for black.
         const auto [color, strength] = color_and_strength(material.emission);
         if (strength > 1.0 || (strength > 0.0 && strength < 1e-6)) {
-            declare("KHR_materials_emissive_strength");
             written.emissiveFactor = numbers(color);
-            written.extensions["KHR_materials_emissive_strength"] =
-                Value(Value::Object{{"emissiveStrength", Value(strength)}});
+            extend(written.extensions, "KHR_materials_emissive_strength",
+                   Value(Value::Object{{"emissiveStrength", Value(strength)}}));
         }
         add(model_.materials, std::move(written));
     }
