@@ -2,15 +2,13 @@
 #include "io/gltf_image.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <clgi/error.hpp>
 #include <climits>
 #include <cstring>
 #include <memory>
 #include <string>
-#include <string_view>
 
+#include "io/gltf_text.hpp"
 #include "io/png_decode.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -36,46 +34,35 @@ bool has_at(Bytes bytes, std::size_t at, std::string_view expected) {
            std::memcmp(bytes.data() + at, expected.data(), expected.size()) == 0;
 }
 
+bool is_png(Bytes bytes) { return has_at(bytes, 0, "\x89PNG\r\n\x1a\n"sv); }
+
 std::uint32_t big_endian(Bytes bytes, std::size_t at) {
     return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 |
            std::uint32_t{bytes[at + 2]} << 8 | std::uint32_t{bytes[at + 3]};
 }
 
 struct Size {
-    std::uint64_t width;
-    std::uint64_t height;
+    std::uint32_t width;
+    std::uint32_t height;
+
+    std::string text() const { return std::to_string(width) + "x" + std::to_string(height); }
 };
 
-std::string to_text(Size size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-void require_pixels(Size size) {
-    if (size.width == 0 || size.height == 0 || size.width > INT_MAX || size.height > INT_MAX) {
-        throw InputError("is of " + to_text(size) + " pixels");
-    }
+Size png_size(Bytes bytes) {
+    require(bytes.size() >= 33 && has_at(bytes, 8, "\0\0\0\rIHDR"sv), "is no complete PNG");
+    const Size size{big_endian(bytes, 16), big_endian(bytes, 20)};
+    require(size.width > 0 && size.height > 0 && size.width <= INT_MAX && size.height <= INT_MAX,
+            "is of ", size.text(), " pixels");
+    return size;
 }
 
 // Refuses a size that is too large, or that so few bytes cannot stand for: the densest coding
 // spends most_per_byte pixels on a byte.
 void judge(Size size, std::size_t most, std::size_t bytes, std::size_t most_per_byte) {
-    require_pixels(size);
-    const std::string text = to_text(size);
-    const std::uint64_t pixels = size.width * size.height;
-    if (pixels > most) {
-        throw InputError("is of " + text + " pixels, " + std::to_string(most) + " are allowed");
-    }
-    if (pixels / most_per_byte > bytes) {
-        throw InputError("says " + text + " pixels, but has only " + std::to_string(bytes) +
-                         " bytes");
-    }
-}
-
-Size png_size(Bytes bytes) {
-    if (bytes.size() < 33 || !has_at(bytes, 8, "\0\0\0\rIHDR"sv)) {
-        throw InputError("is no complete PNG");
-    }
-    return {big_endian(bytes, 16), big_endian(bytes, 20)};
+    const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
+    require(pixels <= most, "is of ", size.text(), " pixels, ", most, " are allowed");
+    require(pixels / most_per_byte <= bytes, "says ", size.text(), " pixels, but has only ", bytes,
+            " bytes");
 }
 
 // Follows the segments of a JPEG to the one with its size.
@@ -92,10 +79,10 @@ void check_jpeg_start(Bytes start) {
         if (frame && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) return;
         const std::size_t length = std::size_t{start[at + 2]} << 8 | start[at + 3];
         const bool segment = frame || marker >= 0xdb;  // not a restart, an end, or the pixels
-        if (!segment || length < 2) throw InputError("is a damaged JPEG");
+        require(segment && length >= 2, "is a damaged JPEG");
         at += 2 + length;
     }
-    if (start.size() < inspected_bytes) throw InputError("is no complete JPEG");
+    require(start.size() >= inspected_bytes, "is no complete JPEG");
 }
 
 Pixels decode_png_file(Bytes bytes, std::size_t most) {
@@ -103,52 +90,42 @@ Pixels decode_png_file(Bytes bytes, std::size_t most) {
     // Deflate at best packs 1032 bytes into one, and a byte holds up to 8 pixels.
     judge(size, most, bytes.size(), 1032 * 8);
     Pixels pixels{static_cast<int>(size.width), static_cast<int>(size.height), {}};
-    if (!decode_png(bytes, static_cast<std::uint32_t>(size.width),
-                    static_cast<std::uint32_t>(size.height), pixels.rgba)) {
-        throw InputError("is a damaged PNG");
-    }
+    require(decode_png(bytes, size.width, size.height, pixels.rgba), "is a damaged PNG");
     return pixels;
 }
 
 Pixels decode_jpeg_file(Bytes bytes, std::size_t most) {
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    if (bytes.size() > INT_MAX) throw InputError("is a JPEG of more than 2 GiB");
+    require(bytes.size() <= INT_MAX, "is a JPEG of more than 2 GiB");
     const int length = static_cast<int>(bytes.size());
-    if (!stbi_info_from_memory(bytes.data(), length, &width, &height, &channels)) {
-        throw InputError("is a damaged JPEG");
-    }
-    // A block of 64 pixels takes at least one bit.
-    judge({static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height)}, most,
-          bytes.size(), 512);
+    Pixels pixels;
+    int channels = 0;
+    require(stbi_info_from_memory(bytes.data(), length, &pixels.width, &pixels.height, &channels),
+            "is a damaged JPEG");
+    const Size size{static_cast<std::uint32_t>(pixels.width),
+                    static_cast<std::uint32_t>(pixels.height)};
+    judge(size, most, bytes.size(), 512);  // a block of 64 pixels takes at least one bit
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
-        stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4),
+        stbi_load_from_memory(bytes.data(), length, &pixels.width, &pixels.height, &channels, 4),
         stbi_image_free);
-    if (!decoded) throw InputError("is a damaged JPEG");
-    const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
-    return {width, height, std::vector<std::uint8_t>(decoded.get(), decoded.get() + size)};
+    require(decoded != nullptr, "is a damaged JPEG");
+    const std::size_t count = std::size_t{size.width} * size.height;
+    pixels.rgba.assign(decoded.get(), decoded.get() + count * 4);
+    return pixels;
 }
-
-bool is_png(Bytes bytes) { return has_at(bytes, 0, "\x89PNG\r\n\x1a\n"sv); }
 
 }  // namespace
 
 ImageFormat inspect_image(Bytes bytes) {
-    if (is_png(bytes)) {
-        require_pixels(png_size(bytes));
-        return ImageFormat::png;
-    }
+    if (is_png(bytes)) return png_size(bytes), ImageFormat::png;
     if (has_at(bytes, 0, "\xff\xd8\xff"sv)) {
         check_jpeg_start(bytes.first(std::min(bytes.size(), inspected_bytes)));
         return ImageFormat::jpeg;
     }
     const bool webp = has_at(bytes, 0, "RIFF"sv) && has_at(bytes, 8, "WEBP"sv);
     const bool avif = has_at(bytes, 4, "ftyp"sv);
-    const bool ktx = has_at(bytes, 0, "\xabKTX "sv);
-    const bool other =
-        has_at(bytes, 0, "DDS "sv) || has_at(bytes, 0, "GIF8"sv) || has_at(bytes, 0, "BM"sv);
-    if (!webp && !avif && !ktx && !other) throw InputError("is neither PNG nor JPEG");
+    const bool other = has_at(bytes, 0, "\xabKTX "sv) || has_at(bytes, 0, "DDS "sv) ||
+                       has_at(bytes, 0, "GIF8"sv) || has_at(bytes, 0, "BM"sv);
+    require(webp || avif || other, "is neither PNG nor JPEG");
     return ImageFormat::unsupported;
 }
 

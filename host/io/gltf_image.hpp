@@ -3,12 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
-#include "io/gltf_container.hpp"
-
 namespace clgi::io::gltf {
+
+using Bytes = std::span<const std::uint8_t>;
 
 enum class ImageFormat { png, jpeg, unsupported };
 

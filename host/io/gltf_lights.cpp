@@ -1,11 +1,10 @@
-// Lights and cameras of a model as those of a Scene, at the origin.
+// Lights and cameras: first at the origin, as the file describes them, then where their nodes are.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "io/gltf_place.hpp"
-#include "io/gltf_text.hpp"
+#include "io/gltf_document.hpp"
 
 namespace clgi::io::gltf {
 
@@ -13,44 +12,35 @@ namespace {
 
 constexpr double largest = 1e18;  // metres, candela: its square is still a float
 
-void read_perspective(const tinygltf::PerspectiveCamera& source, const std::string& name,
-                      Camera& camera) {
-    if (source.yfov >= std::numbers::pi) refuse(name + ".yfov", "is not within 0 and pi");
-    // Below a micro-radian the picture is one point and its projection overflows.
-    camera.vertical_fov = static_cast<float>(std::clamp(source.yfov, 1e-6, 3.1415));
-    if (source.znear > largest) refuse(name + ".znear", "is too large");
-    camera.near = static_cast<float>(source.znear);
-}
-
-void read_orthographic(const tinygltf::OrthographicCamera& source, const std::string& name,
-                       Camera& camera) {
-    camera.kind = Camera::Kind::orthographic;
-    const double half_height = std::abs(source.ymag);
-    if (half_height < 1e-18 || half_height > largest) refuse(name + ".ymag", "is 0 or too large");
-    camera.half_height = static_cast<float>(half_height);
-    if (source.znear > largest) refuse(name + ".znear", "is too large");
-    if (source.zfar <= source.znear) refuse(name + ".zfar", "is not beyond znear");
-    camera.near = static_cast<float>(source.znear);
-}
-
-Camera read_camera(const tinygltf::Camera& source, const std::string& name) {
+Camera read_camera(const tinygltf::Camera& source) {
     Camera camera;
     camera.name = short_name(source.name);
     if (source.type == "perspective") {
-        read_perspective(source.perspective, name + ".perspective", camera);
-    } else {
-        read_orthographic(source.orthographic, name + ".orthographic", camera);
+        const tinygltf::PerspectiveCamera& view = source.perspective;
+        require(view.yfov < std::numbers::pi, ".perspective.yfov is not within 0 and pi");
+        require(view.znear <= largest, ".perspective.znear is too large");
+        // Below a micro-radian the picture is one point and its projection overflows.
+        camera.vertical_fov = static_cast<float>(std::clamp(view.yfov, 1e-6, 3.1415));
+        camera.near = static_cast<float>(view.znear);
+        return camera;
     }
+    camera.kind = Camera::Kind::orthographic;
+    const tinygltf::OrthographicCamera& box = source.orthographic;
+    const double half_height = std::abs(box.ymag);
+    require(half_height >= 1e-18 && half_height <= largest, ".orthographic.ymag is 0 or too large");
+    require(box.znear <= largest, ".orthographic.znear is too large");
+    require(box.zfar > box.znear, ".orthographic.zfar is not beyond znear");
+    camera.half_height = static_cast<float>(half_height);
+    camera.near = static_cast<float>(box.znear);
     return camera;
 }
 
 void read_cone(const tinygltf::SpotLight& cone, Light& light, Warnings& warnings) {
     constexpr double right_angle = std::numbers::pi / 2.0;
-    double outer = cone.outerConeAngle;
-    if (outer > right_angle + 1e-6) {
+    const double outer = std::min(cone.outerConeAngle, right_angle);
+    if (cone.outerConeAngle > right_angle + 1e-6) {
         warnings.add("a spot light wider than a hemisphere is narrowed to one");
     }
-    outer = std::min(outer, right_angle);
     if (cone.innerConeAngle > outer) {
         warnings.add("a spot light's inner cone is narrowed to its outer cone");
     }
@@ -58,15 +48,15 @@ void read_cone(const tinygltf::SpotLight& cone, Light& light, Warnings& warnings
     light.inner_angle = std::min(static_cast<float>(cone.innerConeAngle), light.outer_angle);
 }
 
-Light read_light(const tinygltf::Light& source, const std::string& name, Warnings& warnings) {
+Light read_light(const tinygltf::Light& source, Warnings& warnings) {
     Light light;
     light.name = short_name(source.name);
     for (int i = 0; i < 3; ++i) {
         const double color = source.color.empty() ? 1.0 : source.color[i];
-        if (color < 0.0) refuse(name + ".color", "is negative");
         const double channel = color * source.intensity;
-        if (channel < 0.0) refuse(name + ".intensity", "is negative");
-        if (channel > largest) refuse(name, "is brighter than 1e18");
+        require(color >= 0.0, ".color is negative");
+        require(channel >= 0.0, ".intensity is negative");
+        require(channel <= largest, "is brighter than 1e18");
         light.intensity[i] = static_cast<float>(channel);
     }
     if (source.type == "directional") {
@@ -84,16 +74,69 @@ Light read_light(const tinygltf::Light& source, const std::string& name, Warning
     return light;
 }
 
+glm::dvec3 unit_or_zero(const glm::dvec3& v, double least) {
+    return glm::length(v) > least ? glm::normalize(v) : glm::dvec3(0.0);
+}
+
+// Where a node stands and where it looks, along its -Z. Zero: it has no such direction.
+struct Place {
+    explicit Place(const glm::dmat4& matrix)
+        : position(matrix[3]),
+          forward(-unit_or_zero(matrix[2], 1e-30)),
+          right(unit_or_zero(glm::cross(forward, unit_or_zero(matrix[1], 1e-30)), 1e-9)) {}
+
+    bool is_usable(const glm::dvec3& direction) const {
+        return glm::length(position) <= largest && direction != glm::dvec3(0.0);
+    }
+
+    glm::dvec3 position;
+    glm::dvec3 forward;
+    glm::dvec3 right;
+};
+
 }  // namespace
 
 void read_lights(Document& document) {
-    const Model& model = document.model;
-    for (std::size_t i = 0; i < model.cameras.size(); ++i) {
-        document.cameras.push_back(read_camera(model.cameras[i], entry("cameras", i)));
+    each("cameras", document.model.cameras,
+         [&](const tinygltf::Camera& camera) { document.cameras.push_back(read_camera(camera)); });
+    each("extensions.KHR_lights_punctual.lights", document.model.lights,
+         [&](const tinygltf::Light& light) {
+             document.lights.push_back(read_light(light, document.warnings));
+         });
+}
+
+void place_lights(Document& document, const std::vector<int>& nodes, Scene& scene) {
+    for (const int index : nodes) {
+        const Node& node = document.model.nodes[index];
+        const tinygltf::Value* carried = extension(node.extensions, "KHR_lights_punctual");
+        if (!carried) continue;
+        Light light = document.lights[index_in(*carried, "light")];
+        if (light.name.empty()) light.name = short_name(node.name);
+        const Place place(document.matrices[index]);
+        const bool directed = light.kind != Light::Kind::point;
+        if (!place.is_usable(directed ? place.forward : glm::dvec3(1.0))) {
+            document.warnings.add("a light whose node has no direction or place is left out");
+            continue;
+        }
+        light.position = place.position;
+        if (directed) light.direction = glm::vec3(place.forward);
+        scene.lights.push_back(std::move(light));
     }
-    for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        const std::string name = entry("extensions.KHR_lights_punctual.lights", i);
-        document.lights.push_back(read_light(model.lights[i], name, document.warnings));
+    for (const int index : nodes) {
+        const Node& node = document.model.nodes[index];
+        if (node.camera < 0) continue;
+        const Place place(document.matrices[index]);
+        if (!place.is_usable(place.right)) {
+            document.warnings.add("a camera whose node has no direction or place is left out");
+            continue;
+        }
+        Camera camera = document.cameras[node.camera];
+        if (camera.name.empty()) camera.name = short_name(node.name);
+        camera.position = place.position;
+        camera.right = glm::vec3(place.right);
+        camera.up = glm::vec3(glm::cross(place.right, place.forward));
+        camera.forward = glm::vec3(place.forward);
+        scene.cameras.push_back(std::move(camera));
     }
 }
 

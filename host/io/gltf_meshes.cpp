@@ -1,24 +1,27 @@
-// Meshes: every placed copy becomes triangles in world space.
+// place_meshes: every placed copy of a mesh becomes triangles in world space.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <cmath>
-#include <map>
-#include <optional>
 
-#include "io/gltf_instances.hpp"
-#include "io/gltf_looks.hpp"
-#include "io/gltf_normals.hpp"
-#include "io/gltf_place.hpp"
-#include "io/gltf_pose.hpp"
-#include "io/gltf_text.hpp"
-#include "io/gltf_topology.hpp"
+#include "io/gltf_accessor.hpp"
+#include "io/gltf_primitive.hpp"
 
 namespace clgi::io::gltf {
 
 namespace {
 
 constexpr double farthest = 1e18;  // metres; the square of a distance is still a float
+
+struct DrawnPrimitive {
+    const Primitive* source;
+    std::optional<Topology> topology;  // once a node shows it
+};
+
+// A mesh may have a million primitives without triangles: they are not among these.
+struct DrawnMesh {
+    std::size_t triangles = 0;
+    std::vector<DrawnPrimitive> primitives;
+};
 
 class MeshPlacer {
 public:
@@ -32,22 +35,19 @@ public:
 
     // Refuses a scene of too many triangles before the first is made.
     void count(const std::vector<int>& nodes, std::size_t most) {
-        std::map<int, std::size_t> in_mesh;
         std::size_t total = 0;
         for (const int index : nodes) {
             const Node& node = document_.model.nodes[index];
             if (node.mesh < 0) continue;
-            const auto [counted, fresh] = in_mesh.try_emplace(node.mesh, 0);
-            if (fresh) counted->second = count_mesh(node.mesh);
-            const std::size_t triangles = counted->second;
+            const auto [found, fresh] = meshes_.try_emplace(node.mesh);
+            if (fresh) find_drawn(document_.model.meshes[node.mesh], found->second);
+            const std::size_t triangles = found->second.triangles;
             if (triangles == 0) continue;
-            const std::size_t copies = instance_count(document_, node);
-            if (copies > most / triangles || total > most - copies * triangles) {
-                throw InputError("places more than the " + std::to_string(most) +
-                                 " triangles that are allowed");
-            }
+            const std::size_t copies = copy_count(document_, node);
+            require(copies <= most / triangles && total <= most - copies * triangles,
+                    "places more than the ", most, " triangles that are allowed");
             total += copies * triangles;
-            if (is_instanced(node) && node.skin >= 0) {
+            if (node.skin >= 0 && extension(node.extensions, "EXT_mesh_gpu_instancing")) {
                 document_.warnings.add("copies of a skinned mesh all stand in the same place");
             }
         }
@@ -55,27 +55,20 @@ public:
 
     void place(int index) {
         const Node& node = document_.model.nodes[index];
-        const Mesh& mesh = document_.model.meshes[node.mesh];
-        const std::size_t copies = instance_count(document_, node);
-        for (const std::size_t p : drawn_[node.mesh]) {
-            const Primitive& primitive = mesh.primitives[p];
-            const auto [found, fresh] = topologies_.try_emplace({node.mesh, p});
-            if (fresh) found->second = triangles_of(document_, primitive);
-            if (found->second.triangles.empty()) continue;
-            warn_of_missing_uv(primitive);
-            for (std::size_t copy = 0; copy < copies; ++copy) {
-                place(node, primitive, found->second, instance_matrix(document_, index, copy));
-            }
+        DrawnMesh& mesh = meshes_[node.mesh];
+        if (mesh.triangles == 0) return;
+        const std::vector<glm::dmat4> copies = copy_matrices(document_, index);
+        for (auto& [primitive, topology] : mesh.primitives) {
+            if (!topology) topology = triangles_of(document_, *primitive, renumberer_);
+            if (topology->triangles.empty()) continue;
+            warn_of_missing_uv(*primitive);
+            for (const glm::dmat4& matrix : copies) place(node, *primitive, *topology, matrix);
         }
     }
 
 private:
-    // Also notes which primitives have triangles: a mesh may have a million that have none.
-    std::size_t count_mesh(int index) {
-        const Mesh& mesh = document_.model.meshes[index];
-        std::size_t total = 0;
-        for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-            const Primitive& primitive = mesh.primitives[p];
+    void find_drawn(const Mesh& mesh, DrawnMesh& drawn) {
+        for (const Primitive& primitive : mesh.primitives) {
             if (attribute(primitive.attributes, "POSITION") < 0) {
                 document_.warnings.add("a primitive without positions is skipped");
             } else if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
@@ -83,21 +76,18 @@ private:
             }
             const std::size_t triangles = triangle_count(document_, primitive);
             if (triangles == 0) continue;
-            total += std::min(triangles, SIZE_MAX - total);
-            drawn_[index].push_back(p);
+            drawn.triangles += std::min(triangles, SIZE_MAX - drawn.triangles);
+            drawn.primitives.push_back({&primitive, std::nullopt});
             colored_ = colored_ || attribute(primitive.attributes, "COLOR_0") >= 0;
         }
-        return total;
     }
 
     void place(const Node& node, const Primitive& primitive, const Topology& topology,
                const glm::dmat4& matrix) {
         Pose pose = poser_.pose(primitive, node, matrix, topology.vertices);
         for (const glm::dvec3& p : pose.positions) {
-            if (!(glm::length(p) <= farthest)) {
-                throw InputError("meshes[" + std::to_string(node.mesh) +
-                                 "] is placed at a distance beyond 1e18 m");
-            }
+            require(glm::length(p) <= farthest, "meshes[", node.mesh,
+                    "] is placed at a distance beyond 1e18 m");
         }
         if (pose.normals.empty()) {
             Topology split = topology;
@@ -113,9 +103,8 @@ private:
 
     void append(const Node& node, const Primitive& primitive, const Topology& topology,
                 const Pose& pose) {
-        if (topology.vertices.size() > UINT32_MAX - scene_.positions.size()) {
-            throw InputError("has more than 2^32 vertices");
-        }
+        require(topology.vertices.size() <= UINT32_MAX - scene_.positions.size(),
+                "has more than 2^32 vertices");
         const std::string& mesh_name = document_.model.meshes[node.mesh].name;
         scene_.parts.push_back({short_name(node.name.empty() ? mesh_name : node.name),
                                 static_cast<std::uint32_t>(scene_.triangles.size()),
@@ -129,12 +118,47 @@ private:
             scene_.triangles.push_back(
                 {{first + a, first + (turned ? c : b), first + (turned ? b : c)}, material});
         }
-        for (std::size_t i = 0; i < topology.vertices.size(); ++i) {
-            scene_.positions.push_back(pose.positions[i]);
-            scene_.normals.emplace_back(pose.normals[i]);
-        }
-        if (append_looks(document_, primitive, topology.vertices, textured_, colored_, scene_)) {
+        scene_.positions.insert(scene_.positions.end(), pose.positions.begin(),
+                                pose.positions.end());
+        scene_.normals.insert(scene_.normals.end(), pose.normals.begin(), pose.normals.end());
+        mended_ = false;
+        if (textured_) append_uvs(primitive.attributes, topology.vertices);
+        if (colored_) append_colors(primitive.attributes, topology.vertices);
+        if (mended_) {
             document_.warnings.add("texture coordinates or colors that are not finite are mended");
+        }
+    }
+
+    float finite_or(double value, float fallback) {
+        if (std::isfinite(value)) return static_cast<float>(value);
+        mended_ = true;
+        return fallback;
+    }
+
+    void append_uvs(const Attributes& attributes, const std::vector<std::uint32_t>& vertices) {
+        const auto set_0 = reader_of(document_, attributes, "TEXCOORD_0");
+        const auto set_1 = reader_of(document_, attributes, "TEXCOORD_1");
+        for (const std::uint32_t vertex : vertices) {
+            glm::vec4 uv(0.0f);
+            for (int i = 0; i < 4; ++i) {
+                const auto& set = i < 2 ? set_0 : set_1;
+                if (set) uv[i] = finite_or(set->number(vertex, i % 2), 0.0f);
+            }
+            scene_.uvs.push_back(uv);
+        }
+    }
+
+    void append_colors(const Attributes& attributes, const std::vector<std::uint32_t>& vertices) {
+        const auto colors = reader_of(document_, attributes, "COLOR_0");
+        const int accessor = attribute(attributes, "COLOR_0");
+        const auto channels = colors ? rows(document_.model.accessors[accessor]) : 0;
+        for (const std::uint32_t vertex : vertices) {
+            glm::vec4 color(1.0f);
+            for (std::size_t i = 0; i < channels; ++i) {
+                color[static_cast<int>(i)] =
+                    std::clamp(finite_or(colors->number(vertex, i), 1.0f), 0.0f, 1.0f);
+            }
+            scene_.colors.push_back(color);
         }
     }
 
@@ -152,10 +176,8 @@ private:
     std::uint32_t material_of(const Primitive& primitive) {
         if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
         if (!default_material_) {
-            Material material;
-            material.metallic = 1.0f;  // glTF's default is a rough metal
             default_material_ = static_cast<std::uint32_t>(scene_.materials.size());
-            scene_.materials.push_back(material);
+            scene_.materials.emplace_back().metallic = 1.0f;  // glTF's default is a rough metal
         }
         return *default_material_;
     }
@@ -165,16 +187,16 @@ private:
     Poser poser_;
     bool textured_;  // or its texture coordinates are wanted all the same
     bool colored_ = false;
+    bool mended_ = false;
     std::optional<std::uint32_t> default_material_;
-    std::map<int, std::vector<std::size_t>> drawn_;  // mesh: its primitives with triangles
-    std::map<std::pair<int, std::size_t>, Topology> topologies_;
+    std::map<int, DrawnMesh> meshes_;
+    Renumberer renumberer_;
 };
 
 }  // namespace
 
 void place_meshes(Document& document, const std::vector<int>& nodes, const GltfOptions& options,
                   Scene& scene) {
-    check_instancing(document);
     MeshPlacer placer(document, options.lightmaps, scene);
     placer.count(nodes, std::min<std::size_t>(options.max_triangles, UINT32_MAX / 3));
     for (const int node : nodes) {

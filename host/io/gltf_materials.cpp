@@ -1,0 +1,230 @@
+// load_materials: materials and the textures that they need.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "io/gltf_document.hpp"
+#include "io/gltf_image.hpp"
+
+namespace clgi::io::gltf {
+
+namespace {
+
+using tinygltf::Value;
+
+constexpr std::size_t most_encoded = std::size_t{1} << 32;  // bytes, of all images read
+
+Wrap wrap(int code) {
+    for (const Wrap each : {Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+        if (code == wrap_code(each)) return each;
+    }
+    return Wrap::repeat;
+}
+
+class TextureLoader {
+public:
+    // Looks at every image, used or not: it must exist and be what it says.
+    TextureLoader(Document& document, const GltfOptions& options, Scene& scene)
+        : document_(document),
+          scene_(scene),
+          most_texels_(options.max_texels),
+          texels_left_(options.max_texels),
+          averaged_left_(options.max_texels) {
+        each("images", document.images, [&](const Image& image) { inspect(image); });
+    }
+
+    // Index into scene.textures; -1 where there is no image that can be read.
+    int load(int texture) {
+        if (texture < 0) return -1;
+        const tinygltf::Texture& source = document_.model.textures[texture];
+        if (!is_readable(source.source)) return -1;
+        const tinygltf::Sampler sampler =
+            source.sampler < 0 ? tinygltf::Sampler() : document_.model.samplers[source.sampler];
+        const Wrap wrap_s = wrap(sampler.wrapS);
+        const Wrap wrap_t = wrap(sampler.wrapT);
+        const bool nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+        const auto [known, fresh] = loaded_.try_emplace({source.source, wrap_s, wrap_t, nearest},
+                                                        static_cast<int>(scene_.textures.size()));
+        if (!fresh) return known->second;
+        Pixels pixels = decode(source.source, texels_left_);
+        scene_.textures.push_back({document_.images[source.source].name, pixels.width,
+                                   pixels.height, std::move(pixels.rgba), wrap_s, wrap_t, nearest});
+        return known->second;
+    }
+
+    // The means of a texture's blue and green, which multiply the factors.
+    glm::dvec2 mean_metal_rough(int texture) {
+        if (texture < 0) return glm::dvec2(1.0);
+        const int image = document_.model.textures[texture].source;
+        if (!is_readable(image)) return glm::dvec2(1.0);
+        const auto [known, fresh] = means_.try_emplace(image);
+        if (!fresh) return known->second;
+        const Pixels pixels = decode(image, averaged_left_);
+        std::uint64_t green = 0;
+        std::uint64_t blue = 0;
+        for (std::size_t i = 0; i < pixels.rgba.size(); i += 4) {
+            green += pixels.rgba[i + 1];
+            blue += pixels.rgba[i + 2];
+        }
+        const double full = 255.0 * static_cast<double>(pixels.rgba.size() / 4);
+        return known->second = glm::dvec2(blue, green) / full;
+    }
+
+private:
+    void inspect(const Image& image) {
+        std::vector<std::uint8_t> held;
+        formats_.push_back(inspect_image(image_bytes(document_, image, inspected_bytes, held)));
+        // What a data uri says of itself must be true; files and views are known by their bytes.
+        for (const std::string& type : image.types) {
+            require(!contradicts(type, formats_.back()), "calls its data ", printable(type),
+                    ", but they are a ", formats_.back() == ImageFormat::png ? "PNG" : "JPEG");
+        }
+    }
+
+    bool is_readable(int image) {
+        if (image >= 0 && formats_[image] != ImageFormat::unsupported) return true;
+        document_.warnings.add("a texture in a format that is not read is taken as white");
+        return false;
+    }
+
+    // Takes the texels from a budget, so that a thousand images of one small file stay bounded.
+    Pixels decode(std::size_t image, std::size_t& budget) {
+        const char* shared = budget < most_texels_ ? " (with those before it)" : "";
+        return of_entry("images", image, [&] {
+            std::vector<std::uint8_t> held;
+            const Bytes bytes =
+                image_bytes(document_, document_.images[image], most_encoded - encoded_, held);
+            encoded_ += bytes.size();
+            require(encoded_ < most_encoded, "is too large with those before it");
+            try {
+                Pixels pixels = decode_image(bytes, budget);
+                budget -= pixels.rgba.size() / 4;
+                return pixels;
+            } catch (const InputError& error) {
+                fail(error.what(), shared);
+            }
+        });
+    }
+
+    Document& document_;
+    Scene& scene_;
+    std::size_t most_texels_;
+    std::size_t texels_left_;
+    std::size_t averaged_left_;
+    std::size_t encoded_ = 0;           // bytes
+    std::vector<ImageFormat> formats_;  // of every image
+    std::map<std::tuple<int, Wrap, Wrap, bool>, int> loaded_;
+    std::map<int, glm::dvec2> means_;
+};
+
+// What an object of an extension says; the fallback where it says nothing.
+double number_in(const Value& object, const char* key, double fallback) {
+    return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
+}
+
+glm::dvec2 pair_in(const Value& object, const char* key, double fallback) {
+    if (!object.Has(key)) return glm::dvec2(fallback);
+    const Value& pair = object.Get(key);
+    return {pair.Get(0).GetNumberAsDouble(), pair.Get(1).GetNumberAsDouble()};
+}
+
+// KHR_texture_transform: scale, then turn counter-clockwise as seen with v pointing down, then
+// shift.
+glm::mat3 uv_transform(const Value& transform) {
+    const glm::dvec2 offset = pair_in(transform, "offset", 0.0);
+    const glm::dvec2 scale = pair_in(transform, "scale", 1.0);
+    const double angle = number_in(transform, "rotation", 0.0);
+    for (const glm::dvec2& pair : {offset, scale}) {
+        require(std::max(std::abs(pair.x), std::abs(pair.y)) <= 1e9,
+                "has a texture that is shifted or scaled by more than 1e9");
+    }
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    return glm::mat3(glm::dmat3(c * scale.x, -s * scale.x, 0.0,  // first column
+                                s * scale.y, c * scale.y, 0.0,   // second
+                                offset.x, offset.y, 1.0));
+}
+
+TextureSlot read_slot(const tinygltf::TextureInfo& info, Warnings& warnings) {
+    TextureSlot slot;
+    if (info.index < 0) return slot;
+    slot.texture = info.index;
+    slot.uv_set = info.texCoord;
+    if (const Value* transform = extension(info.extensions, "KHR_texture_transform")) {
+        slot.transform = uv_transform(*transform);
+        if (transform->Has("texCoord")) slot.uv_set = index_in(*transform, "texCoord");
+    }
+    if (slot.uv_set <= 1) return slot;
+    warnings.add("a texture on TEXCOORD_2 or above is ignored");
+    return {};
+}
+
+// Its slots name textures of the model.
+Material read_material(const tinygltf::Material& source, const std::string& name,
+                       Warnings& warnings) {
+    // What leaves the range of the specification is mended, not refused.
+    const auto clamped = [&](double number, double most, const std::string& warning) {
+        if (number < 0.0 || number > most) warnings.add(warning);
+        return std::clamp(number, 0.0, most);
+    };
+    const auto unit = [&](double number) {
+        const char* warning = "a material factor outside 0..1 is clamped, first in ";
+        return static_cast<float>(clamped(number, 1.0, warning + name));
+    };
+    const tinygltf::PbrMetallicRoughness& metal_rough = source.pbrMetallicRoughness;
+    Material material;
+    material.name = short_name(source.name);
+    for (int i = 0; i < 4; ++i) material.base_color[i] = unit(metal_rough.baseColorFactor[i]);
+    material.metallic = unit(metal_rough.metallicFactor);
+    material.roughness = unit(metal_rough.roughnessFactor);
+    material.base_texture = read_slot(metal_rough.baseColorTexture, warnings);
+    const Value* emissive = extension(source.extensions, "KHR_materials_emissive_strength");
+    double strength = 1.0;
+    if (emissive && source.emissiveFactor != std::vector<double>(3, 0.0)) {
+        strength = clamped(number_in(*emissive, "emissiveStrength", 1.0), 1e30,
+                           "an emissive strength outside 0..1e30 is clamped");
+    }
+    for (int i = 0; i < 3; ++i) {
+        material.emission[i] = static_cast<float>(unit(source.emissiveFactor[i]) * strength);
+    }
+    material.emission_texture = read_slot(source.emissiveTexture, warnings);
+    if (source.alphaMode != "OPAQUE") material.alpha_mode = AlphaMode::mask;
+    if (source.alphaMode == "MASK") {
+        material.alpha_cutoff = static_cast<float>(std::clamp(source.alphaCutoff, 0.0, 1e6));
+    } else if (source.alphaMode == "BLEND") {
+        warnings.add("a blended material is cut out where its alpha is below 0.5");
+    }
+    material.double_sided = source.doubleSided;
+    if (extension(source.extensions, "KHR_materials_unlit")) {
+        warnings.add("an unlit material is lit like any other");
+    }
+    return material;
+}
+
+}  // namespace
+
+void load_materials(Document& document, const GltfOptions& options, Scene& scene) {
+    TextureLoader textures(document, options, scene);
+    for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
+        const tinygltf::Material& source = document.model.materials[i];
+        const std::string name = entry("materials", i);
+        Material material = of_entry(
+            "materials", i, [&] { return read_material(source, name, document.warnings); });
+        material.base_texture.texture = textures.load(material.base_texture.texture);
+        // A texture that is multiplied by black need not be there.
+        const bool dark = material.emission == glm::vec3(0.0f);
+        material.emission_texture.texture =
+            dark ? -1 : textures.load(material.emission_texture.texture);
+        const TextureSlot metal_rough = of_entry("materials", i, [&] {
+            return read_slot(source.pbrMetallicRoughness.metallicRoughnessTexture,
+                             document.warnings);
+        });
+        const glm::vec2 mean(textures.mean_metal_rough(metal_rough.texture));
+        material.metallic *= mean.x;
+        material.roughness *= mean.y;
+        scene.materials.push_back(std::move(material));
+    }
+}
+
+}  // namespace clgi::io::gltf
