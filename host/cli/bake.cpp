@@ -162,7 +162,12 @@ void add_method_flags(CLI::App& command, BakeFlags& flags) {
         ->check(CLI::Range(1, 1 << 20));
     command
         .add_option("--samples-per-vpl", flags.vpls.samples_per_vpl,
-                    "Sample points that tell how much of a VPL's surface is lit, on average")
+                    "Sample points of a VPL that receive direct light and send it on near by")
+        ->type_name("N")
+        ->check(CLI::Range(1, 4096));
+    command
+        .add_option("--exchange-samples", flags.bake.exchange_samples,
+                    "Those of them that tell how much of a VPL another one sees")
         ->type_name("N")
         ->check(CLI::Range(1, 4096));
     command

@@ -31,6 +31,14 @@ std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
     return out;
 }
 
+// The k-th of `count` neighbours in an order whose beginnings are spread over all of them: steps of
+// the golden section, or of the next number that has no divisor in common with the count.
+std::uint32_t spread_out(std::uint32_t k, std::uint32_t count) {
+    auto step = std::max(static_cast<std::uint32_t>(0.618034 * count), 1u);
+    while (std::gcd(step, count) != 1) ++step;
+    return static_cast<std::uint32_t>(std::uint64_t{k} * step % count);
+}
+
 std::uint32_t device_triangle(const std::vector<std::uint32_t>& of, std::uint32_t triangle) {
     if (triangle >= of.size())
         throw Error("light-atlas: a layout names triangle " + std::to_string(triangle) +
@@ -83,8 +91,12 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
     const double scale = scene.frame().scale;
     std::vector<SurfaceSample> list;
     const float spacing = static_cast<float>(layout.sample_area * scale * scale);
-    for (const SamplePoint& point : layout.samples)
-        list.push_back({device_triangle(device, point.triangle), point.b1, point.b2, spacing});
+    for (const VplSite& site : layout.vpls)
+        for (std::uint32_t k = 0; k < site.sample_count; ++k) {
+            const SamplePoint& point =
+                layout.samples[site.first_sample + spread_out(k, site.sample_count)];
+            list.push_back({device_triangle(device, point.triangle), point.b1, point.b2, spacing});
+        }
     std::vector<std::uint32_t> order(layout.vpls.size());
     std::iota(order.begin(), order.end(), 0u);
     row_scale = 0.0f;
@@ -163,7 +175,8 @@ void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count
     hemicubes(first, count, options.exchange_size, Pixels::visibility);
     const TransportParams params{first, count, b.kept ? 1u : 0u, b.sites.site_count,
                                  b.sites.stride, b.sites.sample_stride,
-                                 static_cast<std::uint32_t>(options.exchange_size), row_scale, 2};
+                                 static_cast<std::uint32_t>(options.exchange_size), row_scale, 2,
+                                 options.exchange_samples, 0, 0, 0};
     record("vpl.transport", std::size_t{count} * b.sites.sample_count, [&](const WaitList& wait) {
         return vpl.transport(queue, params, b.sites, b.views, b.pixels, b.rows, wait);
     });

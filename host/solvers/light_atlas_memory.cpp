@@ -12,6 +12,7 @@ namespace clgi::light_atlas {
 
 void check(const LightAtlasOptions& options) {
     need_range<double>("light-atlas", "bounces", options.bounces, 0, 1000);
+    need_range<double>("light-atlas", "exchange_samples", options.exchange_samples, 1, 4096);
     need_range<double>("light-atlas", "threshold", options.threshold, 1e-7, 1);
     for (const auto& [name, size] : {std::pair{"exchange_size", options.exchange_size},
                                      std::pair{"filling_size", options.filling_size}}) {
