@@ -41,7 +41,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
     b.texels.stride = b.texel_stride;
     // Maps of a batch should stay in a core's cache, and every core have views to draw.
     b.exchange_batch = 16;
-    b.filling_batch = 4;
+    b.filling_batch = 8;
 
     BufferTable t("light-atlas");
     emitters.add_to(t);
