@@ -125,9 +125,9 @@ void LightAtlasSolver::State::place() {
 }
 
 void LightAtlasSolver::State::light_points(const GBuffer& points, std::uint32_t count,
-                                           const cl::Buffer& irradiance) {
+                                           const cl::Buffer& irradiance, bool add) {
     const auto number = static_cast<std::uint32_t>(emitters.set().emitters.size());
-    const DirectParams params{points.stride, count, number, 1.0f, 1, 0, 0, 0};
+    const DirectParams params{points.stride, count, number, 1.0f, 1, add ? 1u : 0u, 0, 0};
     record("lights.direct", count, [&](const WaitList& wait) {
         return lights.direct(queue, params, emitters.buffers(), points.planes, irradiance,
                              b.non_finite, wait);
@@ -137,7 +137,7 @@ void LightAtlasSolver::State::light_points(const GBuffer& points, std::uint32_t 
 // Shadow-mapped direct light of every kind at the VPLs. [section 3.2]
 void LightAtlasSolver::State::receive_direct() {
     emitters.draw(record, gbuffer, b.lists);
-    light_points(b.samples, b.sites.sample_count, b.sample_irradiance);
+    light_points(b.samples, b.sites.sample_count, b.sample_irradiance, false);
     record("vpl.receive", b.sites.site_count, [&](const WaitList& wait) {
         return vpl.receive(queue, b.sites, b.sample_irradiance, wait);
     });
@@ -294,6 +294,7 @@ void LightAtlasSolver::State::fill() {
     record("atlas.complete", b.texel_count, [&](const WaitList& wait) {
         return atlas.complete(queue, all, b.reach, b.filled, b.irradiance, b.non_finite, wait);
     });
+    if (options.direct) light_points(b.texels, b.texel_count, b.irradiance, true);
 }
 
 bool LightAtlasSolver::State::run(const Progress& progress) {

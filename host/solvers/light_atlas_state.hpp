@@ -48,7 +48,8 @@ struct LightAtlasSolver::State {
     void upload(const VplLayout& vpls, const AtlasLayout& atlas);
     void place();
     void receive_direct();
-    void light_points(const GBuffer& points, std::uint32_t count, const cl::Buffer& irradiance);
+    void light_points(const GBuffer& points, std::uint32_t count, const cl::Buffer& irradiance,
+                      bool add);
     void hemicubes(std::uint32_t first, std::uint32_t count, int size, Pixels kind);
     void transport(std::uint32_t first, std::uint32_t count);
     void keep_transport();
