@@ -16,6 +16,7 @@ namespace {
 constexpr int balance_steps = 6;       // half-steps of both kinds; the factors differ by 1e-3 then
 constexpr std::uint32_t chunk = 32;    // shots between two looks at what is left
 constexpr std::uint32_t most_bounces = 10000;
+constexpr std::uint32_t one_bits = 0x3f800000;  // 1.0f
 
 LightAtlasOptions checked(LightAtlasOptions options, const DeviceScene& scene) {
     check(options);
@@ -115,8 +116,6 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
     for (const AtlasTexel& texel : texels.texels)
         list.push_back({device_triangle(device, texel.triangle), texel.b1, texel.b2, 0.0f});
     record.write(b.texel_list, list.data(), list.size() * sizeof(SurfaceSample));
-    const std::vector<float> ones(2 * b.sites.stride, 1.0f);
-    record.write(b.sites.balance, ones.data(), ones.size() * sizeof(float));
 }
 
 // Where samples, VPLs and texels are, and what they reflect. [section 3.1]
@@ -133,13 +132,13 @@ void LightAtlasSolver::State::place() {
         return gbuffer.surface(queue, scene, {b.texel_count, b.texels.stride, 0, 0}, b.texel_list,
                                b.texels, {}, wait);
     });
-    placed = true;
+    placed = !record.cancelled();
 }
 
 void LightAtlasSolver::State::light_points(const GBuffer& points, std::uint32_t count,
-                                           const cl::Buffer& irradiance) {
+                                           const cl::Buffer& irradiance, bool add) {
     const auto number = static_cast<std::uint32_t>(emitters.set().emitters.size());
-    const DirectParams params{points.stride, count, number, 1.0f, 1, 0, 0, 0};
+    const DirectParams params{points.stride, count, number, 1.0f, 1, add ? 1u : 0u, 0, 0};
     record("lights.direct", count, [&](const WaitList& wait) {
         return lights.direct(queue, params, emitters.buffers(), points.planes, irradiance,
                              b.non_finite, wait);
@@ -149,7 +148,7 @@ void LightAtlasSolver::State::light_points(const GBuffer& points, std::uint32_t 
 // Shadow-mapped direct light of every kind at the VPLs. [section 3.2]
 void LightAtlasSolver::State::receive_direct() {
     emitters.draw(record, gbuffer, b.lists);
-    light_points(b.samples, b.sites.sample_count, b.sample_irradiance);
+    light_points(b.samples, b.sites.sample_count, b.sample_irradiance, false);
     record("vpl.receive", b.sites.site_count, [&](const WaitList& wait) {
         return vpl.receive(queue, b.sites, b.sample_irradiance, wait);
     });
@@ -190,14 +189,16 @@ ShootParams LightAtlasSolver::State::shoot_params(std::uint32_t first, std::uint
             1.0f / row_scale, SHOOT_ALL, threshold};
 }
 
-void LightAtlasSolver::State::keep_transport() {
+// Transport of all VPLs, or, where it is not kept, what they reach and their factors alone.
+void LightAtlasSolver::State::measure_transport() {
     const std::uint32_t n = b.sites.site_count;
     for (std::uint32_t first = 0; first < n && !record.cancelled(); first += b.exchange_batch) {
         transport(first, std::min(b.exchange_batch, n - first));
+        if (!b.kept) balance_shooters(first, std::min(b.exchange_batch, n - first));
         if (first % (16 * b.exchange_batch) == 0) record.report(0.05 + 0.3 * first / n);
     }
-    balance();
-    transported = !record.cancelled();
+    if (b.kept) balance();
+    measured = !record.cancelled();
 }
 
 void LightAtlasSolver::State::balance() {
@@ -206,10 +207,14 @@ void LightAtlasSolver::State::balance() {
         record("vpl.balance_receivers", n, [&](const WaitList& wait) {
             return vpl.balance_receivers(queue, shoot_params(0, n), b.sites, b.rows, wait);
         });
-        record("vpl.balance_shooters", n, [&](const WaitList& wait) {
-            return vpl.balance_shooters(queue, shoot_params(0, n), b.sites, b.rows, wait);
-        });
+        balance_shooters(0, n);
     }
+}
+
+void LightAtlasSolver::State::balance_shooters(std::uint32_t first, std::uint32_t count) {
+    record("vpl.balance_shooters", count, [&](const WaitList& wait) {
+        return vpl.balance_shooters(queue, shoot_params(first, count), b.sites, b.rows, wait);
+    });
 }
 
 // Light of a batch of shooters arrives. Rows that are not kept are made, and balanced by their
@@ -218,9 +223,7 @@ void LightAtlasSolver::State::shoot(std::uint32_t first, std::uint32_t count) {
     const ShootParams params = shoot_params(first, count);
     if (!b.kept) {
         transport(first, count);
-        record("vpl.balance_shooters", count, [&](const WaitList& wait) {
-            return vpl.balance_shooters(queue, params, b.sites, b.rows, wait);
-        });
+        balance_shooters(first, count);
     }
     record("vpl.shoot", std::size_t{count} * b.sites.site_count, [&](const WaitList& wait) {
         return vpl.shoot(queue, params, b.sites, b.rows, b.non_finite, wait);
@@ -265,6 +268,7 @@ void LightAtlasSolver::State::shoot_strongest() {
     const std::uint32_t n = b.sites.site_count;
     ShootParams params = shoot_params(n, 1);
     params.mode = SHOOT_STRONGEST;
+    record.fill(b.sites.power, 0);  // so the first shot is none, and finds out all powers
     for (std::uint32_t k = 0; k < most_bounces * 8 && !record.cancelled(); ++k) {
         for (std::uint32_t i = 0; i < chunk; ++i) {
             record("parallel.arg_max", n, [&](const WaitList& wait) {
@@ -307,14 +311,20 @@ void LightAtlasSolver::State::fill() {
     record("atlas.complete", b.texel_count, [&](const WaitList& wait) {
         return atlas.complete(queue, all, b.reach, b.filled, b.irradiance, b.non_finite, wait);
     });
+    if (options.direct) light_points(b.texels, b.texel_count, b.irradiance, true);
 }
 
 bool LightAtlasSolver::State::run(const Progress& progress) {
     record.begin({}, progress);
+    record.fill(b.non_finite, 0);
     record.report(0.0);
     if (!placed) place();
     receive_direct();
-    if (b.kept && !transported) keep_transport();
+    // Factors begin with 1, also after a bake that was cancelled half-way.
+    if (!measured) record.fill(b.sites.balance, one_bits);
+    // Bounces of all VPLs make what is not kept anyway.
+    const bool all_shoot = options.bounces == 0 ? !options.one_at_a_time : options.bounces > 1;
+    if (!measured && (b.kept || !all_shoot)) measure_transport();
     direct.resize(3 * std::size_t{b.sites.stride});
     record.wait();
     queue.enqueueReadBuffer(b.sites.light, CL_TRUE, 0, direct.size() * sizeof(float),
