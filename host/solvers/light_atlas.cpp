@@ -175,7 +175,7 @@ void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count
     const TransportParams params{first, count, b.kept ? 1u : 0u, b.sites.site_count,
                                  b.sites.stride, b.sites.sample_stride,
                                  static_cast<std::uint32_t>(options.exchange_size), row_scale, 2,
-                                 options.exchange_samples, 0, 0, 0};
+                                 options.exchange_samples, 0, 0};
     record("vpl.transport", std::size_t{count} * b.sites.sample_count, [&](const WaitList& wait) {
         return vpl.transport(queue, params, b.sites, b.views, b.pixels, b.rows, wait);
     });

@@ -57,7 +57,6 @@ typedef struct {
     uint most_samples;   // of a receiver, the first of its own, that are looked at
     uint pad0_;
     uint pad1_;
-    uint pad2_;
 } TransportParams;
 
 typedef struct {
