@@ -52,12 +52,15 @@ struct LightAtlasSolver::State {
     void hemicubes(std::uint32_t first, std::uint32_t count, int size, Pixels kind);
     void transport(std::uint32_t first, std::uint32_t count);
     void keep_transport();
+    void balance_evenly();
     void balance();
     void shoot(std::uint32_t first, std::uint32_t count);
     void bounce();
     void bounce_to_threshold();
     void shoot_strongest();
+    void exchange();
     void fill();
+    void put_back();
     ShootParams shoot_params(std::uint32_t first, std::uint32_t count) const;
     double unshot_power() const;    // exposed
     float strongest_power();        // exposed; waits
@@ -80,7 +83,9 @@ struct LightAtlasSolver::State {
     float threshold = 0.0f;     // exposed lumen
     std::uint32_t shots = 0;
     std::size_t bytes = 0;
-    bool placed = false, transported = false;
+    bool placed = false, transported = false, ended = false;
+    std::uint32_t filled_vpls = 0;  // that have lit the texels in this run
+    std::optional<LightAtlasState> restored;
     std::vector<Site> sites;
     std::vector<float> direct;  // irradiance of the sites by direct light, [3][stride]
 };
