@@ -49,7 +49,6 @@ Filled gather(const test::Sites& sites, const std::vector<SurfacePlace>& texels,
 struct Crowd {
     std::vector<SitePlace> places;
     std::vector<glm::vec3> received;
-    std::vector<float> factors;
     std::vector<SurfacePlace> texels;
     std::vector<cl_uint> order;
     Crowd() {
@@ -70,7 +69,6 @@ struct Crowd {
             }
             places.push_back(site);
             received.push_back(glm::vec3(random(0, 9), random(0, 9), random(0, 9)));
-            factors.push_back(static_cast<float>(random(0.5, 2)));
             order.push_back(static_cast<cl_uint>((i * 5 + 2) % 23));
         }
         for (int i = 0; i < 197; ++i) {
@@ -81,8 +79,9 @@ struct Crowd {
     }
     test::Sites sites() const {
         test::Sites out(places, order, received);
-        out.balance(BALANCE_SHOOTER, factors);
-        out.balance(BALANCE_RECEIVER, std::vector<float>(23, nan));  // has no part in it
+        // Factors have no part in it.
+        out.balance(BALANCE_SHOOTER, std::vector<float>(23, nan));
+        out.balance(BALANCE_RECEIVER, std::vector<float>(23, nan));
         return out;
     }
 };
@@ -111,7 +110,7 @@ TEST_P(Gather, AddsWhatEveryVplSendsInEveryChannel) {
                 const test::Exchanged e =
                     test::exchange(site, glm::dvec3(texel.position), glm::dvec3(texel.normal));
                 doubtful |= e.doubtful;
-                const double share = double{crowd.factors[i]} * site.area / test::pi;
+                const double share = site.area / test::pi;
                 filled += share * e.factor;
                 filled_condition += share * e.condition;
                 const glm::dvec3 radiosity =

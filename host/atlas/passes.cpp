@@ -13,16 +13,18 @@ constexpr std::size_t word = sizeof(float);
 
 }  // namespace
 
-AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options) {
+AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
+    : storage_(options.storage) {
     BuildOptions full = options;
     full.storage = Storage::full;
     gather_ = programs.kernel("atlas", "gather", full);
     nearest_ = programs.kernel("atlas", "nearest", full);
     complete_ = programs.kernel("atlas", "complete", full);
+    show_ = programs.kernel("atlas", "show", options);
 }
 
 void AtlasPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({gather_, nearest_, complete_}, passes);
+    build_named({gather_, nearest_, complete_, show_}, passes);
 }
 
 cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& params,
@@ -70,6 +72,31 @@ cl::Event AtlasPasses::complete(const cl::CommandQueue& queue, const FillParams&
     need(complete_, "non_finite", non_finite, word);
     return launch(complete_, queue, packets(complete_, params.texel_count - params.first_texel),
                   wait, params, reach, filled, irradiance, non_finite);
+}
+
+cl::Event AtlasPasses::show(const cl::CommandQueue& queue, const ShowParams& params,
+                            const DeviceScene& scene, const GBuffer& points, const AtlasMap& map,
+                            const cl::Buffer& light, const cl::Buffer& irradiance,
+                            const WaitList& wait) const {
+    const std::size_t triangles = params.triangle_count;
+    need_stride(show_, "stride", params.stride, params.point_count);
+    if (triangles > scene.info().triangle_count)
+        throw Error(show_.name + ": triangle_count is " + std::to_string(triangles) +
+                    ", the scene has " + std::to_string(scene.info().triangle_count));
+    if (params.texel_stride < params.texel_count)
+        throw Error(show_.name + ": texel_stride is " + std::to_string(params.texel_stride) +
+                    ", at least " + std::to_string(params.texel_count) + " needed");
+    need(show_, "planes", points.planes, gbuffer_bytes(storage_, params.stride));
+    need(show_, "ids", points.ids, GBUFFER_ID_PLANES * word * params.stride);
+    need(show_, "corners", map.corners, 3 * triangles * 2 * word);
+    need(show_, "charts", map.charts, triangles * 2 * word);
+    need(show_, "map", map.map, std::size_t{params.pages} * params.size * params.size * word);
+    need(show_, "chart_of", map.chart_of, params.texel_count * word);
+    need(show_, "light", light, 3 * word * params.texel_stride);
+    need(show_, "irradiance", irradiance, irradiance_bytes(storage_, params.stride));
+    return launch(show_, queue, params.point_count, wait, params, scene.triangles(),
+                  scene.positions(), points.planes, points.ids, map.corners, map.charts, map.map,
+                  map.chart_of, light, irradiance);
 }
 
 }  // namespace clgi

@@ -6,17 +6,19 @@
 #include <chrono>
 #include <clgi/clgi.hpp>
 #include <clgi/io/gltf.hpp>
+#include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
+#include "cli/bake_room.hpp"
+#include "cli/bake_stats.hpp"
 #include "cli/commands.hpp"
 #include "cli/percent.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
 #include "cli/version.hpp"
-#include "io/atomic_file.hpp"
+#include "report/bake_state.hpp"
 #include "report/baked_atlas.hpp"
-#include "report/timing.hpp"
+#include "report/reference_picture.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -40,14 +42,8 @@ struct BakeFlags {
     bool dilate = false;
     std::string gltf;
     std::string stats;
+    std::string resume;
     int scene_index = -1;
-};
-
-// Seconds of the stages of a bake.
-struct BakeTimes {
-    double layout = 0.0;  // patches, VPLs, charts, texels; on the host
-    double build = 0.0;   // kernels and buffers
-    double bake = 0.0;
 };
 
 AtlasUvs uvs_of(const std::string& text) {
@@ -56,55 +52,44 @@ AtlasUvs uvs_of(const std::string& text) {
     return text == "charts" ? AtlasUvs::charts : AtlasUvs::automatic;
 }
 
-// Seconds on the device by pass, in the order in which they first ran.
-nlohmann::ordered_json passes_json(const std::vector<PassEvent>& events) {
-    std::vector<std::pair<std::string, double>> sums;
-    for (const PassEvent& pass : events) {
-        auto at = std::find_if(sums.begin(), sums.end(),
-                               [&](const auto& sum) { return sum.first == pass.name; });
-        if (at == sums.end()) at = sums.insert(sums.end(), {pass.name, 0.0});
-        at->second += 1e-3 * interval({pass.event}).milliseconds();
-    }
-    nlohmann::ordered_json out = nlohmann::ordered_json::array();
-    for (const auto& [name, seconds] : sums) out.push_back({{"name", name}, {"seconds", seconds}});
-    return out;
+// All that the bits of a bake depend on.
+std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device& device) {
+    const LightAtlasOptions& bake = flags.bake;
+    const EmitterOptions& emitters = bake.emitters;
+    return fmt::format("{} {} {} | {} {} | {} {} {} {} {} | {} {} {} {} {} {} | {} {} {} {}",
+                       CLGI_VERSION, report::scene_key(scene), describe(device), flags.vpls.count,
+                       flags.vpls.samples_per_vpl, flags.atlas.size, flags.uvs, flags.atlas.padding,
+                       flags.atlas.texels_per_metre, flags.atlas.most_pages, bake.bounces,
+                       bake.threshold, bake.one_at_a_time, bake.exchange_size, bake.filling_size,
+                       bake.direct, emitters.shadow_size, emitters.face_size, emitters.area_samples,
+                       emitters.environment_lights) +
+           build_flags(flags.device);
 }
 
-void save_bake_stats(const BakeFlags& flags, const Scene& scene, const Patches& patches,
-                     const VplLayout& vpls, const AtlasLayout& atlas,
-                     const LightAtlasSolver& solver, const BakeTimes& times) {
-    const LightAtlasStatus status = solver.status();
-    const nlohmann::ordered_json json = {
-        {"clgi", CLGI_VERSION},
-        {"method", "atlas"},
-        {"scene", {{"triangles", scene.triangles.size()}, {"lights", scene.lights.size()}}},
-        {"vpls", vpls.vpls.size()},
-        {"sample_points", vpls.samples.size()},
-        {"patches", patches.patches.size()},
-        {"skipped_area", patches.skipped_area},
-        {"texels", atlas.texels.size()},
-        {"texels_skipped_area", atlas.skipped_area},
-        {"pages", atlas.pages},
-        {"charts", atlas.charts.size()},
-        {"shots", status.shots},
-        {"transport_kept", status.transport_kept},
-        {"power",
-         {{"direct", status.power_direct},
-          {"shot", status.power_shot},
-          {"received", status.power_received},
-          {"lost", status.power_lost},
-          {"left", status.power_left}}},
-        {"seconds",
-         {{"layout", times.layout}, {"build", times.build}, {"bake", times.bake}}},
-        {"passes", passes_json(solver.events())},
-        {"memory_mb", static_cast<double>(solver.bytes()) / 1e6},
-        {"non_finite", status.non_finite},
-        {"warnings", scene.warnings}};
-    io::AtomicFile file(flags.stats);
-    const std::string text =
-        json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
-    file.write(text.data(), text.size());
-    file.commit();
+// Bakes from the start, or from where the file says. Keeps in the file what Ctrl-C cut short, and
+// deletes it once the bake is done. Returns how many VPLs had lit the texels before.
+std::uint32_t run_to_the_end(const BakeFlags& flags, const std::string& key,
+                             LightAtlasSolver& solver) {
+    std::uint32_t begin = 0;
+    std::error_code ignored;
+    if (!flags.resume.empty() && std::filesystem::exists(flags.resume, ignored)) {
+        const LightAtlasState state = report::load_bake_state(flags.resume, key);
+        solver.restore(state);
+        begin = state.filled_vpls;
+        notice(flags.device.quiet, fmt::format("the bake goes on after VPL {} of {}",
+                                               state.filled_vpls, state.vpls));
+    }
+    catch_interrupts();
+    if (solver.run(progress_bar("bake", flags.device.quiet))) return begin;
+    if (flags.resume.empty()) throw Interrupted();
+    if (const auto state = solver.state()) {
+        report::save_bake_state(*state, key, flags.resume);
+        notice(flags.device.quiet, fmt::format("{} keeps the first {} of {} VPLs", flags.resume,
+                                               state->filled_vpls, state->vpls));
+    } else {
+        notice(flags.device.quiet, "nothing to keep: no texel was lit yet");
+    }
+    throw Interrupted();
 }
 
 void run_bake(BakeFlags flags) {
@@ -115,45 +100,52 @@ void run_bake(BakeFlags flags) {
         flags.bake.threshold =
             static_cast<float>(parse_percent("bake", "--threshold", flags.threshold));
     flags.atlas.uvs = uvs_of(flags.uvs);
+    flags.bake.build = build_of(flags.device);
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet,
                              true);
-    BakeTimes times;
+    const Session session = open_session(flags.device);
+    need_room("bake", session.device, flags.vpls);
+
     auto start = Clock::now();
     const Patches patches = make_patches(scene);
     const VplLayout vpls = place_vpls(scene, patches, flags.vpls);
     const AtlasLayout atlas = make_atlas(scene, patches.triangle_patch, flags.atlas);
-    times.layout = seconds_since(start);
+    const double layout_seconds = seconds_since(start);
     for (const std::string& warning : atlas.warnings) {
         notice(flags.device.quiet, "warning: " + warning);
         scene.warnings.push_back(warning);
     }
-    const Session session = open_session(flags.device);
     start = Clock::now();
-    flags.bake.build = build_of(flags.device);
     const DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
     LightAtlasSolver solver(programs, session.queue, device_scene, vpls, atlas, flags.bake);
-    times.build = seconds_since(start);
-    catch_interrupts();
-    const auto bar = progress_bar("bake", flags.device.quiet);
+    const double build_seconds = seconds_since(start);
     start = Clock::now();
-    if (!solver.run(bar)) throw Interrupted();
-    times.bake = seconds_since(start);
-    const std::vector<glm::vec3> irradiance = solver.irradiance();
-    const LightAtlasStatus status = solver.status();
+    const std::string key = flags.resume.empty() ? "" : key_of(flags, scene, session.device);
+    const std::uint32_t resumed_at = run_to_the_end(flags, key, solver);
+    const double bake_seconds = seconds_since(start);
+
     const std::string effects = flags.bake.direct ? "direct,indirect" : "indirect";
     if (!flags.picture.exr.empty() || !flags.picture.png.empty())
-        save_picture(report::baked_image(atlas, irradiance, effects, flags.dilate), flags.picture);
+        save_picture(report::baked_image(atlas, solver.irradiance(), effects, flags.dilate),
+                     flags.picture);
     if (!flags.gltf.empty()) io::save_glb(with_atlas_uvs(scene, atlas), flags.gltf);
-    if (status.non_finite > 0)
-        notice(false, fmt::format("warning: {} packets held numbers that are not finite",
-                                  status.non_finite));
-    if (!flags.device.quiet)
-        fmt::print("{}: {} texels lit by {} VPLs, {:.2f} s\n",
-                   flags.picture.exr.empty() ? flags.picture.png : flags.picture.exr,
-                   atlas.texels.size(), vpls.vpls.size(), times.layout + times.bake);
     if (!flags.stats.empty())
-        save_bake_stats(flags, scene, patches, vpls, atlas, solver, times);
+        save_bake_stats({scene, patches, vpls, atlas, solver, layout_seconds, build_seconds,
+                         bake_seconds, resumed_at},
+                        flags.stats);
+    if (!flags.resume.empty()) {
+        std::error_code ignored;
+        std::filesystem::remove(flags.resume, ignored);
+    }
+    if (const std::uint32_t packets = solver.status().non_finite)
+        notice(false, fmt::format("warning: {} packets held numbers that are not finite", packets));
+    if (flags.device.quiet) return;
+    std::string files;
+    for (const std::string& file : {flags.picture.exr, flags.picture.png, flags.gltf})
+        if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
+    fmt::print("{}: {} texels lit by {} VPLs, {:.2f} s\n", files, atlas.texels.size(),
+               vpls.vpls.size(), layout_seconds + bake_seconds);
 }
 
 void add_method_flags(CLI::App& command, BakeFlags& flags) {
@@ -266,6 +258,12 @@ void add_bake(CLI::App& app) {
         ->type_name("N")
         ->default_str("the file's");
     command->add_option("--stats", flags->stats, "JSON file with VPLs, power and time")
+        ->type_name("FILE")
+        ->default_str("none");
+    command
+        ->add_option("--resume", flags->resume,
+                     "File that keeps a bake cut short by Ctrl-C; if it exists, the bake goes on "
+                     "from there")
         ->type_name("FILE")
         ->default_str("none");
     command->callback([flags] { run_bake(*flags); });

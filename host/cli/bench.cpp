@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 #include <clgi/io/gltf.hpp>
 #include <clgi/procedural.hpp>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +14,7 @@
 #include "cli/session.hpp"
 #include "report/bench.hpp"
 #include "report/bench_layer.hpp"
+#include "report/bench_schaerfig.hpp"
 #include "report/bench_views.hpp"
 
 namespace clgi::cli {
@@ -22,6 +25,7 @@ struct BenchFlags {
     std::string table;
     std::string mesh;
     std::vector<std::string> scenes;
+    std::uint32_t most_vpls = 1600;
     int repeats = 30;
     bool json = false;
 };
@@ -133,8 +137,70 @@ void run_views(const BenchFlags& flags, const Session& session) {
                    100.0 * row.roof_share);
 }
 
+// A file of the Sponza palace by its name, whatever its letters; else the name itself.
+std::string scene_name(const std::string& file) {
+    std::string name = std::filesystem::path(file).stem().string();
+    std::string lower = name;
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower.find("sponza") != std::string::npos ? "sponza" : name;
+}
+
+nlohmann::ordered_json schaerfig_json(const report::SchaerfigTable& table) {
+    const auto number = [](const std::optional<double>& value) {
+        return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+    };
+    nlohmann::ordered_json out = {{"table", "schaerfig1"},
+                                  {"device", table.device},
+                                  {"peak_gflops", table.peak_gflops},
+                                  {"rows", nlohmann::ordered_json::array()}};
+    for (const report::SchaerfigRow& row : table.rows)
+        out["rows"].push_back({{"name", row.name},
+                               {"paper", number(row.paper)},
+                               {"clgi", row.clgi},
+                               {"ratio", number(row.ratio)},
+                               {"error", nullptr},
+                               {"unit", "s"},
+                               {"filling", row.filling},
+                               {"vpls", row.vpls},
+                               {"texels", row.texels},
+                               {"layout", row.layout}});
+    return out;
+}
+
+void run_schaerfig(const BenchFlags& flags, const Session& session) {
+    catch_interrupts();
+    const auto bar = progress_bar(flags.table, flags.device.quiet);
+    std::vector<std::pair<std::string, Scene>> scenes = {{"corridor", corridor()},
+                                                         {"cornell", cornell()}};
+    for (const std::string& file : flags.scenes)
+        scenes.emplace_back(scene_name(file), open_scene(file, -1, {}, flags.device.quiet, true));
+    report::SchaerfigSetup setup;
+    setup.queue = session.queue;
+    setup.build = build_of(flags.device);
+    setup.most_vpls = flags.most_vpls;
+    setup.progress = [&](double done) {
+        if (!bar(done)) throw Interrupted();
+        return true;
+    };
+    const report::SchaerfigTable table = report::bench_schaerfig1(setup, scenes);
+    bar(1.0);
+    if (flags.json) {
+        fmt::print("{}\n", schaerfig_json(table).dump(2));
+        return;
+    }
+    fmt::print("schaerfig1 on {}\n{}x{} texels, five bounces, peak {:.0f} GFLOP/s\n\n", table.device,
+               setup.atlas_size, setup.atlas_size, table.peak_gflops);
+    fmt::print("{:<24}{:<10}{:>10}{:>10}{:>9}{:>12}\n", "row", "filling", "paper s", "clgi s",
+               "ratio", "of it host");
+    for (const report::SchaerfigRow& row : table.rows)
+        fmt::print("{:<24}{:<10}{:>10}{:>10.3f}{:>9}{:>12.3f}\n", row.name, row.filling,
+                   row.paper ? fmt::format("{:.3f}", *row.paper) : "-", row.clgi,
+                   row.ratio ? fmt::format("{:.2f}", *row.ratio) : "-", row.layout);
+}
+
 void run_bench(const BenchFlags& flags) {
     const Session session = open_session(flags.device);
+    if (flags.table == "schaerfig1") return run_schaerfig(flags, session);
     if (flags.table == "layer") return run_layer(flags, session);
     if (flags.table == "views") return run_views(flags, session);
     report::BenchSetup setup;
@@ -164,17 +230,23 @@ void add_bench(CLI::App& app) {
         ->add_option("table", flags->table,
                      "cochran1: frame rate against numbers of VPLs; "
                      "cochran2: share of low resolution against error and frame rate; "
+                     "schaerfig1: seconds of bakes against numbers of VPLs; "
                      "views: hemicubes per second; "
                      "layer: passes against the same kernels enqueued by hand")
         ->required()
         ->type_name("TABLE")
-        ->check(CLI::IsMember({"cochran1", "cochran2", "views", "layer"}));
+        ->check(CLI::IsMember({"cochran1", "cochran2", "schaerfig1", "views", "layer"}));
     command->add_option("--mesh", flags->mesh, "Mesh in the box, such as the Stanford bunny")
         ->type_name("FILE")
         ->default_str("a generated solid");
-    command->add_option("--scene", flags->scenes, "views: one more scene; may be repeated")
+    command->add_option("--scene", flags->scenes, "schaerfig1, views: one more scene; may be repeated")
         ->type_name("FILE")
         ->default_str("none");
+    command
+        ->add_option("--most-vpls", flags->most_vpls,
+                     "schaerfig1: the rows of at most so many VPLs, of 100 to 25600")
+        ->type_name("N")
+        ->check(CLI::Range(100, 25600));
     command->add_option("--repeats", flags->repeats, "Frames measured for each row")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <clgi/clgi.hpp>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -14,33 +13,12 @@
 #include "cli/ask.hpp"
 #include "cli/commands.hpp"
 #include "cli/gl_frames.hpp"
-#include "cli/picture.hpp"
-#include "cli/session.hpp"
+#include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
 #include "report/preview.hpp"
 
 namespace clgi::cli {
 namespace {
-
-struct RenderFlags {
-    DeviceFlags device;
-    PictureFlags picture;
-    AskFlags ask;
-    EnvironmentFlags environment;
-    std::string scene;
-    int scene_index = -1;
-    int camera = 0;
-    std::string method = "auto";
-    std::string low_res;
-    std::string gbuffer = "cl";
-    std::string stats;
-    int frames = 1;
-    int replicates = 0;
-    bool orbit = false;
-    bool spin_light = false;
-    bool no_direct = false;
-    SecondOrderOptions options;
-};
 
 void parse_low_res(const std::string& text, SecondOrderOptions& options) {
     if (text.empty()) return;
@@ -61,29 +39,6 @@ void parse_low_res(const std::string& text, SecondOrderOptions& options) {
     options.discontinuity_threshold = value;
 }
 
-// Turned about the vertical axis through a point.
-Camera orbited(const Camera& camera, const glm::dvec3& centre, double angle) {
-    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0, 1, 0));
-    const auto turned = [&](const glm::vec3& v) {
-        return glm::vec3(turn * glm::dvec4(glm::dvec3(v), 0.0));
-    };
-    Camera out = camera;
-    out.position = centre + glm::dvec3(turn * glm::dvec4(camera.position - centre, 0.0));
-    out.right = turned(camera.right);
-    out.up = turned(camera.up);
-    out.forward = turned(camera.forward);
-    return out;
-}
-
-void spin_lights(DeviceScene& device, const Scene& scene, double angle) {
-    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0, 1, 0));
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        Light light = scene.lights[i];
-        light.direction = glm::vec3(turn * glm::dvec4(glm::dvec3(light.direction), 0.0));
-        device.set_light(i, light);
-    }
-}
-
 std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderSolver& solver) {
     std::vector<std::string> out;
     const SecondOrderOptions& options = solver.options();
@@ -97,7 +52,7 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderS
     return out;
 }
 
-void run_render(RenderFlags flags) {
+void run_second_order(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     parse_low_res(flags.low_res, flags.options);
     const report::Wish wish = wish_of("render", flags.ask);
@@ -230,6 +185,15 @@ void run_render(RenderFlags flags) {
     }
 }
 
+void run_render(RenderFlags flags) {
+    const bool atlas = flags.method == "atlas";
+    const std::vector<std::string>& foreign = atlas ? flags.second_order_only : flags.atlas_only;
+    if (!foreign.empty())
+        throw Error(fmt::format("render: {} goes {}with --method atlas", foreign.front(),
+                                atlas ? "not " : "only "));
+    atlas ? run_atlas(std::move(flags)) : run_second_order(std::move(flags));
+}
+
 }  // namespace
 
 void add_render(CLI::App& app) {
@@ -241,12 +205,15 @@ void add_render(CLI::App& app) {
         ->type_name("SCENE");
     add_picture_flags(*command, flags->picture, options.width, options.height);
     command
-        ->add_option("--method", flags->method, "auto is second-order; direct: no indirect light")
+        ->add_option("--method", flags->method,
+                     "auto is second-order; atlas: many bounces, baked first; direct: no indirect "
+                     "light")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"auto", "second-order", "direct"}));
+        ->check(CLI::IsMember({"auto", "second-order", "atlas", "direct"}));
     add_place_options(*command, flags->scene_index, flags->camera);
     command->add_option("--vpls", options.emitters.vpls, "VPLs of all emitters together")
         ->type_name("N")
+        ->default_str(fmt::format("{}; atlas: {}", options.emitters.vpls, flags->atlas.vpls.count))
         ->check(CLI::Range(0, 1 << 20));
     command->add_option("--negative-vpls", options.negative_vpls, "Negative VPLs; 0: none")
         ->type_name("N")
@@ -277,6 +244,7 @@ void add_render(CLI::App& app) {
         ->type_name("N")
         ->check(CLI::Range(0, 4096));
     add_environment_flags(*command, flags->environment);
+    add_atlas_method_flags(*command, flags->atlas);
     command
         ->add_option("--environment-lights", options.emitters.environment_lights,
                      "Directional lights that approximate the environment")
@@ -303,7 +271,20 @@ void add_render(CLI::App& app) {
         ->type_name("FILE")
         ->default_str("none");
     add_device_flags(*command, flags->device);
-    command->callback([flags] { run_render(*flags); });
+    command->callback([flags, command] {
+        const auto given = [&](std::initializer_list<const char*> names) {
+            std::vector<std::string> out;
+            for (const char* name : names)
+                if (command->count(name) > 0) out.emplace_back(name);
+            return out;
+        };
+        flags->second_order_only = given({"--negative-vpls", "--low-res", "--low-res-step",
+                                          "--replicates", "--target-error", "--time-budget"});
+        flags->atlas_only = given({"--bounces", "--atlas-size", "--exchange-size", "--filling-size"});
+        if (command->count("--vpls") > 0)
+            flags->atlas.vpls.count = static_cast<std::uint32_t>(flags->options.emitters.vpls);
+        run_render(*flags);
+    });
 }
 
 }  // namespace clgi::cli

@@ -6,10 +6,13 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <chrono>
 #include <clgi/error.hpp>
 #include <clgi/io/gltf.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 
 #include "opencl/error_text.hpp"
 
@@ -111,15 +114,34 @@ void catch_interrupts() {
 
 bool interrupted() { return interrupt_flag; }
 
+std::string time_left(double from, double done, double seconds) {
+    if (!(done > from) || seconds < 1.0) return "";  // too early to tell
+    const double left = seconds * (1.0 - done) / (done - from);
+    if (left < 60.0) return fmt::format("{:.0f} s left", std::ceil(left));
+    const auto minutes = static_cast<long>(std::ceil(left / 60.0));
+    if (minutes < 60) return fmt::format("{} min left", minutes);
+    return fmt::format("{} h {:02} min left", minutes / 60, minutes % 60);
+}
+
 std::function<bool(double)> progress_bar(const std::string& what, bool quiet) {
+    using Clock = std::chrono::steady_clock;
+    struct Begin {
+        double done = 0.0;
+        Clock::time_point time;
+    };
     const bool draw = !quiet && isatty(fileno(stderr)) == 1;
-    return [what, draw](double done) {
-        if (draw) {
-            const int filled = static_cast<int>(done * 30.0);
-            fmt::print(stderr, "\r{} [{:<30}] {:3.0f} %{}", what, std::string(filled, '#'),
-                       100.0 * done, done >= 1.0 || interrupted() ? "\n" : "");
-            std::fflush(stderr);
-        }
+    return [what, draw, begin = std::optional<Begin>()](double done) mutable {
+        if (!draw) return !interrupted();
+        // Work that goes on from where it was cancelled begins with a share that took no time.
+        if (!begin && done > 0.0) begin = Begin{done, Clock::now()};
+        std::string left;
+        if (begin && done < 1.0)
+            left = time_left(begin->done, done,
+                             std::chrono::duration<double>(Clock::now() - begin->time).count());
+        fmt::print(stderr, "\r{} [{:<30}] {:3.0f} % {:<14}{}", what,
+                   std::string(static_cast<std::size_t>(done * 30.0), '#'), 100.0 * done, left,
+                   done >= 1.0 || interrupted() ? "\n" : "");
+        std::fflush(stderr);
         return !interrupted();
     };
 }

@@ -61,7 +61,12 @@ bool interrupted();
 // Thrown to leave a command after Ctrl-C; main ends with exit code 130.
 struct Interrupted {};
 
-// Draws a bar on stderr if that is a terminal. The result returns false after Ctrl-C.
+// Draws a bar and the time left on stderr if that is a terminal. The result returns false after
+// Ctrl-C.
 std::function<bool(double)> progress_bar(const std::string& what, bool quiet);
+
+// Of work that went from the share `from` to the share `done` in so many seconds: "12 s left",
+// "3 min left"; empty while it is too early to tell.
+std::string time_left(double from, double done, double seconds);
 
 }  // namespace clgi::cli

@@ -65,6 +65,12 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         out["replicates"] = {{"count", record.replicates->count},
                              {"error", record.replicates->error},
                              {"single_error", record.replicates->single_error}};
+    if (record.bake)
+        out["bake"] = {{"vpls", record.bake->vpls},
+                       {"texels", record.bake->texels},
+                       {"pages", record.bake->pages},
+                       {"layout_ms", record.bake->layout_ms},
+                       {"bake_ms", record.bake->bake_ms}};
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
     io::AtomicFile file(path);
     const std::string text = out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

@@ -15,6 +15,15 @@
 
 namespace clgi::cli {
 
+// What --method atlas did before the first picture.
+struct BakeSummary {
+    std::size_t vpls = 0;
+    std::size_t texels = 0;
+    int pages = 0;
+    double layout_ms = 0.0;  // on the host
+    double bake_ms = 0.0;
+};
+
 struct RenderRecord {
     cl::Device device;
     BuildOptions build;
@@ -32,6 +41,7 @@ struct RenderRecord {
     std::string gl_path;         // of gl: "copied: ..."
     std::optional<report::Replicates> replicates;
     std::optional<AskRecord> ask;  // where a result was asked for
+    std::optional<BakeSummary> bake;
     std::vector<std::string> warnings;
 };
 

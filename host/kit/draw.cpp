@@ -79,13 +79,13 @@ void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene, std::siz
 
 void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceScene& scene,
                   const View& view, const cl::Buffer& views, const RasterBuffers& buffers,
-                  const GBuffer& out) {
+                  const GBuffer& out, std::uint32_t more) {
     const cl::CommandQueue& queue = record.queue();
     record("gbuffer.put_view", 1, [&](const WaitList& wait) {
         return gbuffer.put_view(queue, view, 0, views, wait);
     });
     draw(record, gbuffer, scene, span_of({view}, 0, 1), views, buffers);
-    ResolveParams params{out.stride, RESOLVE_GEOMETRIC, 0, 0};
+    ResolveParams params{out.stride, RESOLVE_GEOMETRIC | more, 0, 0};
     if (scene.info().flags & SCENE_HAS_EMISSION) params.write |= RESOLVE_EMISSION;
     record("gbuffer.resolve", std::size_t{view.width} * view.height, [&](const WaitList& wait) {
         return gbuffer.resolve(queue, view, scene, params, buffers.pixels, out.planes, out.ids,

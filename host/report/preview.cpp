@@ -18,14 +18,20 @@ std::uint8_t encoded(float linear) {
 }  // namespace
 
 io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
+    return radiance_picture(queue, solver.radiance(), solver.options().width,
+                            solver.options().height, solver.stride());
+}
+
+io::Image radiance_picture(const cl::CommandQueue& queue, const cl::Buffer& radiance, int width,
+                           int height, std::size_t stride) {
     io::Image image;
-    image.width = solver.options().width;
-    image.height = solver.options().height;
+    image.width = width;
+    image.height = height;
     image.attributes = {{"clgi:quantity", "radiance"}, {"clgi:unit", "cd/m^2"}};
     const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
     for (std::size_t c = 0; c < RADIANCE_PLANES; ++c) {
         std::vector<float> values(pixels);
-        queue.enqueueReadBuffer(solver.radiance(), CL_TRUE, c * solver.stride() * sizeof(float),
+        queue.enqueueReadBuffer(radiance, CL_TRUE, c * stride * sizeof(float),
                                 pixels * sizeof(float), values.data());
         image.channels.push_back({std::string(1, "RGB"[c]), std::move(values)});
     }

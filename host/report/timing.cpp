@@ -28,8 +28,12 @@ double time_frame(const cl::CommandQueue& queue, const std::function<void()>& en
 }
 
 std::vector<PassTime> pass_times(const SecondOrderSolver& solver) {
+    return pass_times(solver.events());
+}
+
+std::vector<PassTime> pass_times(const std::vector<PassEvent>& events) {
     std::vector<PassTime> out;
-    for (const PassEvent& pass : solver.events()) {
+    for (const PassEvent& pass : events) {
         const double ns =
             static_cast<double>(pass.event.getProfilingInfo<CL_PROFILING_COMMAND_END>()) -
             static_cast<double>(pass.event.getProfilingInfo<CL_PROFILING_COMMAND_START>());

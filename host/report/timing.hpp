@@ -32,5 +32,6 @@ struct PassTime {
 
 // Device times of a finished frame by pass, in order of first launch. Needs a profiling queue.
 std::vector<PassTime> pass_times(const SecondOrderSolver& solver);
+std::vector<PassTime> pass_times(const std::vector<PassEvent>& events);
 
 }  // namespace clgi::report

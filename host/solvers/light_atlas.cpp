@@ -287,8 +287,6 @@ void LightAtlasSolver::State::shoot_strongest() {
 
 // What the VPLs received, sent on to the texels. [section 4]
 void LightAtlasSolver::State::fill() {
-    record.fill(b.irradiance, 0);
-    record.fill(b.filled, 0);
     const std::uint32_t n = b.sites.site_count;
     FillParams all{0, n, b.sites.stride, b.sites.sample_stride, b.texel_count, b.texel_stride, 0, 1};
     record("atlas.nearest", b.texel_count, [&](const WaitList& wait) {
@@ -297,7 +295,8 @@ void LightAtlasSolver::State::fill() {
     record("vpl.weigh", n, [&](const WaitList& wait) {
         return vpl.weigh(queue, b.sites, b.sample_irradiance, wait);
     });
-    for (std::uint32_t first = 0; first < n && !record.cancelled(); first += b.filling_batch) {
+    while (filled_vpls < n && !record.cancelled()) {
+        const std::uint32_t first = filled_vpls;
         const std::uint32_t count = std::min(b.filling_batch, n - first);
         hemicubes(first, count, options.filling_size, Pixels::depth);
         const FillParams params{first, count, b.sites.stride, b.sites.sample_stride, b.texel_count,
@@ -306,7 +305,8 @@ void LightAtlasSolver::State::fill() {
             return atlas.gather(queue, params, b.sites, b.views, b.pixels, b.texels.planes,
                                 b.irradiance, b.filled, wait);
         });
-        if (first % (16 * b.filling_batch) == 0) record.report(0.45 + 0.55 * first / n);
+        filled_vpls += count;
+        if (first % (16 * b.filling_batch) == 0) record.report(0.45 + 0.55 * filled_vpls / n);
     }
     record("atlas.complete", b.texel_count, [&](const WaitList& wait) {
         return atlas.complete(queue, all, b.reach, b.filled, b.irradiance, b.non_finite, wait);
@@ -314,34 +314,47 @@ void LightAtlasSolver::State::fill() {
     if (options.direct) light_points(b.texels, b.texel_count, b.irradiance, true);
 }
 
-bool LightAtlasSolver::State::run(const Progress& progress) {
-    record.begin({}, progress);
-    record.fill(b.non_finite, 0);
-    record.report(0.0);
-    if (!placed) place();
-    receive_direct();
+// Light goes from VPL to VPL. [section 3.3]
+void LightAtlasSolver::State::exchange() {
     // Factors begin with 1, also after a bake that was cancelled half-way.
     if (!measured) record.fill(b.sites.balance, one_bits);
     // Bounces of all VPLs make what is not kept anyway.
     const bool all_shoot = options.bounces == 0 ? !options.one_at_a_time : options.bounces > 1;
     if (!measured && (b.kept || !all_shoot)) measure_transport();
-    direct.resize(3 * std::size_t{b.sites.stride});
-    record.wait();
-    queue.enqueueReadBuffer(b.sites.light, CL_TRUE, 0, direct.size() * sizeof(float),
-                            direct.data());
-    power_direct = unshot_power();
-    threshold = static_cast<float>(options.threshold * power_direct);
-    shots = 0;
     if (options.bounces > 0)
         for (std::uint32_t k = 1; k < options.bounces && !record.cancelled(); ++k) bounce();
     else if (options.one_at_a_time)
         shoot_strongest();
     else
         bounce_to_threshold();
-    fill();
+}
+
+bool LightAtlasSolver::State::run(const Progress& progress) {
+    record.begin({}, progress);
+    record.fill(b.non_finite, 0);
+    ended = false;
+    filled_vpls = 0;
+    shots = 0;
+    record.report(0.0);
+    if (!placed) place();
+    receive_direct();
+    direct.resize(3 * std::size_t{b.sites.stride});
+    record.wait();
+    queue.enqueueReadBuffer(b.sites.light, CL_TRUE, 0, direct.size() * sizeof(float),
+                            direct.data());
+    power_direct = unshot_power();
+    threshold = static_cast<float>(options.threshold * power_direct);
+    record.fill(b.irradiance, 0);
+    record.fill(b.filled, 0);
+    if (restored)
+        put_back();
+    else
+        exchange();
+    if (!record.cancelled()) fill();
+    ended = !record.cancelled();  // what is asked for from here on comes too late
     record.report(1.0);
     record.wait();
-    return !record.cancelled();
+    return ended;
 }
 
 }  // namespace clgi

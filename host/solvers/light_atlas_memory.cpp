@@ -8,7 +8,9 @@
 #include "opencl/check.hpp"
 #include "solvers/light_atlas_state.hpp"
 
-namespace clgi::light_atlas {
+namespace clgi {
+
+namespace light_atlas {
 
 void check(const LightAtlasOptions& options) {
     need_range<double>("light-atlas", "bounces", options.bounces, 0, 1000);
@@ -85,4 +87,18 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
     return t;
 }
 
-}  // namespace clgi::light_atlas
+}  // namespace light_atlas
+
+std::size_t light_atlas_least_bytes(std::size_t vpls, std::size_t samples) {
+    const std::size_t word = sizeof(float), light_and_weight = 4;
+    std::size_t of_point = light_and_weight, of_site = 5;  // lists and powers
+    for (const std::size_t planes : {std::size_t{GBUFFER_PLANES}, std::size_t{GBUFFER_ID_PLANES}})
+        of_point += planes;
+    for (const std::size_t planes : {std::size_t{SITE_PLANES}, std::size_t{SITE_LIGHT_PLANES},
+                                     std::size_t{BALANCE_PLANES}})
+        of_site += planes;
+    return (vpls + samples) * (sizeof(SurfaceSample) + of_point * word) +
+           vpls * (sizeof(Site) + of_site * word);
+}
+
+}  // namespace clgi

@@ -59,7 +59,9 @@ struct LightAtlasSolver::State {
     void bounce();
     void bounce_to_threshold();
     void shoot_strongest();
+    void exchange();
     void fill();
+    void put_back();
     ShootParams shoot_params(std::uint32_t first, std::uint32_t count) const;
     double unshot_power() const;    // exposed
     float strongest_power();        // exposed; waits
@@ -82,7 +84,9 @@ struct LightAtlasSolver::State {
     float threshold = 0.0f;     // exposed lumen
     std::uint32_t shots = 0;
     std::size_t bytes = 0;
-    bool placed = false, measured = false;
+    bool placed = false, measured = false, ended = false;
+    std::uint32_t filled_vpls = 0;  // that have lit the texels in this run
+    std::optional<LightAtlasState> restored;
     std::vector<Site> sites;
     std::vector<float> direct;  // irradiance of the sites by direct light, [3][stride]
 };

@@ -29,5 +29,6 @@
 #include <clgi/scene_mover.hpp>
 #include <clgi/slice.hpp>
 #include <clgi/solvers/light_atlas.hpp>
+#include <clgi/solvers/light_atlas_view.hpp>
 #include <clgi/solvers/second_order.hpp>
 #include <clgi/vpl_layout.hpp>

@@ -36,10 +36,12 @@ CLGI_API void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene,
                          std::size_t views);
 
 // The G-buffer of a view that the host knows: puts the view into `views`, draws it into
-// buffers.pixels and resolves it. Emission is written if the scene has some.
+// buffers.pixels and resolves it. Emission is written if the scene has some. more: RESOLVE_DEPTH,
+// RESOLVE_TRIANGLE, if they are needed too.
 CLGI_API void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer,
                            const DeviceScene& scene, const View& view, const cl::Buffer& views,
-                           const RasterBuffers& buffers, const GBuffer& out);
+                           const RasterBuffers& buffers, const GBuffer& out,
+                           std::uint32_t more = 0);
 
 // Throws Error unless a G-buffer has this stride and storage and is large enough. The message
 // begins with `owner`.

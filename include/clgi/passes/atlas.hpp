@@ -4,13 +4,24 @@
 #pragma once
 
 #include <clgi/shared/atlas.h>
+#include <clgi/device_scene.hpp>
 #include <clgi/export.hpp>
 #include <clgi/pass.hpp>
+#include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/vpl.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
 
 namespace clgi {
+
+// Where triangles and texels lie in an atlas, for looking it up. Triangles in the device's order.
+struct AtlasMap {
+    cl::Buffer corners;   // [3 * triangles] float2: texels of its page
+    cl::Buffer charts;    // [triangles] uint2: page and chart; ATLAS_NONE without one
+    cl::Buffer map;       // [pages][size][size] uint: index of the texel listed; ATLAS_NONE
+    cl::Buffer chart_of;  // [texels] uint
+    std::uint32_t size = 0, pages = 0, texel_count = 0;
+};
 
 class CLGI_API AtlasPasses {
 public:
@@ -41,11 +52,20 @@ public:
                        const cl::Buffer& irradiance, const cl::Buffer& non_finite,
                        const WaitList& wait = {}) const;
 
+    // The light of an atlas at points of a G-buffer, whose triangles must be there (RESOLVE_TRIANGLE),
+    // in the storage of these passes. light: [3][params.texel_stride] float, exposed lux ->
+    // irradiance [IRRADIANCE_PLANES][stride].
+    cl::Event show(const cl::CommandQueue& queue, const ShowParams& params,
+                   const DeviceScene& scene, const GBuffer& points, const AtlasMap& map,
+                   const cl::Buffer& light, const cl::Buffer& irradiance,
+                   const WaitList& wait = {}) const;
+
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel gather_, nearest_, complete_;
+    PassKernel gather_, nearest_, complete_, show_;
+    Storage storage_;  // of what show reads and writes
 };
 
 }  // namespace clgi

@@ -19,6 +19,20 @@ typedef struct {
     uint words;        // of a pixel of the hemicubes: 1 for depth alone, 2 for visibility
 } FillParams;
 
+// Points of surfaces at which a filled atlas is looked up.
+typedef struct {
+    uint point_count;
+    uint stride;  // of the G-buffer's planes and of the irradiance
+    uint triangle_count;
+    uint texel_count;
+    uint texel_stride;  // of the planes of texels
+    uint size;          // texels, side of a page
+    uint pages;
+    uint pad_;
+} ShowParams;
+
+#define ATLAS_NONE 0xffffffffu  // no texel, no chart, no page
+
 CLGI_SHARED_END
 
 #endif

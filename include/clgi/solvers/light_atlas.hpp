@@ -14,6 +14,7 @@
 #include <clgi/programs.hpp>
 #include <clgi/vpl_layout.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace clgi {
@@ -51,6 +52,23 @@ struct LightAtlasStatus {
     double power_left = 0.0;      // not shot
 };
 
+// A bake that was cancelled while the atlas was filled, as plain data. Light is exposed. It belongs
+// to one scene, its layouts and the options that change the light; the same device carries it on to
+// the same bits.
+struct LightAtlasState {
+    std::uint32_t vpls = 0, texels = 0;
+    std::uint32_t filled_vpls = 0;   // the first so many have lit the texels
+    std::uint32_t shots = 0;         // as in LightAtlasStatus
+    std::vector<float> light;        // [SITE_LIGHT_PLANES][stride of VPLs]
+    std::vector<float> balance;      // [BALANCE_PLANES][stride of VPLs]
+    std::vector<float> irradiance;   // [3][stride of texels]
+    std::vector<float> filled;       // [stride of texels] sums of form factors
+};
+
+// Bytes that a solver's buffers take at the least, beside those for the texels: what to check before
+// so many VPLs and sample points are placed.
+CLGI_API std::size_t light_atlas_least_bytes(std::size_t vpls, std::size_t samples);
+
 // Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
 // outlive the solver; the layouts are not needed afterwards. One thread at a time.
 class CLGI_API LightAtlasSolver {
@@ -71,6 +89,14 @@ public:
     // Bakes, and waits for the end. Returns whether it was not cancelled; a cancelled bake may be
     // run again.
     bool run(const Progress& progress = nullptr);
+
+    // What the last run left behind when it was cancelled; empty if it ended, or was cancelled
+    // before the first texel was lit. Waits.
+    std::optional<LightAtlasState> state() const;
+
+    // The next run goes on from there: the exchange between VPLs is left out. Throws Error for the
+    // state of a bake of another size.
+    void restore(const LightAtlasState& state);
 
     // Waits for the last run and reads what it found.
     LightAtlasStatus status() const;

@@ -1,0 +1,158 @@
+// clgi render --method atlas: bakes the indirect light into an atlas, then shows the scene with it
+// from any number of places.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include "cli/bake_room.hpp"
+#include "cli/render_flags.hpp"
+#include "cli/stats.hpp"
+#include "report/preview.hpp"
+
+namespace clgi::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::vector<std::string> effects_of(const DeviceScene& scene, const LightAtlasView& view) {
+    std::vector<std::string> out;
+    const bool direct = view.options().direct;
+    if (direct && !view.emitters().emitters.empty()) out.push_back("direct");
+    if (direct && scene.has_lobes()) out.push_back("glossy-direct");
+    if (direct && !scene.emissive().empty()) out.push_back("emission");
+    if (direct && scene.environment()) out.push_back("environment");
+    out.push_back("indirect");
+    return out;
+}
+
+LightAtlasViewOptions view_options(const RenderFlags& flags) {
+    LightAtlasViewOptions out;
+    out.width = flags.options.width;
+    out.height = flags.options.height;
+    out.emitters = flags.options.emitters;
+    out.direct = !flags.no_direct;
+    out.build = build_of(flags.device);
+    return out;
+}
+
+void check(const RenderFlags& flags, const Scene& scene) {
+    if (flags.gbuffer != "cl") throw Error("render: --gbuffer gl goes not with --method atlas");
+    if (flags.atlas.vpls.count < 1)
+        throw Error("render: --vpls is 0, at least 1 needed with --method atlas");
+    if (flags.camera >= static_cast<int>(scene.cameras.size()))
+        throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
+                                scene.cameras.size()));
+}
+
+}  // namespace
+
+void add_atlas_method_flags(CLI::App& command, AtlasFlags& flags) {
+    command
+        .add_option("--bounces", flags.bake.bounces,
+                    "atlas: reflections of light at most; 0: all that matter")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1000));
+    command
+        .add_option("--atlas-size", flags.layout.size, "atlas: texels, side of a page of the atlas")
+        ->type_name("N")
+        ->check(CLI::Range(1, 8192));
+    command
+        .add_option("--exchange-size", flags.bake.exchange_size,
+                    "atlas: pixels of a hemicube's face when VPLs exchange light")
+        ->type_name("N")
+        ->check(CLI::Range(32, 1024));
+    command
+        .add_option("--filling-size", flags.bake.filling_size,
+                    "atlas: pixels of a hemicube's face when the atlas is filled")
+        ->type_name("N")
+        ->check(CLI::Range(32, 1024));
+}
+
+void run_atlas(RenderFlags flags) {
+    check_picture("render", flags.picture, flags.options.width, flags.options.height);
+    AtlasFlags& atlas_flags = flags.atlas;
+    const bool quiet = flags.device.quiet;
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet, true);
+    check(flags, scene);
+    const Camera camera = scene.cameras[static_cast<std::size_t>(flags.camera)];
+    const Session session = open_session(flags.device);
+    need_room("render", session.device, atlas_flags.vpls);
+
+    auto start = Clock::now();
+    const Patches patches = make_patches(scene);
+    const VplLayout vpls = place_vpls(scene, patches, atlas_flags.vpls);
+    const AtlasLayout atlas = make_atlas(scene, patches.triangle_patch, atlas_flags.layout);
+    BakeSummary bake{vpls.vpls.size(), atlas.texels.size(), atlas.pages, milliseconds_since(start)};
+    for (const std::string& warning : atlas.warnings) {
+        notice(quiet, "warning: " + warning);
+        scene.warnings.push_back(warning);
+    }
+    start = Clock::now();
+    DeviceScene device_scene(session.context, session.device, scene);
+    const Programs programs(session.context, session.device);
+    atlas_flags.bake.emitters = flags.options.emitters;
+    atlas_flags.bake.build = build_of(flags.device);
+    LightAtlasSolver solver(programs, session.queue, device_scene, vpls, atlas, atlas_flags.bake);
+    LightAtlasView view(programs, session.queue, device_scene, atlas, view_options(flags));
+    RenderRecord record;
+    record.build_ms = milliseconds_since(start);
+
+    catch_interrupts();
+    start = Clock::now();
+    if (!solver.run(progress_bar("bake", quiet))) throw Interrupted();
+    bake.bake_ms = milliseconds_since(start);
+    // The first picture warms up and is not timed.
+    view.render(camera, solver.irradiance_planes(), solver.stride()).wait();
+    const Bounds box = bounds(scene);
+    for (int frame = 0; frame < flags.frames; ++frame) {
+        const double angle = glm::two_pi<double>() * frame / flags.frames;
+        const Camera at = flags.orbit ? orbited(camera, 0.5 * (box.low + box.high), angle) : camera;
+        start = Clock::now();
+        if (flags.spin_light) {  // the frame's time has another bake in it
+            spin_lights(device_scene, scene, angle);
+            solver.lights_changed();
+            view.lights_changed();
+            if (!solver.run([](double) { return !interrupted(); })) throw Interrupted();
+        }
+        view.render(at, solver.irradiance_planes(), solver.stride());
+        session.queue.finish();
+        record.frame_ms.push_back(milliseconds_since(start));
+        record.passes.push_back(report::pass_times(view.events()));
+        if (interrupted()) throw Interrupted();
+    }
+    save_picture(report::radiance_picture(session.queue, view.radiance(), view.options().width,
+                                          view.options().height, view.stride()),
+                 flags.picture);
+
+    record.status.non_finite = view.non_finite() + solver.status().non_finite;
+    if (record.status.non_finite > 0)
+        notice(false, fmt::format("warning: {} packets of pixels or texels held numbers that were "
+                                  "not finite",
+                                  record.status.non_finite));
+    if (!quiet) {
+        const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
+        fmt::print("{}{}{}: {:.2f} s for {} texels lit by {} VPLs, {:.1f} ms a frame ({} frames)\n",
+                   flags.picture.exr, both ? ", " : "", flags.picture.png,
+                   1e-3 * (bake.layout_ms + bake.bake_ms), bake.texels, bake.vpls,
+                   report::spread(record.frame_ms).median, record.frame_ms.size());
+    }
+    if (flags.stats.empty()) return;
+    record.device = session.device;
+    record.build = view.options().build;
+    record.method = "atlas";
+    record.triangles = scene.triangles.size();
+    record.lights = view.emitters().emitters.size();
+    record.effects = effects_of(device_scene, view);
+    record.bytes = device_scene.bytes() + solver.bytes() + view.bytes();
+    record.warnings = scene.warnings;
+    record.bake = bake;
+    save_stats(record, flags.stats);
+}
+
+}  // namespace clgi::cli

@@ -1,0 +1,56 @@
+// What clgi render was asked for, for all of its methods.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/clgi.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/ask.hpp"
+#include "cli/environment.hpp"
+#include "cli/picture.hpp"
+#include "cli/session.hpp"
+
+namespace clgi::cli {
+
+// What --method atlas bakes before it shows the scene.
+struct AtlasFlags {
+    VplOptions vpls;
+    AtlasOptions layout;
+    LightAtlasOptions bake;
+};
+void add_atlas_method_flags(CLI::App& command, AtlasFlags& flags);
+
+struct RenderFlags {
+    DeviceFlags device;
+    PictureFlags picture;
+    AskFlags ask;
+    EnvironmentFlags environment;
+    std::string scene;
+    int scene_index = -1;
+    int camera = 0;
+    std::string method = "auto";
+    std::string low_res;
+    std::string gbuffer = "cl";
+    std::string stats;
+    int frames = 1;
+    int replicates = 0;
+    bool orbit = false;
+    bool spin_light = false;
+    bool no_direct = false;
+    SecondOrderOptions options;
+    AtlasFlags atlas;
+    // Flags given that go with one kind of method alone.
+    std::vector<std::string> second_order_only, atlas_only;
+};
+
+// Bakes an atlas and shows the scene with it.
+void run_atlas(RenderFlags flags);
+
+// Turned about the vertical axis through a point.
+Camera orbited(const Camera& camera, const glm::dvec3& centre, double angle);
+
+// The scene's lights, turned about the vertical, on the device.
+void spin_lights(DeviceScene& device, const Scene& scene, double angle);
+
+}  // namespace clgi::cli

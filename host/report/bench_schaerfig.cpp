@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "report/bench_schaerfig.hpp"
+
+#include <chrono>
+#include <clgi/device.hpp>
+#include <clgi/error.hpp>
+#include <clgi/solvers/light_atlas.hpp>
+
+#include "report/peak.hpp"
+#include "report/timing.hpp"
+
+namespace clgi::report {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr std::uint32_t counts[] = {100, 400, 1600, 6400, 25600};
+
+// Seconds on a GeForce GTX 680, five bounces; 0: the paper has none. [Schaerfig16, table 1]
+constexpr struct {
+    const char* scene;
+    double seconds[5];
+} paper[] = {{"corridor", {0.705, 1.546, 4.539, 16.986, 159.631}},
+             {"cornell", {0.495, 1.218, 4.571, 19.512, 128.697}},
+             {"sponza", {0.0, 0.0, 7.732, 29.159, 228.252}}};
+
+std::optional<double> paper_seconds(const std::string& scene, std::size_t which) {
+    for (const auto& row : paper)
+        if (scene == row.scene && row.seconds[which] > 0.0) return row.seconds[which];
+    return {};
+}
+
+// The ways to fill an atlas that are measured.
+struct Filling {
+    const char* name;
+    void (*choose)(LightAtlasOptions&);
+};
+constexpr Filling fillings[] = {{"gather", [](LightAtlasOptions&) {}}};
+
+struct Bake {
+    double seconds = 0.0, layout = 0.0;
+    std::size_t texels = 0;
+};
+
+// About so many units of work, for progress alone: filling a texel by a VPL, drawing a triangle.
+double work_of(const Scene& scene, double vpls) {
+    return vpls * (2e5 + 50.0 * static_cast<double>(scene.triangles.size())) + 100.0 * vpls * vpls;
+}
+
+}  // namespace
+
+SchaerfigTable bench_schaerfig1(const SchaerfigSetup& setup,
+                                const std::vector<std::pair<std::string, Scene>>& scenes) {
+    const cl::Context context = setup.queue.getInfo<CL_QUEUE_CONTEXT>();
+    const cl::Device device = setup.queue.getInfo<CL_QUEUE_DEVICE>();
+    const Programs programs(context, device);
+    PeakMeter meter(setup.queue);
+    std::vector<double> peaks;
+    SchaerfigTable out;
+    out.device = describe(device);
+
+    double all = 0.0, done = 0.0;
+    for (const auto& [name, scene] : scenes)
+        for (const std::uint32_t count : counts)
+            if (count <= setup.most_vpls) all += std::size(fillings) * work_of(scene, count);
+    const auto bake = [&](const Scene& scene, const DeviceScene& on_device, std::uint32_t count,
+                          const Filling& filling, double share) {
+        const auto start = Clock::now();
+        const Patches patches = make_patches(scene);
+        VplOptions vpl_options;
+        vpl_options.count = count;
+        const VplLayout vpls = place_vpls(scene, patches, vpl_options);
+        AtlasOptions atlas_options;
+        atlas_options.size = setup.atlas_size;
+        const AtlasLayout atlas = make_atlas(scene, patches.triangle_patch, atlas_options);
+        Bake made;
+        made.layout = seconds_since(start);
+        made.texels = atlas.texels.size();
+        LightAtlasOptions options;
+        options.build = setup.build;
+        filling.choose(options);
+        LightAtlasSolver solver(programs, setup.queue, on_device, vpls, atlas, options);
+        if (!solver.run([&](double part) {
+                return !setup.progress || setup.progress((done + part * share) / all);
+            }))
+            throw Error("bench: cancelled");
+        made.seconds = seconds_since(start);
+        return made;
+    };
+
+    for (const auto& [name, scene] : scenes) {
+        const DeviceScene on_device(context, device, scene);
+        for (const Filling& filling : fillings) {
+            bake(scene, on_device, counts[0], filling, 0.0);  // builds kernels
+            for (std::size_t i = 0; i < std::size(counts); ++i) {
+                if (counts[i] > setup.most_vpls) continue;
+                std::vector<Bake> bakes;
+                std::vector<double> seconds, layouts;
+                do {  // short ones are repeated: other load on the machine shows in them most
+                    bakes.push_back(bake(scene, on_device, counts[i], filling,
+                                         bakes.empty() ? work_of(scene, counts[i]) : 0.0));
+                    seconds.push_back(bakes.back().seconds);
+                    layouts.push_back(bakes.back().layout);
+                } while (bakes.size() < 3 && bakes.back().seconds < 3.0);
+                done += work_of(scene, counts[i]);
+                peaks.push_back(meter.gflops());
+                SchaerfigRow row;
+                row.name = name + ", " + std::to_string(counts[i]) + " VPLs";
+                row.filling = filling.name;
+                row.paper = paper_seconds(name, i);
+                row.clgi = spread(seconds).median;
+                if (row.paper) row.ratio = *row.paper / row.clgi;
+                row.layout = spread(layouts).median;
+                row.vpls = counts[i];
+                row.texels = bakes.back().texels;
+                out.rows.push_back(row);
+            }
+        }
+    }
+    out.peak_gflops = spread(peaks).median;
+    return out;
+}
+
+}  // namespace clgi::report

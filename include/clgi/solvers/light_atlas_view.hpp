@@ -1,0 +1,73 @@
+// Pictures of a scene whose indirect light is in an atlas: direct light anew for every picture,
+// indirect light looked up.                                                   [Schaerfig16]
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/atlas_layout.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/emitters.hpp>
+#include <clgi/interval.hpp>
+#include <clgi/kit/recorder.hpp>
+#include <clgi/passes/gbuffer.hpp>
+#include <clgi/programs.hpp>
+#include <memory>
+#include <vector>
+
+namespace clgi {
+
+struct LightAtlasViewOptions {
+    int width = 640;  // pixels
+    int height = 480;
+    EmitterOptions emitters;  // for direct light; emitters.vpls is not used
+    bool direct = true;       // with its gloss, emission and the environment
+    // Bytes that the buffers may take together; 0: what the device has beside the scene.
+    std::size_t memory_budget = 0;
+    BuildOptions build;
+};
+
+// Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
+// outlive this object; the layout is not needed afterwards. One thread at a time.
+//
+// The atlas has one light for both sides of a surface, that of its front. Surfaces that the atlas
+// has no place for (AtlasLayout::skipped_area) have no indirect light.
+class CLGI_API LightAtlasView {
+public:
+    // Builds kernels and allocates. atlas: of the scene that was uploaded. Throws Error for options
+    // out of range and the layout of another scene, DeviceError when memory does not suffice.
+    LightAtlasView(const Programs& programs, const cl::CommandQueue& queue,
+                   const DeviceScene& scene, const AtlasLayout& atlas,
+                   const LightAtlasViewOptions& options = {});
+    ~LightAtlasView();
+    LightAtlasView(const LightAtlasView&) = delete;
+    LightAtlasView& operator=(const LightAtlasView&) = delete;
+
+    // Reads the scene's lights again, after DeviceScene::set_light, for direct light.
+    void lights_changed();
+
+    // Enqueues a picture that begins after `wait`; the event completes when all of it has. light:
+    // by texel of the layout, [3][light_stride] float, exposed lux, as
+    // LightAtlasSolver::irradiance_planes() and stride() have it.
+    cl::Event render(const Camera& camera, const cl::Buffer& light, std::uint32_t light_stride,
+                     const WaitList& wait = {});
+
+    // Waits for the last picture. Packets of pixels with numbers that were not finite and were
+    // replaced, since the start.
+    std::uint32_t non_finite() const;
+
+    // As SecondOrderSolver has them.
+    const std::vector<PassEvent>& events() const;
+    Interval interval() const;
+    const LightAtlasViewOptions& options() const;
+    const EmitterSet& emitters() const;
+    std::size_t bytes() const;
+    std::uint32_t stride() const;
+    const cl::Buffer& radiance() const;    // [RADIANCE_PLANES][stride()] cd/m^2
+    const cl::Buffer& irradiance() const;  // [IRRADIANCE_PLANES][stride()], of the atlas, exposed
+    const GBuffer& gbuffer() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace clgi
