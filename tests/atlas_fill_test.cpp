@@ -155,7 +155,7 @@ TEST_P(Gather, OfOneVplOverAFloorIsAPointLight) {
     const Filled found = gather(sites, texels, 1, test::atlas_passes(GetParam()), 0, &scene);
     for (std::size_t t = 0; t < texels.size(); ++t) {
         const glm::dvec3 d = glm::dvec3(texels[t].position) - glm::dvec3(site.position);
-        const double form = 1.25 * area / test::pi * d.y * d.y / std::pow(glm::dot(d, d), 2);
+        const double form = area / test::pi * d.y * d.y / std::pow(glm::dot(d, d), 2);
         EXPECT_NEAR(found.filled[t] - 0.5, form, 1e-7);
         for (int c = 0; c < 3; ++c) {
             const double wanted = 0.25 * c + form * double{albedo[c]} * received[c];

@@ -268,7 +268,8 @@ void LightAtlasSolver::State::shoot_strongest() {
     const std::uint32_t n = b.sites.site_count;
     ShootParams params = shoot_params(n, 1);
     params.mode = SHOOT_STRONGEST;
-    record.fill(b.sites.power, 0);  // so the first shot is none, and finds out all powers
+    // Powers are known after the first shot, which is of nobody then.
+    record.fill(b.sites.power, 0);
     for (std::uint32_t k = 0; k < most_bounces * 8 && !record.cancelled(); ++k) {
         for (std::uint32_t i = 0; i < chunk; ++i) {
             record("parallel.arg_max", n, [&](const WaitList& wait) {
