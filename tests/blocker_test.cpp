@@ -1,7 +1,7 @@
-// A disc of light half hidden behind a smaller disc: what negative lights take away, against the
+// A disc of light half hidden behind a smaller disc: what negative VPLs take away, against the
 // exact view factors and against the limit of the method itself.
 //
-//   source, radius 1   y = 1     F_s = 1/2                     light of the whole source
+//   emitter, radius 1  y = 1     F_s = 1/2                     light of the whole emitter
 //   blocker, radius b  y = 1/2   F_n = 4 b^2 / (1 + 4 b^2)     what the blocker hides of it
 //   receiver           y = 0     F_c = F_s - F_n               what is left: 0.3 for b = 1/4
 //
@@ -18,8 +18,8 @@ namespace clgi {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int rings = 64;       // of the source, of equal area, as many lights on each
-constexpr int samples = 4096;   // negative lights
+constexpr int rings = 64;       // of the emitter, of equal area, as many lights on each
+constexpr int samples = 4096;   // negative VPLs
 constexpr double border = 1.1;  // half the image, in radii of the blocker
 
 // Facing down.
@@ -39,8 +39,8 @@ Scene discs(double blocker) {
     return scene;
 }
 
-// On the source, which sends out 1 lumen a square metre everywhere.
-std::vector<Vpl> source_lights(const SceneFrame& frame) {
+// On the emitter, which sends out 1 lumen a square metre everywhere.
+std::vector<Vpl> vpls_of_disc(const SceneFrame& frame) {
     std::vector<Vpl> lights;
     const float flux = static_cast<float>(pi / (rings * rings) * frame.scale * frame.scale);
     for (int ring = 0; ring < rings; ++ring)
@@ -102,8 +102,8 @@ std::vector<Vpl> negative_vpls(const DeviceScene& scene, const Camera& camera,
                                 0,
                                 0};
     const cl::Buffer out = test::empty<Vpl>(samples);
-    const cl::Buffer planes = test::upload(drawing.planes), sources = test::upload(lights);
-    test::light_passes(math).negative(test::device().queue, params, view, planes, sources, out);
+    const cl::Buffer planes = test::upload(drawing.planes), vpls = test::upload(lights);
+    test::light_passes(math).negative(test::device().queue, params, view, planes, vpls, out);
     return test::download<Vpl>(out, samples);
 }
 
@@ -114,7 +114,7 @@ TEST_P(BlockerDisc, ReceivesOnItsBackWhatTheViewFactorSays) {
     // r = h = 1 and a = 1/2, 1 of the table, at half its scale.
     EXPECT_NEAR(0.5 * (1 - (1 + 4 - 4.0) / std::sqrt(81 - 16.0)), 0.4379826327, 1e-10);
     const DeviceScene scene = test::on_device(discs(0.25));
-    const auto lights = source_lights(scene.frame());
+    const auto lights = vpls_of_disc(scene.frame());
     for (const double a : {0.05, 0.15, 0.25})
         // The midpoint rule misses f'(0) / 24 / rings^2 = 3.3e-4 on the axis, less beside it, of
         // f(r^2) = h^2 / (r^2 + h^2)^2 with h = 1/2.
@@ -128,7 +128,7 @@ TEST_P(BlockerDisc, IsTakenAwayAsFarAsACosineLobeCan) {
         const double hidden = 4 * blocker * blocker / (1 + 4 * blocker * blocker);
         EXPECT_NEAR(0.5 - hidden, left, 1e-10);
         const DeviceScene scene = test::on_device(discs(blocker));
-        const auto lights = source_lights(scene.frame());
+        const auto lights = vpls_of_disc(scene.frame());
         const test::Receiver receiver{scene.frame().to_local({0, 0, 0}), {0, 1, 0}};
         const ImagePasses& image = test::image_passes(GetParam());
         const double all = test::gather({receiver}, lights, {}, image)[0].x;
@@ -148,14 +148,14 @@ TEST_P(BlockerDisc, IsTakenAwayAsFarAsACosineLobeCan) {
             const double chance = std::sqrt((1 - share) / (share * samples));
             EXPECT_NEAR(all - less, limit, chance * limit) << blocker;
             // Never more than the blocker hides, and most of it: its back gets at most 0.8 of the
-            // source's radiosity, which a cosine lobe spreads over more than the cone it came in.
+            // emitter's radiosity, which a cosine lobe spreads over more than the cone it came in.
             EXPECT_GE(less, left);
             EXPECT_LE(less - left, 0.3 * hidden) << blocker;
         }
     }
 }
 
-// The source itself is seen beside the blocker; it hides nothing.
+// The emitter itself is seen beside the blocker; it hides nothing.
 TEST_P(BlockerDisc, IsTheOnlyOneThatHidesAnything) {
     const DeviceScene scene = test::on_device(discs(0.25));
     Camera camera = test::camera_at({0, 0, 0}, {0, 1, 0});
@@ -163,7 +163,7 @@ TEST_P(BlockerDisc, IsTheOnlyOneThatHidesAnything) {
     camera.half_height = 1.0f;
     int hiding = 0;
     for (const Vpl& light :
-         negative_vpls(scene, camera, source_lights(scene.frame()), GetParam())) {
+         negative_vpls(scene, camera, vpls_of_disc(scene.frame()), GetParam())) {
         if (light.flux.x == 0.0f) continue;
         ++hiding;
         const glm::dvec3 at =

@@ -1,5 +1,5 @@
-// Shares of the indirect lights: nothing is lost where there are fewer lights than sources; and
-// who goes along one sequence of points.
+// Shares of the VPLs: nothing is lost where there are fewer VPLs than emitters; and who goes along
+// one sequence of points.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 

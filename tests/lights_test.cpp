@@ -1,4 +1,4 @@
-// Indirect lights against scenes whose one-bounce light has a closed form.
+// VPLs against scenes whose one-bounce light has a closed form.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <clgi/procedural.hpp>

@@ -1,4 +1,4 @@
-// Negative lights against double precision: where they stand, where they send, their disc and what
+// Negative VPLs against double precision: where they stand, where they send, their disc and what
 // they take, per channel.                                             [Cochran07, section 3.3]
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>

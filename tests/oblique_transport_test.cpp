@@ -95,7 +95,7 @@ Scene flat(Scene scene) {
     return scene;
 }
 
-// One diffuse bounce that nothing stops, of many indirect lights.
+// One diffuse bounce that nothing stops, of many VPLs.
 TEST_P(Oblique, IndirectLightIsThePathTracersInEveryChannel) {
     const Scene scene = flat(scene_with(GetParam()));
     SecondOrderOptions options = solver_options();

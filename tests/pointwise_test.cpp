@@ -195,7 +195,7 @@ TEST_P(Pointwise, LibraryAndPathTracerReflectWhatTheDocumentSays) {
 
 INSTANTIATE_TEST_SUITE_P(Lamps, Pointwise, testing::Range<std::size_t>(0, 5), lamp_name);
 
-// The functions that indirect lights are placed with, over all angles and distances.
+// The functions that VPLs are placed with, over all angles and distances.
 TEST(Falloff, IsThatOfTheStandardAndThePathTracer) {
     Scene scene = test::plain_scene();
     test::add_floor(scene, 1.0);

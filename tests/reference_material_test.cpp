@@ -114,7 +114,7 @@ TEST(ReferenceCamera, SeesTheSurfacesThatTheRasteriserDraws) {
 }
 
 // In an empty convex room nothing is hidden: both kinds of one bounce are the same, and what many
-// indirect lights converge to.
+// VPLs converge to.
 TEST(ReferenceTransport, IsWhatTheSecondOrderSolverConvergesTo) {
     Scene room = test::plain_scene();
     test::add_box(room, {-1, -1, -1.5}, {1, 1, 1.5}, -1);

@@ -3,22 +3,16 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <clgi/procedural.hpp>
-#include <functional>
 
 #include "lighting.hpp"
+#include "refusals.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr std::uint32_t width = 5, height = 3, pixels = width * height, stride = 16, low = 6;
+using test::expect_refusals;
 
-// One argument of a pass: what it needs, and the pass called with a buffer in its place.
-struct Argument {
-    const char* pass;
-    const char* name;
-    std::size_t needed;  // bytes
-    std::function<void(const cl::Buffer&)> call;
-};
+constexpr std::uint32_t width = 5, height = 3, pixels = width * height, stride = 16, low = 6;
 
 // The buffers of a frame of 5x3 pixels, all of them large enough.
 struct Plenty {
@@ -42,25 +36,6 @@ EmitterBuffers with(EmitterBuffers buffers, cl::Buffer EmitterBuffers::*which,
                    const cl::Buffer& other) {
     buffers.*which = other;
     return buffers;
-}
-
-void expect_refusals(const std::vector<Argument>& arguments) {
-    const cl::Context& context = test::device().context;
-    for (const Argument& argument : arguments) {
-        const std::string label = std::string(argument.pass) + ", " + argument.name;
-        EXPECT_NO_THROW(argument.call(cl::Buffer(context, CL_MEM_READ_WRITE, argument.needed)))
-            << label;
-        test::device().queue.finish();
-        try {
-            argument.call(cl::Buffer(context, CL_MEM_READ_WRITE, argument.needed - 1));
-            ADD_FAILURE() << label << " took a buffer one byte too small";
-        } catch (const Error& error) {
-            EXPECT_EQ(error.what(), std::string(argument.pass) + ": " + argument.name + " holds " +
-                                        std::to_string(argument.needed - 1) + " bytes, " +
-                                        std::to_string(argument.needed) + " needed");
-        }
-        EXPECT_THROW(argument.call(cl::Buffer()), Error) << label << " that is none";
-    }
 }
 
 TEST(Sizes, OfGBufferPasses) {

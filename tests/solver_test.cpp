@@ -1,4 +1,4 @@
-// Whole frames against closed forms, and what a frame promises about negative lights and shadows.
+// Whole frames against closed forms, and what a frame promises about negative VPLs and shadows.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <clgi/procedural.hpp>

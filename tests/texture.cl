@@ -13,3 +13,15 @@ kernel void sample_textures(
     colors[get_global_id(0)] =
         texture_sample(textures, texels, decode, (int)at.w, at.x, at.y, at.z);
 }
+
+// Their alpha alone.
+kernel void sample_alphas(
+    global const TextureRecord*  restrict textures,
+    global const uint*           restrict texels,
+    global const float4*         restrict places,  // as above
+    global float*                restrict alphas)  // [items]
+{
+    float4 at = places[get_global_id(0)];
+    alphas[get_global_id(0)] =
+        texture_sample_alpha(textures, texels, (int)at.w, at.x, at.y, at.z);
+}

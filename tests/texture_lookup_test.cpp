@@ -1,5 +1,5 @@
-// Texture lookups, per channel, against a lookup in double precision: every pair of wrap modes,
-// all mip levels and the blends between them.
+// Texture lookups, per channel and of alpha alone, against a lookup in double precision: every pair
+// of wrap modes, all mip levels and the blends between them.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -34,8 +34,13 @@ Scene textured_scene(const std::vector<Size>& sizes, bool nearest) {
     return scene;
 }
 
+struct Lookups {
+    std::vector<glm::vec4> colors;
+    std::vector<float> alphas;  // by the lookup of alpha alone
+};
+
 // places: u, v, area of UV space, texture.
-std::vector<glm::vec4> lookups(const DeviceScene& scene, const std::vector<glm::vec4>& places) {
+Lookups lookups(const DeviceScene& scene, const std::vector<glm::vec4>& places) {
     const test::Device& on = test::device();
     cl::Program program(on.context, test::kernel_text("tests/texture.cl"));
     program.build(on.device, "-cl-std=CL1.2");
@@ -46,7 +51,14 @@ std::vector<glm::vec4> lookups(const DeviceScene& scene, const std::vector<glm::
     kernel.setArg(3, asked);
     kernel.setArg(4, colors);
     on.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(places.size()));
-    return test::download<glm::vec4>(colors, places.size());
+    cl::Kernel alone(program, "sample_alphas");
+    const cl::Buffer alphas = test::empty<float>(places.size());
+    for (int i = 0; i < 2; ++i) alone.setArg(i, *scene.kernel_arguments()[6 + i]);
+    alone.setArg(2, asked);
+    alone.setArg(3, alphas);
+    on.queue.enqueueNDRangeKernel(alone, cl::NullRange, cl::NDRange(places.size()));
+    return {test::download<glm::vec4>(colors, places.size()),
+            test::download<float>(alphas, places.size())};
 }
 
 std::string filter_name(const testing::TestParamInfo<bool>& info) {
@@ -68,7 +80,7 @@ TEST_P(TextureLookup, IsTrilinearPerChannelInEveryWrapMode) {
         // From magnified to a pixel that covers the texture several times.
         at = {random(-2.5, 3.5), random(-2.5, 3.5), std::exp2(random(-14, 4)), texture};
     }
-    const auto colors = lookups(placed, places);
+    const Lookups found = lookups(placed, places);
     std::size_t checked = 0, wrong = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const glm::vec4& at = places[i];
@@ -82,7 +94,8 @@ TEST_P(TextureLookup, IsTrilinearPerChannelInEveryWrapMode) {
         if (wanted.near_border) continue;
         ++checked;
         for (int c = 0; c < 4; ++c)
-            wrong += !(std::abs(colors[i][c] - wanted.color[c]) <= slack + level + 8 * u);
+            wrong += !(std::abs(found.colors[i][c] - wanted.color[c]) <= slack + level + 8 * u);
+        wrong += !(std::abs(found.alphas[i] - wanted.color.w) <= slack + level + 8 * u);
     }
     EXPECT_EQ(wrong, 0u);
     EXPECT_GT(checked, places.size() * 99 / 100);

@@ -31,6 +31,13 @@ double closeness(const View& view, double depth) {
     return (far - depth) / (far - near);
 }
 
+float seen_closeness(const Drawing& drawing, std::size_t pixel) {
+    const auto bits = ~static_cast<std::uint32_t>(drawing.visibility[pixel] >> 32);
+    float out = 0.0f;
+    std::memcpy(&out, &bits, sizeof out);
+    return out;
+}
+
 double depth_of(const View& view, const glm::dvec3& position) {
     return glm::dot(position - glm::dvec3(view.eye), glm::dvec3(view.forward));
 }
@@ -95,14 +102,49 @@ TEST_P(Visibility, HoldsTheClosenessOfPixelCentres) {
         const double down = closeness(view, at(x, y + 0.01).depth) - wanted;
         const double bound =
             (std::abs(across) + std::abs(down)) * 100 / 512 * 1.05 + 64 * 0x1p-24 * wanted;
-        const auto bits = ~static_cast<std::uint32_t>(drawing.visibility[p] >> 32);
-        float found = 0.0f;
-        std::memcpy(&found, &bits, sizeof found);
-        worst = std::max(worst, std::abs(found - wanted) / bound);
+        worst = std::max(worst, std::abs(seen_closeness(drawing, p) - wanted) / bound);
         ++checked;
     }
     EXPECT_GT(checked, 5000u);
     EXPECT_LT(worst, 1.0);
+}
+
+// Rounding puts nothing in front of a triangle's closest corner or behind its farthest, not even on
+// an edge between two of these that runs through pixel centres.
+TEST(Visibility, LiesBetweenItsCorners) {
+    Random random(87);
+    std::size_t checked = 0, before = 0, behind = 0;
+    for (int frame = 0; frame < 30; ++frame) {  // of few triangles: what is behind is seen as well
+        Scene scene = test::plain_scene();
+        scene.materials[0].double_sided = true;
+        for (int t = 0; t < 30; ++t) {
+            const glm::dvec3 from(random.integer(0, 130) + 0.5, random.integer(0, 130) + 0.5,
+                                  random(0, 40));
+            const double steps = random.integer(5, 20);
+            const glm::dvec3 to =
+                from + steps * glm::dvec3(random.integer(-6, 6), random.integer(-6, 6), 0);
+            glm::dvec3 corner[3] = {from, to, {random(0, 131), random(0, 131), random(0, 40)}};
+            std::swap(corner[2], corner[random.integer(0, 2)]);
+            test::add_triangle(scene, corner[0], corner[1], corner[2]);
+        }
+        const Drawing drawing = test::draw(scene, test::pixel_camera(131, 131), 131, 131);
+        for (std::size_t p = 0; p < drawing.pixels(); ++p) {
+            if (drawing.triangle(p) < 0) continue;
+            const glm::uvec4& corners = drawing.triangles[drawing.visibility[p] & 0xffffffffu];
+            const float found = seen_closeness(drawing, p);
+            float farthest = drawing.vertices[corners[0]].closeness, closest = farthest;
+            for (int k = 1; k < 3; ++k) {
+                farthest = std::min(farthest, drawing.vertices[corners[k]].closeness);
+                closest = std::max(closest, drawing.vertices[corners[k]].closeness);
+            }
+            ++checked;
+            before += !(found <= closest);
+            behind += !(found >= farthest);
+        }
+    }
+    EXPECT_GT(checked, 100000u);
+    EXPECT_EQ(before, 0u);
+    EXPECT_EQ(behind, 0u);
 }
 
 // Before the near plane there is nothing, though it lies in front of the eye; what crosses the
@@ -131,6 +173,56 @@ TEST(Visibility, BeginsAtTheNearPlane) {
         EXPECT_GT(seen, 300u);
         EXPECT_EQ(before, 0u);
     }
+}
+
+// Of a triangle with one corner before the plane four edges are left, all of them in one tile.
+TEST(Visibility, CutsSmallTrianglesAtTheNearPlane) {
+    Random random(88);
+    Scene scene = test::plain_scene();
+    scene.materials[0].double_sided = true;
+    for (int t = 0; t < 40; ++t) {
+        const glm::dvec3 at(random(-0.4, 0.4), random(-0.4, 0.4), -1.0);
+        glm::dvec3 corner[3];
+        for (glm::dvec3& c : corner) c = at + glm::dvec3(test::random_vec3(random, -0.15, 0.15));
+        test::add_triangle(scene, corner[0], corner[1], corner[2]);
+    }
+    Camera camera = test::camera_at({0, 0, 0}, {0, 0, -1}, 0.9f);
+    camera.near = 1.0f;
+    const DeviceScene placed = test::on_device(scene);
+    const View view = make_view(camera, placed.frame(), 64, 64);
+    const Drawing drawing = test::draw(placed, view);
+    const RasterBuffers buffers = test::raster_buffers(placed, drawing.pixels());
+    test::draw_visibility(test::gbuffer_passes(), placed, view, buffers, true);
+    EXPECT_TRUE(test::download<std::uint64_t>(buffers.pixels, drawing.pixels()) ==
+                drawing.visibility);
+
+    const test::SurfaceReference reference(scene, placed);
+    const double near = view.forward.w;
+    std::size_t seen = 0, open = 0, wrong = 0;
+    for (std::size_t p = 0; p < drawing.pixels(); ++p) {
+        const double x = static_cast<double>(p % 64) + 0.5, y = static_cast<double>(p / 64) + 0.5;
+        int wanted = -1;
+        double nearest = std::numeric_limits<double>::infinity();
+        bool clear = true;  // of edges, the plane and other triangles at this depth
+        for (int t = 0; t < 40; ++t) {
+            const test::SurfaceTruth hit = reference.at(view, t, x, y);
+            const glm::dvec3& w = hit.weights;
+            const double inside = glm::min(glm::min(w.x, w.y), w.z);
+            if (inside < -0.03) continue;
+            if (inside < 0.03 || std::abs(hit.depth - near) < 0.003 * near ||
+                std::abs(hit.depth - nearest) < 0.003 * near)
+                clear = false;
+            if (hit.depth < near || hit.depth > nearest) continue;
+            nearest = hit.depth;
+            wanted = t;
+        }
+        if (!clear) continue;
+        (wanted < 0 ? open : seen) += 1;
+        wrong += drawing.triangle(p) != wanted;
+    }
+    EXPECT_GT(seen, 200u);
+    EXPECT_GT(open, 500u);
+    EXPECT_EQ(wrong, 0u);
 }
 
 // Far beyond the guard band in one direction alone.

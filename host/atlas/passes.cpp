@@ -39,15 +39,14 @@ cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& p
     need(gather_, "sites", b.sites, b.site_count * sizeof(Site));
     need(gather_, "planes", b.planes, SITE_PLANES * word * params.site_stride);
     need(gather_, "light", b.light, SITE_LIGHT_PLANES * word * params.site_stride);
-    need(gather_, "balance", b.balance, BALANCE_PLANES * word * params.site_stride);
     need(gather_, "samples", b.samples, GBUFFER_PLANES * word * params.sample_stride);
     need(gather_, "weights", b.weights, word * params.sample_stride);
     need(gather_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
     need(gather_, "irradiance", irradiance, 3 * word * params.stride);
     need(gather_, "filled", filled, word * params.stride);
     return launch(gather_, queue, packets(gather_, params.texel_count - params.first_texel), wait,
-                  params, b.chosen, views, depth, b.sites, b.planes, b.light, b.balance, b.samples,
-                  b.weights, texels, irradiance, filled);
+                  params, b.chosen, views, depth, b.sites, b.planes, b.light, b.samples, b.weights,
+                  texels, irradiance, filled);
 }
 
 cl::Event AtlasPasses::nearest(const cl::CommandQueue& queue, const FillParams& params,

@@ -25,7 +25,7 @@ struct Answer {
     double probe_ms = 0.0;
 };
 
-// The converged picture, what errors are relative to: this many indirect lights, every pixel in
+// The converged picture, what errors are relative to: this many VPLs, every pixel in
 // full, the mean of a few replicates.
 constexpr int converged_lights = 50000;
 

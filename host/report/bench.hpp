@@ -29,7 +29,7 @@ struct BenchTable {
     std::string device;
     std::string scene;
     double peak_gflops = 0.0;      // multiply-adds, measured between the rows
-    double gather_gflops = 0.0;    // of image.gather, the row with most lights
+    double gather_gflops = 0.0;    // of image.gather, the row with most VPLs
     double gather_fraction = 0.0;  // of the peak
     std::vector<BenchRow> rows;
 };
@@ -44,12 +44,12 @@ struct BenchSetup {
     std::function<bool(double)> progress;  // share done; false stops
 };
 
-// Table 1 of [Cochran07]: frame rates for pairs of positive and negative lights, at the
+// Table 1 of [Cochran07]: frame rates for pairs of VPLs and negative VPLs, at the
 // discontinuity threshold that leaves 87.5 % of the pixels at low resolution.
 BenchTable bench_cochran1(const BenchSetup& setup);
 
 // Table 2 of [Cochran07]: share of low-resolution pixels against error and frame rate, with 100
-// positive and 50 negative lights (its second row is the first of Table 1).
+// VPLs and 50 negative VPLs (its second row is the first of Table 1).
 BenchTable bench_cochran2(const BenchSetup& setup);
 
 }  // namespace clgi::report

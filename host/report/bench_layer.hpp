@@ -16,7 +16,7 @@ struct LayerRow {
     double ratio = 0.0;  // of the two ways: the median over rounds
 };
 
-// A 640x480 view and 64 lights. In every round each row is measured both ways, one straight after
+// A 640x480 view and 64 VPLs. In every round each row is measured both ways, one straight after
 // the other and in turns first, from the first call to the end on the device.
 // progress: share done; false ends it with Error.
 std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,

@@ -10,13 +10,13 @@ namespace {
 
 constexpr float none = INFINITY;  // no pixel is lit in full
 
-// Measured at 320x240 with 64 to 4096 lights, negative shares of 0.1, 1/3 and 1, steps of 4, 2 and
+// Measured at 320x240 with 64 to 4096 VPLs, negative shares of 0.1, 1/3 and 1, steps of 4, 2 and
 // 1 and thresholds from none to 0.005 (docs/accuracy.md says how): what is on the front of frame
 // time against error to the converged picture.
 //
-// With a few hundred lights, sampling errs so much more than interpolation that lighting any pixel
+// With a few hundred VPLs, sampling errs so much more than interpolation that lighting any pixel
 // in full is wasted. Half as many points across come to pay before low thresholds at a quarter do.
-// Point lights reach the backs of everything: they need as many negative lights as others.
+// Point lights reach the backs of everything: they need as many negative VPLs as others.
 const Front fronts[] = {
     // spot: cornell, box with the bunny, corridor
     {0.2, {{4, none, 16}, {4, 0.2f, 700}, {2, 0.05f, 3000}, {2, 0.02f, 10000}, {1, 0.0f, 30000}}},

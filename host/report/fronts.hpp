@@ -14,8 +14,8 @@ enum class SceneClass { spot, directional, point, area };
 
 SceneClass classify(const DeviceScene& scene);
 
-// How finely indirect light is spread over the pixels. A rung pays from so many lights on: with
-// fewer, more lights at the rung below take more error away in the same time.
+// How finely indirect light is spread over the pixels. A rung pays from so many VPLs on: with
+// fewer, more VPLs at the rung below take more error away in the same time.
 struct Rung {
     int step;         // low_resolution_step
     float threshold;  // discontinuity_threshold
@@ -24,7 +24,7 @@ struct Rung {
 
 // The Pareto front of time against error, from cheap to dear.
 struct Front {
-    double negative_share;  // negative lights of one indirect light
+    double negative_share;  // negative VPLs for each VPL
     std::vector<Rung> rungs;
 };
 

@@ -115,7 +115,7 @@ std::string math_table(const Sweep& sweep) {
     const std::vector<MathMode> modes = math_modes(sweep);
     if (modes.empty()) return "";
     std::string out =
-        "<h2>Math and storage</h2>\n<p>300 indirect and 150 negative lights; the error is against "
+        "<h2>Math and storage</h2>\n<p>300 VPLs and 150 negative VPLs; the error is against "
         "one bounce, the difference against strict math on floats.</p>\n"
         "<table><tr><th>math</th><th>storage</th><th>ms</th><th>times as fast</th>"
         "<th>error %</th><th>difference %</th></tr>\n";

@@ -87,13 +87,13 @@ std::vector<std::string> summary(const Sweep& sweep) {
         const Floor floor = floor_of(sweep, series, "vpls", truth);
         if (!floor.setting.empty())
             out.push_back(fmt::format(
-                "{}: from {} indirect lights on, error against the {} reference stays at {:.2f} %.",
+                "{}: from {} VPLs on, error against the {} reference stays at {:.2f} %.",
                 what, floor.setting, truth_names[truth], 100.0 * floor.error));
     };
-    floor_line("vpls, unshadowed", "Without negative lights", unshadowed_bounce);
-    floor_line("vpls, unshadowed", "Without negative lights", all_light);
-    floor_line("vpls", "With 150 negative lights", one_bounce);
-    floor_line("vpls", "With 150 negative lights", all_light);
+    floor_line("vpls, unshadowed", "Without negative VPLs", unshadowed_bounce);
+    floor_line("vpls, unshadowed", "Without negative VPLs", all_light);
+    floor_line("vpls", "With 150 negative VPLs", one_bounce);
+    floor_line("vpls", "With 150 negative VPLs", all_light);
 
     const SweepPoint *none = nullptr, *best = nullptr;
     for (const SweepPoint* point : points_of(sweep, "negative-vpls")) {
@@ -104,7 +104,7 @@ std::vector<std::string> summary(const Sweep& sweep) {
     }
     if (none && best)
         out.push_back(fmt::format(
-            "Negative lights: at {} indirect lights the error against the full reference is "
+            "Negative VPLs: at {} VPLs the error against the full reference is "
             "{:.2f} % without and {:.2f} % with {} of them; against one bounce {:.2f} % and "
             "{:.2f} %.",
             none->knobs.at("vpls"), 100.0 * none->error[all_light], 100.0 * best->error[all_light],

@@ -36,7 +36,9 @@ std::vector<Room> plan_rooms(const CorridorOptions& options) {
         const double near = -options.room_length * i, far = near - options.room_length;
         for (const int side : {-1, 1}) {
             // Doors do not face each other: through one is seen a wall, not the next room.
-            const double door = near - options.room_length * (side < 0 ? 0.3 : 0.7);
+            // A door that opens further than the wall beyond it is long moves to the middle.
+            const double right = options.door_angle > 2.6f ? 0.5 : 0.7;
+            const double door = near - options.room_length * (side < 0 ? 0.3 : right);
             rooms.push_back({side, near - 0.5 * wall, far + 0.5 * wall, door + 0.5 * door_width,
                              door - 0.5 * door_width});
         }
@@ -136,7 +138,7 @@ Materials add_materials(Scene& scene) {
 
 void check(const CorridorOptions& options) {
     generated::check_range("corridor", "rooms", options.rooms, 1, 64);
-    generated::check_range("corridor", "door_angle", options.door_angle, 0.0, 2.6);
+    generated::check_range("corridor", "door_angle", options.door_angle, 0.0, 2.97);
     generated::check_range("corridor", "width", options.width, 0.5, 100.0);
     generated::check_range("corridor", "height", options.height, 2.2, 100.0);
     generated::check_range("corridor", "room_length", options.room_length, 3.0, 100.0);

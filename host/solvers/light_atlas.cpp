@@ -16,6 +16,7 @@ namespace {
 constexpr int balance_steps = 6;       // half-steps of both kinds; the factors differ by 1e-3 then
 constexpr std::uint32_t chunk = 32;    // shots between two looks at what is left
 constexpr std::uint32_t most_bounces = 10000;
+constexpr std::uint32_t one_bits = 0x3f800000;  // 1.0f
 
 LightAtlasOptions checked(LightAtlasOptions options, const DeviceScene& scene) {
     check(options);
@@ -29,6 +30,14 @@ std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& order) {
     std::vector<std::uint32_t> out(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) out[order[i]] = i;
     return out;
+}
+
+// The k-th of `count` neighbours in an order whose beginnings are spread over all of them: steps of
+// the golden section, or of the next number that has no divisor in common with the count.
+std::uint32_t spread_out(std::uint32_t k, std::uint32_t count) {
+    auto step = std::max(static_cast<std::uint32_t>(0.618034 * count), 1u);
+    while (std::gcd(step, count) != 1) ++step;
+    return static_cast<std::uint32_t>(std::uint64_t{k} * step % count);
 }
 
 std::uint32_t device_triangle(const std::vector<std::uint32_t>& of, std::uint32_t triangle) {
@@ -83,8 +92,12 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
     const double scale = scene.frame().scale;
     std::vector<SurfaceSample> list;
     const float spacing = static_cast<float>(layout.sample_area * scale * scale);
-    for (const SamplePoint& point : layout.samples)
-        list.push_back({device_triangle(device, point.triangle), point.b1, point.b2, spacing});
+    for (const VplSite& site : layout.vpls)
+        for (std::uint32_t k = 0; k < site.sample_count; ++k) {
+            const SamplePoint& point =
+                layout.samples[site.first_sample + spread_out(k, site.sample_count)];
+            list.push_back({device_triangle(device, point.triangle), point.b1, point.b2, spacing});
+        }
     std::vector<std::uint32_t> order(layout.vpls.size());
     std::iota(order.begin(), order.end(), 0u);
     row_scale = 0.0f;
@@ -103,12 +116,6 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
     for (const AtlasTexel& texel : texels.texels)
         list.push_back({device_triangle(device, texel.triangle), texel.b1, texel.b2, 0.0f});
     record.write(b.texel_list, list.data(), list.size() * sizeof(SurfaceSample));
-    balance_evenly();
-}
-
-void LightAtlasSolver::State::balance_evenly() {
-    const std::vector<float> ones(2 * b.sites.stride, 1.0f);
-    record.write(b.sites.balance, ones.data(), ones.size() * sizeof(float));
 }
 
 // Where samples, VPLs and texels are, and what they reflect. [section 3.1]
@@ -125,13 +132,13 @@ void LightAtlasSolver::State::place() {
         return gbuffer.surface(queue, scene, {b.texel_count, b.texels.stride, 0, 0}, b.texel_list,
                                b.texels, {}, wait);
     });
-    placed = true;
+    placed = !record.cancelled();
 }
 
 void LightAtlasSolver::State::light_points(const GBuffer& points, std::uint32_t count,
-                                           const cl::Buffer& irradiance) {
+                                           const cl::Buffer& irradiance, bool add) {
     const auto number = static_cast<std::uint32_t>(emitters.set().emitters.size());
-    const DirectParams params{points.stride, count, number, 1.0f, 1, 0, 0, 0};
+    const DirectParams params{points.stride, count, number, 1.0f, 1, add ? 1u : 0u, 0, 0};
     record("lights.direct", count, [&](const WaitList& wait) {
         return lights.direct(queue, params, emitters.buffers(), points.planes, irradiance,
                              b.non_finite, wait);
@@ -141,7 +148,7 @@ void LightAtlasSolver::State::light_points(const GBuffer& points, std::uint32_t 
 // Shadow-mapped direct light of every kind at the VPLs. [section 3.2]
 void LightAtlasSolver::State::receive_direct() {
     emitters.draw(record, gbuffer, b.lists);
-    light_points(b.samples, b.sites.sample_count, b.sample_irradiance);
+    light_points(b.samples, b.sites.sample_count, b.sample_irradiance, false);
     record("vpl.receive", b.sites.site_count, [&](const WaitList& wait) {
         return vpl.receive(queue, b.sites, b.sample_irradiance, wait);
     });
@@ -167,7 +174,8 @@ void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count
     hemicubes(first, count, options.exchange_size, Pixels::visibility);
     const TransportParams params{first, count, b.kept ? 1u : 0u, b.sites.site_count,
                                  b.sites.stride, b.sites.sample_stride,
-                                 static_cast<std::uint32_t>(options.exchange_size), row_scale, 2};
+                                 static_cast<std::uint32_t>(options.exchange_size), row_scale, 2,
+                                 options.exchange_samples, 0, 0};
     record("vpl.transport", std::size_t{count} * b.sites.sample_count, [&](const WaitList& wait) {
         return vpl.transport(queue, params, b.sites, b.views, b.pixels, b.rows, wait);
     });
@@ -181,15 +189,16 @@ ShootParams LightAtlasSolver::State::shoot_params(std::uint32_t first, std::uint
             1.0f / row_scale, SHOOT_ALL, threshold};
 }
 
-void LightAtlasSolver::State::keep_transport() {
+// Transport of all VPLs, or, where it is not kept, what they reach and their factors alone.
+void LightAtlasSolver::State::measure_transport() {
     const std::uint32_t n = b.sites.site_count;
-    balance_evenly();
     for (std::uint32_t first = 0; first < n && !record.cancelled(); first += b.exchange_batch) {
         transport(first, std::min(b.exchange_batch, n - first));
+        if (!b.kept) balance_shooters(first, std::min(b.exchange_batch, n - first));
         if (first % (16 * b.exchange_batch) == 0) record.report(0.05 + 0.3 * first / n);
     }
-    balance();
-    transported = !record.cancelled();
+    if (b.kept) balance();
+    measured = !record.cancelled();
 }
 
 void LightAtlasSolver::State::balance() {
@@ -198,10 +207,14 @@ void LightAtlasSolver::State::balance() {
         record("vpl.balance_receivers", n, [&](const WaitList& wait) {
             return vpl.balance_receivers(queue, shoot_params(0, n), b.sites, b.rows, wait);
         });
-        record("vpl.balance_shooters", n, [&](const WaitList& wait) {
-            return vpl.balance_shooters(queue, shoot_params(0, n), b.sites, b.rows, wait);
-        });
+        balance_shooters(0, n);
     }
+}
+
+void LightAtlasSolver::State::balance_shooters(std::uint32_t first, std::uint32_t count) {
+    record("vpl.balance_shooters", count, [&](const WaitList& wait) {
+        return vpl.balance_shooters(queue, shoot_params(first, count), b.sites, b.rows, wait);
+    });
 }
 
 // Light of a batch of shooters arrives. Rows that are not kept are made, and balanced by their
@@ -210,9 +223,7 @@ void LightAtlasSolver::State::shoot(std::uint32_t first, std::uint32_t count) {
     const ShootParams params = shoot_params(first, count);
     if (!b.kept) {
         transport(first, count);
-        record("vpl.balance_shooters", count, [&](const WaitList& wait) {
-            return vpl.balance_shooters(queue, params, b.sites, b.rows, wait);
-        });
+        balance_shooters(first, count);
     }
     record("vpl.shoot", std::size_t{count} * b.sites.site_count, [&](const WaitList& wait) {
         return vpl.shoot(queue, params, b.sites, b.rows, b.non_finite, wait);
@@ -257,6 +268,7 @@ void LightAtlasSolver::State::shoot_strongest() {
     const std::uint32_t n = b.sites.site_count;
     ShootParams params = shoot_params(n, 1);
     params.mode = SHOOT_STRONGEST;
+    record.fill(b.sites.power, 0);  // so the first shot is none, and finds out all powers
     for (std::uint32_t k = 0; k < most_bounces * 8 && !record.cancelled(); ++k) {
         for (std::uint32_t i = 0; i < chunk; ++i) {
             record("parallel.arg_max", n, [&](const WaitList& wait) {
@@ -294,16 +306,19 @@ void LightAtlasSolver::State::fill() {
                                 b.irradiance, b.filled, wait);
         });
         filled_vpls += count;
-        if (first % (16 * b.filling_batch) == 0) record.report(0.45 + 0.55 * filled_vpls / n);
+        if (first % 64 == 0) record.report(0.45 + 0.54 * filled_vpls / n);
     }
     record("atlas.complete", b.texel_count, [&](const WaitList& wait) {
         return atlas.complete(queue, all, b.reach, b.filled, b.irradiance, b.non_finite, wait);
     });
+    if (options.direct) light_points(b.texels, b.texel_count, b.irradiance, true);
 }
 
 // Light goes from VPL to VPL. [section 3.3]
 void LightAtlasSolver::State::exchange() {
-    if (b.kept && !transported) keep_transport();
+    // Bounces of all VPLs make what is not kept anyway.
+    const bool all_shoot = options.bounces == 0 ? !options.one_at_a_time : options.bounces > 1;
+    if (!measured && (b.kept || !all_shoot)) measure_transport();
     if (options.bounces > 0)
         for (std::uint32_t k = 1; k < options.bounces && !record.cancelled(); ++k) bounce();
     else if (options.one_at_a_time)
@@ -314,12 +329,15 @@ void LightAtlasSolver::State::exchange() {
 
 bool LightAtlasSolver::State::run(const Progress& progress) {
     record.begin({}, progress);
+    record.fill(b.non_finite, 0);
     ended = false;
     filled_vpls = 0;
     shots = 0;
     record.report(0.0);
     if (!placed) place();
     receive_direct();
+    // Factors begin with 1, also after a bake that was cancelled half-way or went on from a state.
+    if (!measured) record.fill(b.sites.balance, one_bits);
     direct.resize(3 * std::size_t{b.sites.stride});
     record.wait();
     queue.enqueueReadBuffer(b.sites.light, CL_TRUE, 0, direct.size() * sizeof(float),

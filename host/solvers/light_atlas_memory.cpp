@@ -14,6 +14,7 @@ namespace light_atlas {
 
 void check(const LightAtlasOptions& options) {
     need_range<double>("light-atlas", "bounces", options.bounces, 0, 1000);
+    need_range<double>("light-atlas", "exchange_samples", options.exchange_samples, 1, 4096);
     need_range<double>("light-atlas", "threshold", options.threshold, 1e-7, 1);
     for (const auto& [name, size] : {std::pair{"exchange_size", options.exchange_size},
                                      std::pair{"filling_size", options.filling_size}}) {
@@ -42,7 +43,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
     b.texels.stride = b.texel_stride;
     // Maps of a batch should stay in a core's cache, and every core have views to draw.
     b.exchange_batch = 16;
-    b.filling_batch = 4;
+    b.filling_batch = 8;
 
     BufferTable t("light-atlas");
     emitters.add_to(t);

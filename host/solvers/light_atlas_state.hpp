@@ -48,12 +48,13 @@ struct LightAtlasSolver::State {
     void upload(const VplLayout& vpls, const AtlasLayout& atlas);
     void place();
     void receive_direct();
-    void light_points(const GBuffer& points, std::uint32_t count, const cl::Buffer& irradiance);
+    void light_points(const GBuffer& points, std::uint32_t count, const cl::Buffer& irradiance,
+                      bool add);
     void hemicubes(std::uint32_t first, std::uint32_t count, int size, Pixels kind);
     void transport(std::uint32_t first, std::uint32_t count);
-    void keep_transport();
-    void balance_evenly();
+    void measure_transport();
     void balance();
+    void balance_shooters(std::uint32_t first, std::uint32_t count);
     void shoot(std::uint32_t first, std::uint32_t count);
     void bounce();
     void bounce_to_threshold();
@@ -83,7 +84,7 @@ struct LightAtlasSolver::State {
     float threshold = 0.0f;     // exposed lumen
     std::uint32_t shots = 0;
     std::size_t bytes = 0;
-    bool placed = false, transported = false, ended = false;
+    bool placed = false, measured = false, ended = false;
     std::uint32_t filled_vpls = 0;  // that have lit the texels in this run
     std::optional<LightAtlasState> restored;
     std::vector<Site> sites;

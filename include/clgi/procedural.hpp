@@ -62,7 +62,8 @@ CLGI_API Scene furnace(const FurnaceOptions& options = {});
 // light through the doors reaches the rooms. No edge ends in the middle of another one.
 struct CorridorOptions {
     int rooms = 3;                                         // on either side, 1 to 64
-    float door_angle = 1.2f;                               // 0: closed, up to 2.6
+    float door_angle = 1.2f;                               // 0: closed, up to 2.97; from 2.6 on,
+                                                           // doors on the right are mid-room
     double width = 2.0;                                    // of the corridor, at least 0.5
     double height = 2.5;                                   // at least 2.2 (doors are 2.05 high)
     double room_length = 4.0;                              // along the corridor, at least 3

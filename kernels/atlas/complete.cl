@@ -1,9 +1,12 @@
 // VPLs stand off the edges of their patches, so a texel in a corner sees the strip beside it filled
-// by none. What fills the rest of its hemisphere stands for that strip too:
+// by none. What fills the rest of its hemisphere stands for that strip too. Discs also stand out
+// over the edges of their patches, and form factors that sum up to more than 1 are too large:
 //
-//   I <- I clamp(h / sum_i F_i, 1, COMPLETE_MOST)        [derived: sum of form factors, h: nearest.cl]
+//   I <- I clamp(h / S, min(1, 1 / S), COMPLETE_MOST),   S = sum_i F_i
+//                                                        [derived: sum of form factors, h: nearest.cl]
 //
-// In a closed scene h is 1 and the sum of all form factors becomes what it has to be.
+// In a closed scene h is 1 and the sum of all form factors becomes what it has to be. Where h is
+// less, it is another place's, and lowers nothing.
 //
 // Work size     1D, one work-item for every CLGI_WIDTH texels; any local size; tail guarded
 // Writes        its own texels; packets with numbers that are not finite are counted
@@ -11,7 +14,8 @@
 #include "clgi/shared/atlas.h"
 #include "packet.clh"
 
-#define COMPLETE_MOST 4.0f
+// Gaps of centimetres are filled by what the sample points do not resolve: more would be a guess.
+#define COMPLETE_MOST 1.5f
 
 kernel void atlas_complete(
     const FillParams       params,
@@ -24,13 +28,14 @@ kernel void atlas_complete(
     if (at >= params.texel_count) return;
     floatp one = packet_splat(1.0f);
     floatp sum = packet_load(filled + at);
-    floatp raised = packet_load(reach + at) / packet_select(one, sum, sum > 0.0f);
-    raised = packet_min(packet_max(raised, one), packet_splat(COMPLETE_MOST));
-    raised = packet_select(one, raised, sum > 0.0f);
+    floatp per_sum = one / packet_select(one, sum, sum > 0.0f);
+    floatp factor = packet_load(reach + at) * per_sum;
+    factor = packet_min(packet_max(factor, packet_min(one, per_sum)), packet_splat(COMPLETE_MOST));
+    factor = packet_select(one, factor, sum > 0.0f);
     uintp worst = (uintp)(0);
     for (int c = 0; c < 3; ++c) {
         global float* out = irradiance + c * params.stride + at;
-        floatp value = packet_load(out) * raised;
+        floatp value = packet_load(out) * factor;
         worst = max(worst, packet_magnitude(value));
         packet_store(value, out);
     }

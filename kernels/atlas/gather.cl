@@ -1,6 +1,9 @@
 // Light of a batch of VPLs at every texel, added to what is there.
 //
-//   I(u, v) += sum_i F'_i(u, v) E_i,   E_i = a_i rho_i A_i I_i               [Schaerfig16, Eq. 9]
+//   I(u, v) += sum_i F'_i(u, v) E_i,   E_i = rho_i A_i I_i                   [Schaerfig16, Eq. 9]
+//
+// The factors that balance the transport stay out: only products of a shooter's and a receiver's
+// mean something, and a texel has none.
 //
 // The paper projects the picture of each VPL into the atlas. Here every texel looks up the VPL's
 // depth maps: no seams, no extrapolation, and no two writers of a texel.
@@ -22,7 +25,6 @@ kernel void atlas_gather(
     global const Site*   restrict sites,
     global const float*  restrict site_planes, // [SITE_PLANES][site_stride]
     global const float*  restrict light,       // [SITE_LIGHT_PLANES][site_stride]
-    global const float*  restrict balance,     // [BALANCE_PLANES][site_stride]
     global const float*  restrict samples,     // [GBUFFER_PLANES][sample_stride]
     global const float*  restrict weights,     // [sample_stride] of the samples
     global const float*  restrict texels,      // [>= GBUFFER_GEOMETRIC + 3][stride]
@@ -44,8 +46,7 @@ kernel void atlas_gather(
     for (uint s = 0; s < params.shooter_count; ++s) {
         uint site = chosen[params.first_shooter + s];
         float power[3];
-        float factor = balance[BALANCE_SHOOTER * params.site_stride + site] * sites[site].area *
-                       (1.0f / CLGI_PI);
+        float factor = sites[site].area * (1.0f / CLGI_PI);
         for (int c = 0; c < 3; ++c)
             power[c] = factor * site_planes[(SITE_ALBEDO + c) * params.site_stride + site] *
                        light[(SITE_RECEIVED + c) * params.site_stride + site];

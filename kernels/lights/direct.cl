@@ -46,5 +46,9 @@ kernel void lights_direct(
         for (int c = 0; c < 3; ++c)
             sum[c] = packet_select(sum[c], packet_splat(NAN), bad);
     }
-    for (int c = 0; c < 3; ++c) row_store(sum[c], irradiance_row(irradiance, c, stride), at);
+    for (int c = 0; c < 3; ++c) {
+        Row row = irradiance_row(irradiance, c, stride);
+        if (params.add) sum[c] += row_load(row, at);
+        row_store(sum[c], row, at);
+    }
 }

@@ -3,8 +3,11 @@
 //
 //   a_i = h_i / sum_j T_ij b_j A_j                     [derived: Sinkhorn, Knopp 1967]
 //
+// Where the bounds of a factor do not allow that, the share that surfaces take is another one than
+// was measured: what cannot arrive is lost. Then h_i <- a_i sum_j T_ij b_j A_j.
+//
 // Work size    1D, one work-item a shooter; any local size; tail guarded
-// Writes       its own factor
+// Writes       its own factor, and BALANCE_REACH where it was out of reach
 // SPDX-License-Identifier: MIT
 #include "vpl/balance.clh"
 
@@ -33,9 +36,11 @@ kernel void vpl_balance_shooters(
     packet_store(sum, lane);
     float total = 0.0f;
     for (int k = 0; k < CLGI_WIDTH; ++k) total += lane[k];
+    float reach = balance[BALANCE_REACH * stride + site];
+    float all = total * params.per_row_scale;
     float lanes[CLGI_WIDTH];
-    packet_store(balance_factor(packet_splat(balance[BALANCE_REACH * stride + site]),
-                                packet_splat(total * params.per_row_scale)),
-                 lanes);
+    packet_store(balance_factor(packet_splat(reach), packet_splat(all)), lanes);
     balance[BALANCE_SHOOTER * stride + site] = lanes[0];
+    if (lanes[0] * BALANCE_MOST <= 1.0f || lanes[0] >= BALANCE_MOST || !(all > 0.0f))
+        balance[BALANCE_REACH * stride + site] = lanes[0] * all;
 }

@@ -33,8 +33,9 @@ kernel void vpl_reach(
             for (uint column = 0; column < REACH_GRID; ++column) {
                 uint x = (2 * column + 1) * view.width / (2 * REACH_GRID);
                 uint y = (2 * line + 1) * view.height / (2 * lines);
-                float u = ((float)x + 0.5f) * 2.0f / (float)view.width - 1.0f;
-                float v = (1.0f - ((float)y + 0.5f) * 2.0f / (float)view.height) * view.up.w +
+                // Of the cell's centre: that of an even number of pixels lies between two.
+                float u = (float)(2 * column + 1) / (float)REACH_GRID - 1.0f;
+                float v = (1.0f - (float)(2 * line + 1) / (float)lines) * view.up.w +
                           view.window.y;
                 float square = 1.0f + u * u + v * v;
                 float weight = (f == 0 ? 1.0f : v) / (square * square);
@@ -45,8 +46,7 @@ kernel void vpl_reach(
                 if (!(t.w & (uint)TRIANGLE_DOUBLE_SIDED)) {
                     float3 a = positions[t.x].xyz;
                     float3 n = cross(positions[t.y].xyz - a, positions[t.z].xyz - a);
-                    float3 ray = view.forward.xyz + u * view.right.xyz + v * view.up.xyz;
-                    if (!(dot(n, ray) < 0.0f)) continue;
+                    if (!(dot(n, view.eye.xyz - a) > 0.0f)) continue;
                 }
                 met += weight;
             }

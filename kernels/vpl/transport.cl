@@ -1,8 +1,8 @@
 // How much of what a site sends arrives at every other: rows of the transport.
 //
-//   T_ij = 1/m_j sum_k  cos cos' k(d, r_i) v_ik / pi       (irradiance at j for a power of 1 at i)
+//   T_ij = 1/m sum_k  cos cos' k(d, r_i) v_ik / pi         (irradiance at j for a power of 1 at i)
 //
-// over the sample points k of the receiver, each seen or not in the shooter's hemicube. The paper
+// over the first m sample points k of the receiver, each seen or not in the shooter's hemicube. The paper
 // takes the form factor of the two VPLs times the share of samples that are seen (Eq. 6); the
 // samples' own form factors cost nothing more and are right near by. [Schaerfig16, Eq. 6]
 //
@@ -31,10 +31,11 @@ kernel void vpl_transport(
     Shooter shooter = exchange_shooter(sites, planes, params.stride, site);
     Hemicube cube = hemicube_of(views + 5 * s, params.words);
     Site own = sites[receiver];
+    uint count = min(own.sample_count, params.most_samples);
     floatp zero = packet_zero;
     float sum = 0.0f;
     float facing = dot(shooter.normal.xyz, shooter.normal.xyz);
-    for (uint first = 0; first < own.sample_count && facing > 0.0f; first += CLGI_WIDTH) {
+    for (uint first = 0; first < count && facing > 0.0f; first += CLGI_WIDTH) {
         global const float* at = samples + own.first_sample + first;
         floatp px = packet_load(at), py = packet_load(at + stride), pz = packet_load(at + 2 * stride);
         at += GBUFFER_NORMAL * stride;
@@ -44,7 +45,7 @@ kernel void vpl_transport(
         floatp dx = px - packet_splat(cube.eye.x);
         floatp dy = py - packet_splat(cube.eye.y);
         floatp dz = pz - packet_splat(cube.eye.z);
-        intp wanted = packet_lanes < (int)(own.sample_count - first);
+        intp wanted = packet_lanes < (int)(count - first);
         wanted &= packet_dot(dx, dy, dz, gx, gy, gz) < 0.0f;
         wanted &= packet_dot(dx, dy, dz, packet_splat(cube.c.x), packet_splat(cube.c.y),
                              packet_splat(cube.c.z)) > 0.0f;
@@ -59,7 +60,7 @@ kernel void vpl_transport(
         packet_store(packet_select(zero, factor, seen), lane);
         for (int k = 0; k < CLGI_WIDTH; ++k) sum += lane[k];
     }
-    float mean = sum / ((float)own.sample_count * CLGI_PI) * params.row_scale;
+    float mean = sum / ((float)count * CLGI_PI) * params.row_scale;
     // Never more than a half holds; what is no number stays so and is counted later.
     if (mean > 65504.0f) mean = 65504.0f;
     if (receiver == site) mean = 0.0f;

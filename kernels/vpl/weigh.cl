@@ -42,6 +42,8 @@ kernel void vpl_weigh(
         weights[k] = value;
         sum += value;
     }
+    // Light too dark or too bright to divide by, or no number at all, is shared evenly.
+    int usable = sum > 1e-30f && sum < 1e30f;
     for (uint k = own.first_sample; k < last; ++k)
-        weights[k] = sum > 0.0f ? weights[k] * (count / sum) : 1.0f;
+        weights[k] = usable ? weights[k] * (count / sum) : 1.0f;
 }

@@ -44,8 +44,9 @@ public:
                       const SiteBuffers& buffers, const cl::Buffer& texels,
                       const cl::Buffer& reach, const WaitList& wait = {}) const;
 
-    // Raises the light of texels whose hemisphere the VPLs fill less than surfaces do, once all VPLs
-    // are gathered. non_finite: [1] uint, counts packets with numbers that are not finite.
+    // Raises the light of texels whose hemisphere the VPLs fill less than surfaces do, and lowers it
+    // where they fill more than there is, once all VPLs are gathered. non_finite: [1] uint, counts
+    // packets with numbers that are not finite.
     cl::Event complete(const cl::CommandQueue& queue, const FillParams& params,
                        const cl::Buffer& reach, const cl::Buffer& filled,
                        const cl::Buffer& irradiance, const cl::Buffer& non_finite,

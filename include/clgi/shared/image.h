@@ -1,4 +1,4 @@
-// From lights to picture: gather, upsample, combine, tone map.
+// From VPLs to picture: gather, upsample, combine, tone map.
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_IMAGE_H
 #define CLGI_SHARED_IMAGE_H
@@ -7,14 +7,14 @@
 
 CLGI_SHARED_BEGIN
 
-// Irradiance planes, rgb: indirect light less negative light, I_s - I_n. The values are signed:
-// they are below 0 where too much was removed, and combine clamps them to 0.
+// Irradiance planes, rgb: light of VPLs less that of negative VPLs, I_s - I_n. The values are
+// signed: they are below 0 where too much was removed, and combine clamps them to 0.
 enum { IRRADIANCE_PLANES = 3 };
 
 typedef struct {
     uint stride;          // of the point planes and the irradiance planes
-    uint vpl_count;     // VPLs
-    uint negative_count;  // negative lights
+    uint vpl_count;       // VPLs
+    uint negative_count;  // negative VPLs
     uint pad_;
 } GatherParams;
 

@@ -77,9 +77,9 @@ typedef struct {
     uint emitter_count;
     float texel_bias;  // shadow bias, in texels of the shadow map; 1
     uint depth_words;  // words of a shadow map's pixel: 1 for depth alone, 2 for visibility
+    uint add;          // 1: to what is there; 0: in its place
     uint pad0_;
     uint pad1_;
-    uint pad2_;
 } DirectParams;
 
 CLGI_SHARED_END

@@ -54,6 +54,9 @@ typedef struct {
     uint size;           // pixels, width of the hemicubes' faces
     float row_scale;     // multiplies the transport, so that a half holds it: the area of all sites
     uint words;          // of a pixel: 1 for depth alone, 2 for visibility
+    uint most_samples;   // of a receiver, the first of its own, that are looked at
+    uint pad0_;
+    uint pad1_;
 } TransportParams;
 
 typedef struct {

@@ -28,6 +28,9 @@ struct LightAtlasOptions {
     // With bounces = 0: the strongest VPL shoots alone, then the next, as in the paper. Otherwise
     // all shoot at once, which converges to the same light in far less time.
     bool one_at_a_time = false;
+    // Sample points of a receiving VPL that are looked at when VPLs exchange light, at least 1. All
+    // of them send light to the texels near by.
+    std::uint32_t exchange_samples = 10;
     int exchange_size = 128;  // pixels of a hemicube's face when VPLs exchange light; even
     int filling_size = 256;   // and when the atlas is filled
     bool direct = false;      // direct light in the atlas too

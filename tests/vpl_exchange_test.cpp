@@ -1,0 +1,360 @@
+// The transport between VPLs against the kernel in double precision, view factors and geometry.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+#include "math_modes.hpp"
+#include "vpl_tools.hpp"
+
+namespace clgi {
+namespace {
+
+using test::Hemicubes;
+using test::SitePlace;
+using test::Sites;
+
+constexpr double half_rounding = 0x1p-11, smallest_half = 0x1p-25;
+
+// Sites of all sizes close together, their samples about a disc that is not quite flat.
+std::vector<SitePlace> crowd(int count) {
+    test::Random random(4711);
+    std::vector<SitePlace> out;
+    for (int i = 0; i < count; ++i) {
+        SitePlace site;
+        site.position = glm::vec3(random(-1, 1), random(-1, 1), random(-1, 1));
+        site.normal = test::direction(random);
+        site.area = static_cast<float>(std::exp(random(std::log(0.003), std::log(0.3))));
+        const float radius = std::sqrt(site.area / CLGI_PI);
+        const int samples = random.integer(1, 21);
+        for (int k = 0; k < samples; ++k) {
+            glm::vec3 across = test::direction(random) * radius;
+            across -= 0.97f * glm::dot(across, site.normal) * site.normal;
+            site.samples.push_back({site.position + across,
+                                    glm::normalize(site.normal + 0.3f * test::direction(random)),
+                                    glm::normalize(site.normal + 0.1f * test::direction(random))});
+        }
+        out.push_back(site);
+    }
+    return out;
+}
+
+CLGI_IN_BOTH_MATHS(Exchange);
+
+// Every pair of a crowd in which nothing hides anything: far and near, facing each other or not.
+TEST_P(Exchange, IsTheMeanOfTheKernelOverTheReceiversSamples) {
+    const Sites sites(crowd(61));
+    const float scale = 0.37f;
+    const auto rows = test::transport_rows(sites, test::hemicubes(sites, nullptr), true, scale,
+                                           test::vpl_passes(GetParam()));
+    int far = 0, near_by = 0, hidden = 0;
+    for (std::size_t i = 0; i < sites.places.size(); ++i)
+        for (std::size_t j = 0; j < sites.places.size(); ++j) {
+            const SitePlace &from = sites.places[i], &to = sites.places[j];
+            double wanted = 0.0, condition = 0.0;
+            bool doubtful = false, close = false;
+            for (const test::SurfacePlace& sample : to.samples) {
+                const glm::dvec3 p(sample.position), d = p - glm::dvec3(from.position);
+                const double back = glm::dot(d, glm::dvec3(sample.geometric));
+                const double above = glm::dot(d, glm::dvec3(from.normal));
+                doubtful |= std::abs(back) < 1e-6 || std::abs(above) < 1e-6;
+                if (!(back < 0.0 && above > 0.0)) continue;
+                const test::Exchanged e = test::exchange(from, p, glm::dvec3(sample.normal));
+                doubtful |= e.doubtful;
+                close |= e.near_by;
+                wanted += e.factor;
+                condition += e.condition;
+            }
+            const double found = glm::unpackHalf1x16(rows[i * sites.buffers.stride + j]);
+            if (i == j) {
+                EXPECT_EQ(found, 0.0) << "a site lights itself";
+                continue;
+            }
+            if (doubtful) continue;
+            const double share = scale / (test::pi * static_cast<double>(to.samples.size()));
+            wanted *= share;
+            condition *= share;
+            // Rounded dot products of three terms, twice, and to half.
+            EXPECT_NEAR(found, wanted, half_rounding * wanted + 2e-6 * condition + smallest_half)
+                << i << " to " << j;
+            EXPECT_TRUE(condition > 0.0 || found == 0.0);
+            hidden += condition == 0.0;
+            far += wanted > 0.0 && !close;
+            near_by += wanted > 0.0 && close;
+        }
+    EXPECT_GT(far, 200);
+    EXPECT_GT(near_by, 100);
+    EXPECT_GT(hidden, 1000);
+}
+
+// One site of one sample.
+SitePlace dot(const glm::vec3& position, const glm::vec3& normal, float area) {
+    return {position, normal, area, glm::vec3(1.0f), {{position, normal, normal}}};
+}
+
+// Inside a sphere every site sends the same to every other: A / (4 pi R^2).
+TEST_P(Exchange, InsideASphereIsTheSameForAllPairs) {
+    const double radius = 0.75;
+    test::Random random(7);
+    std::vector<SitePlace> places;
+    for (int i = 0; i < 100; ++i) {
+        const glm::vec3 out = test::direction(random);
+        places.push_back(dot(static_cast<float>(radius) * out, -out, 1e-6f));
+    }
+    const Sites sites(places);
+    const float scale = 1.3f;
+    const auto rows = test::transport_rows(sites, test::hemicubes(sites, nullptr), true, scale,
+                                           test::vpl_passes(GetParam()));
+    const double wanted = scale / (4.0 * test::pi * radius * radius);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        for (std::size_t j = 0; j < places.size(); ++j) {
+            const double apart = glm::distance(places[i].position, places[j].position);
+            if (apart < 0.1 * radius) continue;
+            // Cosines are apart / 2R, so what rounding of a position does to them grows near by.
+            EXPECT_NEAR(glm::unpackHalf1x16(rows[i * sites.buffers.stride + j]), wanted,
+                        wanted * (half_rounding + 4e-7 * radius / apart * radius / apart * 4));
+        }
+}
+
+// A rectangle cut into k x k sites of m x m samples each.
+void add_rectangle(std::vector<SitePlace>& out, const DeviceScene& scene, const glm::dvec3& corner,
+                   const glm::dvec3& u, const glm::dvec3& v, int k, int m) {
+    const glm::vec3 normal(glm::normalize(glm::cross(u, v)));
+    const double scale = scene.frame().scale;
+    const auto at = [&](double x, double y) {
+        return scene.frame().to_local(corner + x * u + y * v);
+    };
+    for (int i = 0; i < k * k; ++i) {
+        SitePlace site;
+        const double x = i % k, y = i / k;
+        site.position = at((x + 0.5) / k, (y + 0.5) / k);
+        site.normal = normal;
+        site.area = static_cast<float>(glm::length(glm::cross(u, v)) * scale * scale / (k * k));
+        for (int s = 0; s < m * m; ++s)
+            site.samples.push_back(
+                {at((x + (s % m + 0.5) / m) / k, (y + (s / m + 0.5) / m) / k), normal, normal});
+        out.push_back(site);
+    }
+}
+
+struct Plate {
+    glm::dvec3 corner, u, v;
+};
+
+// The share of the first plate's power that arrives at the second, seen in drawn hemicubes.
+double view_factor(const Plate& a, const Plate& b, int k, int m) {
+    Scene world = test::plain_scene();
+    for (const Plate& p : {a, b})
+        test::add_quad(world, {p.corner, p.corner + p.u, p.corner + p.u + p.v, p.corner + p.v});
+    const DeviceScene scene = test::on_device(world);
+    std::vector<SitePlace> places;
+    add_rectangle(places, scene, a.corner, a.u, a.v, k, m);
+    add_rectangle(places, scene, b.corner, b.u, b.v, k, m);
+    const Sites sites(places);
+    const auto shooters = static_cast<std::uint32_t>(k * k);
+    const auto cubes = test::hemicubes(sites, &scene, {0, shooters, 64, Pixels::depth, 2e-5f});
+    const float row_scale = places.back().area;
+    const auto rows = test::transport_rows(sites, cubes, false, row_scale);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < shooters; ++i)
+        for (std::size_t j = shooters; j < places.size(); ++j)
+            sum += glm::unpackHalf1x16(rows[i * sites.buffers.stride + j]);
+    return sum / shooters;
+}
+
+const Plate bottom{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, top{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+
+TEST(ViewFactor, OfParallelSquaresConverges) {
+    const double wanted = 0.1998248957;  // unit squares a unit apart
+    // Midpoint rule over the shooter's cells: h^2 / 24 times the mean of the kernel's Laplacian,
+    // which is at most 8 / pi, that straight across. The receiver's cells are much smaller.
+    const auto bound = [](int k) { return 8.0 / test::pi / (24.0 * k * k); };
+    const double coarse = view_factor(bottom, top, 4, 6) - wanted;
+    const double fine = view_factor(bottom, top, 8, 4) - wanted;
+    EXPECT_LT(std::abs(coarse), bound(4) + bound(24));
+    EXPECT_LT(std::abs(fine), bound(8) + bound(32));
+    EXPECT_LT(std::abs(fine), 0.35 * std::abs(coarse));
+}
+
+TEST(ViewFactor, OfSquaresAtARightAngleConverges) {
+    // No pair closer than a cell of samples is right: a strip of that width along the edge, of
+    // whose power at most half can arrive at the other square.
+    struct {
+        Plate wall;
+        double wanted;
+    } cases[] = {{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.2000437761},
+                 {{{0, 0, 0}, {0, 1, 0}, {0, 0, 2}}, 0.2328526028},
+                 {{{0, 0, 0}, {0, 1, 0}, {0, 0, 0.1}}, 0.0432513694}};
+    for (const auto& c : cases) {
+        const double coarse = std::abs(view_factor(bottom, c.wall, 4, 2) - c.wanted);
+        const double fine = std::abs(view_factor(bottom, c.wall, 8, 4) - c.wanted);
+        EXPECT_LT(fine, 0.5 / 32.0) << c.wanted;
+        EXPECT_LT(fine, 0.5 * coarse) << c.wanted;
+    }
+}
+
+// A blocker half way hides what lies behind it and nothing else.
+TEST(Exchange, IsTheShareOfSamplesThatABlockerLeaves) {
+    for (const double edge : {0.0, 0.0625, -0.125}) {
+        Scene world = test::plain_scene();
+        test::add_quad(world, {glm::dvec3(-1, -1, 0), {2, -1, 0}, {2, 2, 0}, {-1, 2, 0}});
+        test::add_quad(world, {glm::dvec3(-1, -1, 1), {-1, 2, 1}, {2, 2, 1}, {2, -1, 1}});
+        const double x = 0.5 + edge;  // hides all to the left
+        test::add_quad(world, {glm::dvec3(-1, -1, 0.5), {-1, 2, 0.5}, {x, 2, 0.5}, {x, -1, 0.5}});
+        const DeviceScene scene = test::on_device(world);
+        std::vector<SitePlace> places;
+        add_rectangle(places, scene, bottom.corner, bottom.u, bottom.v, 1, 1);
+        add_rectangle(places, scene, top.corner, top.u, top.v, 1, 16);
+        const Sites sites(places);
+        const auto cubes = test::hemicubes(sites, &scene, {0, 1, 256, Pixels::visibility, 2e-5f});
+        const auto rows = test::transport_rows(sites, cubes);
+        double wanted = 0.0;
+        // Twice as far as the blocker's edge; no sample is within four pixels of that.
+        const float border = scene.frame().to_local(glm::dvec3(0.5 + 2.0 * edge, 0, 0)).x;
+        for (const test::SurfacePlace& sample : places[1].samples) {
+            if (sample.position.x < border) continue;
+            wanted +=
+                test::exchange(places[0], glm::dvec3(sample.position), glm::dvec3(sample.normal))
+                    .factor /
+                (256.0 * test::pi);
+        }
+        EXPECT_NEAR(glm::unpackHalf1x16(rows[1]), wanted, wanted * (half_rounding + 1e-5)) << edge;
+    }
+}
+
+// ---- the same numbers whichever way they are asked for --------------------------------------
+
+// A box with a block inside, and sites on all of it.
+struct Cabin {
+    Scene world = test::plain_scene();
+    DeviceScene scene;
+    std::vector<SitePlace> places;
+    Cabin() : scene(make(world)) {
+        const glm::dvec3 corner[] = {{-1, -1, -1}, {-1, -1, -1}, {-1, -1, -1},
+                                     {1, 1, 1},    {1, 1, 1},    {1, 1, 1}};
+        for (int f = 0; f < 6; ++f) {
+            glm::dvec3 u(0), v(0);
+            u[(f + 1) % 3] = v[(f + 2) % 3] = f < 3 ? 2 : -2;
+            if (f >= 3) std::swap(u, v);
+            add_rectangle(places, scene, corner[f], u, v, 2, f % 3 + 2);
+        }
+    }
+    static DeviceScene make(Scene& world) {
+        test::add_box(world, {-1, -1, -1}, {1, 1, 1}, -1);
+        test::add_box(world, {-0.3, -0.9, -0.4}, {0.5, 0.1, 0.2}, 1);
+        return test::on_device(world);
+    }
+};
+
+TEST(Transport, IsTheSameForEveryWidthGroupBatchAndKindOfPicture) {
+    const Cabin cabin;
+    const std::vector<cl_uint> order = {5,  23, 0,  17, 9,  1,  2,  3,  4,  6,  7,  8,
+                                        10, 11, 12, 13, 14, 15, 16, 18, 19, 20, 21, 22};
+    const Sites sites(cabin.places, order);
+    const std::uint32_t n = sites.buffers.site_count, stride = sites.buffers.stride;
+    ASSERT_EQ(order.size(), n);
+    test::HemicubeOptions options;
+    options.lift = 2e-5f;
+    const auto usual =
+        test::transport_rows(sites, test::hemicubes(sites, &cabin.scene, options), true);
+    int partly = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) {
+            EXPECT_NE(usual[i * stride + j], 0x7e00);
+            const auto& samples = cabin.places[j].samples;
+            double whole = 0.0;
+            for (const test::SurfacePlace& s : samples)
+                whole +=
+                    test::exchange(cabin.places[i], glm::dvec3(s.position), glm::dvec3(s.normal))
+                        .factor /
+                    test::pi / double(samples.size());
+            const double found = glm::unpackHalf1x16(usual[i * stride + j]);
+            partly += found > 0.01 * whole && found < 0.99 * whole;
+        }
+    EXPECT_GT(partly, 20);
+    const auto expect_row = [&](const std::vector<std::uint16_t>& rows, std::size_t row,
+                                std::size_t site, const std::string& label) {
+        for (std::size_t j = 0; j < n; ++j)
+            EXPECT_EQ(rows[row * stride + j], usual[site * stride + j])
+                << label << ", site " << site;
+    };
+    for (const Pixels kind : {Pixels::depth, Pixels::visibility})
+        for (const std::uint32_t batch : {1u, 7u, 16u})
+            for (const bool kept : {false, true})
+                for (std::uint32_t first = 0; first < n; first += batch) {
+                    options.first = first;
+                    options.count = std::min(batch, n - first);
+                    options.kind = kind;
+                    const auto rows = test::transport_rows(
+                        sites, test::hemicubes(sites, &cabin.scene, options), kept);
+                    for (std::uint32_t s = 0; s < options.count; ++s)
+                        expect_row(rows, kept ? order[first + s] : s, order[first + s],
+                                   kept ? "kept" : "not kept");
+                    for (std::uint32_t i = 0; i < n && kept; ++i) {  // others were not touched
+                        const auto place = std::find(order.begin(), order.end(), i) - order.begin();
+                        const bool drawn = place >= first && place < first + options.count;
+                        EXPECT_TRUE(drawn || rows[i * stride] == 0x7e00) << i;
+                    }
+                }
+    options = {};
+    options.lift = 2e-5f;
+    const auto cubes = test::hemicubes(sites, &cabin.scene, options);
+    for (const int width : {1, 4, 8, 16})
+        for (const std::size_t group : {1u, 16u}) {
+            BuildOptions build;
+            build.packet_width = width;
+            build.local_size = group;
+            const auto rows =
+                test::transport_rows(sites, cubes, true, 1.0f, VplPasses(test::programs(), build));
+            for (std::size_t i = 0; i < n; ++i)
+                expect_row(rows, i, i, "width " + std::to_string(width));
+        }
+}
+
+// ---- at the edges of its range ----------------------------------------------------------------
+
+TEST(Transport, OfNothingAndOfOneSite) {
+    const Sites one({dot({0, 0, 0}, {0, 0, 1}, 0.1f)});
+    const auto rows = test::transport_rows(one, test::hemicubes(one, nullptr));
+    EXPECT_EQ(rows[0], 0);
+    SiteBuffers none = one.buffers;
+    none.site_count = none.sample_count = 0;
+    test::vpl_passes()
+        .transport(test::device().queue, {0, 0, 0, 0, 16, 16, 64, 1.0f, 1, 0, 0, 0}, none,
+                   test::empty<View>(5), one.buffers.light, one.buffers.light)
+        .wait();
+}
+
+TEST(Transport, OfASiteWithoutSurfaceIsZero) {
+    const Sites sites({dot({0, 0, 0}, {0, 0, 0}, 0.1f), dot({0, 0, 0.5}, {0, 0, -1}, 0.1f)});
+    const auto rows = test::transport_rows(sites, test::hemicubes(sites, nullptr), true);
+    EXPECT_EQ(rows[1], 0);
+    EXPECT_EQ(rows[sites.buffers.stride], 0);
+}
+
+// In the same plane, back to back, behind each other, at one point: exactly nothing.
+TEST(Transport, BetweenSitesThatDoNotFaceEachOtherIsZero) {
+    const Sites sites({dot({0, 0, 0}, {0, 0, 1}, 0.1f), dot({0.4, 0.1, 0}, {0, 0, 1}, 0.1f),
+                       dot({0, 0, -0.5}, {0, 0, -1}, 0.1f), dot({0, 0, 0.5}, {0, 0, 1}, 0.1f),
+                       dot({0, 0, 0}, {0, 0, -1}, 0.1f)});
+    const auto rows = test::transport_rows(sites, test::hemicubes(sites, nullptr), true);
+    for (std::size_t i = 0; i < 5; ++i)
+        for (std::size_t j = 0; j < 5; ++j)
+            EXPECT_EQ(rows[i * sites.buffers.stride + j], 0) << i << " to " << j;
+}
+
+TEST(Transport, IsNeverMoreThanAHalfHolds) {
+    const Sites sites({dot({0, 0, 0}, {0, 0, 1}, 1e-4f), dot({0, 0, 0.02}, {0, 0, -1}, 1e-4f)});
+    const auto cubes = test::hemicubes(sites, nullptr);
+    const auto value = [&](float scale) {
+        return glm::unpackHalf1x16(test::transport_rows(sites, cubes, true, scale)[1]);
+    };
+    const double wanted = test::disc_kernel(4e-4, 4e-4, 1e-4 / test::pi) / test::pi;
+    EXPECT_NEAR(value(1.0f), wanted, wanted * (half_rounding + 1e-5));
+    EXPECT_EQ(value(1000.0f), 65504.0f);
+    EXPECT_TRUE(std::isnan(value(std::numeric_limits<float>::quiet_NaN())));
+}
+
+}  // namespace
+}  // namespace clgi
