@@ -263,13 +263,13 @@ TEST(Nearest, PrefersTheFirstOfEquals) {
 // ---- complete
 // ---------------------------------------------------------------------------------------
 
-TEST(Complete, RaisesLightToTheReachOfSurfaces) {
+TEST(Complete, BringsFormFactorsToTheReachOfSurfaces) {
     struct {
         float reach, filled, raised;
     } const cases[] = {{1.0f, 0.8f, 1.25f}, {0.6f, 0.5f, 1.2f},  {0.5f, 0.8f, 1.0f},
-                       {1.0f, 0.1f, 4.0f},  {1.0f, 0.25f, 4.0f}, {1.0f, 0.26f, 1.0f / 0.26f},
+                       {1.0f, 0.1f, 1.5f},  {0.5f, 2.0f, 0.5f},  {1.0f, 0.7f, 1.0f / 0.7f},
                        {1.0f, 0.0f, 1.0f},  {0.0f, 0.5f, 1.0f},  {0.0f, 0.0f, 1.0f},
-                       {1.0f, 1.2f, 1.0f},  {1.0f, 1e-30f, 4.0f}};
+                       {1.0f, 1.25f, 0.8f}, {1.0f, 1e-30f, 1.5f}};
     for (const int width : {1, 4, 8, 16}) {
         const std::uint32_t count = 61, stride = 64;
         std::vector<float> reach(stride, nan), filled(stride, nan), light(3 * stride, nan);

@@ -321,7 +321,7 @@ TEST(Transport, OfNothingAndOfOneSite) {
     SiteBuffers none = one.buffers;
     none.site_count = none.sample_count = 0;
     test::vpl_passes()
-        .transport(test::device().queue, {0, 0, 0, 0, 16, 16, 64, 1.0f, 1, 0, 0, 0}, none,
+        .transport(test::device().queue, {0, 0, 0, 0, 16, 16, 64, 1.0f, 1, 1, 0, 0}, none,
                    test::empty<View>(5), one.buffers.light, one.buffers.light)
         .wait();
 }

@@ -67,7 +67,7 @@ TEST(Sizes, OfVplPasses) {
     const Enough e;
     const VplPasses& passes = test::vpl_passes();
     const cl::CommandQueue& queue = test::device().queue;
-    const TransportParams shooters{1, 2, 0, n, stride, sample_stride, size, 1.0f, 1, 0, 0, 0};
+    const TransportParams shooters{1, 2, 0, n, stride, sample_stride, size, 1.0f, 1, 4, 0, 0};
     const ShootParams shoot{1, 2, 0, n, stride, 1.0f, SHOOT_ALL, 0.0f};
     const auto& z = e.zeros;
     const std::tuple<const char*, cl::Buffer S::*, std::size_t> sites{"sites", &S::sites,
@@ -191,7 +191,6 @@ TEST(Sizes, OfAtlasPasses) {
          {"sites", &S::sites, n * sizeof(Site)},
          {"planes", &S::planes, SITE_PLANES * plane},
          {"light", &S::light, SITE_LIGHT_PLANES * plane},
-         {"balance", &S::balance, BALANCE_PLANES * plane},
          {"samples", &S::samples, GBUFFER_PLANES * sample_stride * word},
          {"weights", &S::weights, sample_stride * word}});
     add(all, "atlas.gather", "views", 10 * sizeof(View),

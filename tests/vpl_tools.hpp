@@ -170,7 +170,7 @@ inline std::vector<std::uint16_t> transport_rows(const Sites& sites, const Hemic
     const cl::Buffer rows = upload(std::vector<std::uint16_t>(halves, 0x7e00));  // NaN
     passes.transport(device().queue,
                      {cubes.first, cubes.count, kept ? 1u : 0u, b.site_count, b.stride,
-                      b.sample_stride, cubes.size, row_scale, cubes.words, 0, 0, 0},
+                      b.sample_stride, cubes.size, row_scale, cubes.words, 1u << 20, 0, 0},
                      b, cubes.views, cubes.pixels, rows);
     return download<std::uint16_t>(rows, halves);
 }

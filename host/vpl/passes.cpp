@@ -104,6 +104,8 @@ cl::Event VplPasses::transport(const cl::CommandQueue& queue, const TransportPar
                                const cl::Buffer& depth, const cl::Buffer& rows,
                                const WaitList& wait) const {
     need_sites(transport_, b);
+    if (params.most_samples == 0)
+        throw Error("vpl.transport: most_samples is 0, at least 1 needed");
     need(transport_, "chosen", b.chosen,
          last_shooter(params.first_shooter, params.shooter_count) * word);
     need(transport_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
