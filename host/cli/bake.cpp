@@ -56,13 +56,13 @@ AtlasUvs uvs_of(const std::string& text) {
 std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device& device) {
     const LightAtlasOptions& bake = flags.bake;
     const EmitterOptions& emitters = bake.emitters;
-    return fmt::format("{} {} {} | {} {} | {} {} {} {} {} | {} {} {} {} {} {} | {} {} {} {}",
+    return fmt::format("{} {} {} | {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} | {} {} {} {}",
                        CLGI_VERSION, report::scene_key(scene), describe(device), flags.vpls.count,
                        flags.vpls.samples_per_vpl, flags.atlas.size, flags.uvs, flags.atlas.padding,
                        flags.atlas.texels_per_metre, flags.atlas.most_pages, bake.bounces,
-                       bake.threshold, bake.one_at_a_time, bake.exchange_size, bake.filling_size,
-                       bake.direct, emitters.shadow_size, emitters.face_size, emitters.area_samples,
-                       emitters.environment_lights) +
+                       bake.threshold, bake.one_at_a_time, bake.exchange_samples,
+                       bake.exchange_size, bake.filling_size, bake.direct, emitters.shadow_size,
+                       emitters.face_size, emitters.area_samples, emitters.environment_lights) +
            build_flags(flags.device);
 }
 
@@ -76,8 +76,8 @@ std::uint32_t run_to_the_end(const BakeFlags& flags, const std::string& key,
         const LightAtlasState state = report::load_bake_state(flags.resume, key);
         solver.restore(state);
         begin = state.filled_vpls;
-        notice(flags.device.quiet, fmt::format("the bake goes on after VPL {} of {}",
-                                               state.filled_vpls, state.vpls));
+        notice(flags.device.quiet,
+               fmt::format("the bake goes on after VPL {} of {}", state.filled_vpls, state.vpls));
     }
     catch_interrupts();
     if (solver.run(progress_bar("bake", flags.device.quiet))) return begin;
@@ -101,8 +101,8 @@ void run_bake(BakeFlags flags) {
             static_cast<float>(parse_percent("bake", "--threshold", flags.threshold));
     flags.atlas.uvs = uvs_of(flags.uvs);
     flags.bake.build = build_of(flags.device);
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet,
-                             true);
+    Scene scene =
+        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
     const Session session = open_session(flags.device);
     need_room("bake", session.device, flags.vpls);
 

@@ -307,7 +307,7 @@ void LightAtlasSolver::State::fill() {
                                 b.irradiance, b.filled, wait);
         });
         filled_vpls += count;
-        if (first % (16 * b.filling_batch) == 0) record.report(0.45 + 0.55 * filled_vpls / n);
+        if (first % 64 == 0) record.report(0.45 + 0.54 * filled_vpls / n);
     }
     record("atlas.complete", b.texel_count, [&](const WaitList& wait) {
         return atlas.complete(queue, all, b.reach, b.filled, b.irradiance, b.non_finite, wait);
@@ -339,6 +339,8 @@ bool LightAtlasSolver::State::run(const Progress& progress) {
     record.report(0.0);
     if (!placed) place();
     receive_direct();
+    // Factors begin with 1, also after a bake that was cancelled half-way or went on from a state.
+    if (!measured) record.fill(b.sites.balance, one_bits);
     direct.resize(3 * std::size_t{b.sites.stride});
     record.wait();
     queue.enqueueReadBuffer(b.sites.light, CL_TRUE, 0, direct.size() * sizeof(float),
