@@ -317,8 +317,6 @@ void LightAtlasSolver::State::fill() {
 
 // Light goes from VPL to VPL. [section 3.3]
 void LightAtlasSolver::State::exchange() {
-    // Factors begin with 1, also after a bake that was cancelled half-way.
-    if (!measured) record.fill(b.sites.balance, one_bits);
     // Bounces of all VPLs make what is not kept anyway.
     const bool all_shoot = options.bounces == 0 ? !options.one_at_a_time : options.bounces > 1;
     if (!measured && (b.kept || !all_shoot)) measure_transport();
