@@ -1,0 +1,96 @@
+// Light atlases at their default settings against the path tracer, at places spread over the atlas.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <clgi/reference.hpp>
+#include <cmath>
+
+#include "light_baking.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+using test::Baked;
+using test::Bakery;
+
+// A closed room with boxes of random size and colour, on the floor and in the air.
+Scene furnished(std::uint64_t seed) {
+    Scene scene = test::plain_scene(glm::vec3(0.7f, 0.65f, 0.6f));
+    test::Random random(seed);
+    test::add_box(scene, {0, 0, 0}, {4, 2.5, 3}, -1);
+    for (int k = 0; k < 6; ++k) {
+        Material material;
+        for (int c = 0; c < 3; ++c) material.base_color[c] = static_cast<float>(random(0.2, 0.8));
+        const double x = random(0.1, 3.2), z = random(0.1, 2.2), y = random(0.3, 1.2);
+        const glm::dvec3 low(x, k % 2 == 0 ? 0.0 : y, z);
+        const glm::dvec3 size(random(0.3, 0.7), random(0.3, 1.2), random(0.3, 0.7));
+        test::add_box(scene, low, low + size, 1, test::add_material(scene, material));
+    }
+    scene.lights = {test::point_light({2.0, 2.2, 1.5})};
+    scene.lights[0].intensity = {100.0f, 90.0f, 80.0f};
+    return scene;
+}
+
+// Two chambers, and a slit of 30 cm from floor to ceiling in the wall between them. One is lit.
+Scene chambers() {
+    Scene scene = test::plain_scene(glm::vec3(0.7f));
+    test::add_box(scene, {0, 0, 0}, {4, 2.5, 3}, -1);
+    test::add_box(scene, {1.95, 0, 0}, {2.05, 2.5, 1.3}, 1);
+    test::add_box(scene, {1.95, 0, 1.6}, {2.05, 2.5, 3}, 1);
+    scene.lights = {test::point_light({1.0, 1.9, 1.2})};
+    scene.lights[0].intensity = {100.0f, 90.0f, 80.0f};
+    return scene;
+}
+
+// Energy within 3 %, root mean square error at most 10 % of the mean, over about a thousand texels.
+// beyond: only places with a larger x.
+void expect_reference(const Scene& scene, double beyond = -1.0) {
+    const Bakery bakery(scene, {.vpls = VplOptions().count, .atlas = AtlasOptions().size});
+    const LightAtlasOptions options;
+    const Baked baked = test::bake(bakery, options);
+    std::vector<reference::Place> places;
+    std::vector<std::size_t> texels;
+    const std::size_t step = bakery.atlas.texels.size() / 1000;
+    for (std::size_t i = step / 2; i < bakery.atlas.texels.size(); i += step) {
+        const AtlasTexel& texel = bakery.atlas.texels[i];
+        const glm::dvec3 at = test::position(bakery.scene, texel);
+        if (!texel.centre || at.x < beyond) continue;
+        const glm::vec3 normal(glm::normalize(test::normal_of(bakery.scene, texel.triangle)));
+        places.push_back({at, normal, normal});
+        texels.push_back(i);
+    }
+    reference::Options tracing;
+    tracing.effects.emission = tracing.effects.direct = false;
+    tracing.effects.last_bounce = static_cast<int>(options.bounces);
+    tracing.samples = 4096;
+    const reference::Irradiance wanted =
+        reference::PathTracer(bakery.scene).irradiance(places, tracing);
+    double square = 0.0, found_sum = 0.0, wanted_sum = 0.0;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        for (int c = 0; c < 3; ++c) {
+            const double found = baked.texels[texels[k]][c], right = wanted.values[k][c];
+            square += (found - right) * (found - right);
+            found_sum += found;
+            wanted_sum += right;
+        }
+    const double error = std::sqrt(square / (3.0 * double(places.size())));
+    const double mean = wanted_sum / (3.0 * double(places.size()));
+    EXPECT_GT(places.size(), 300u);
+    EXPECT_LT(wanted.relative_error, 0.05);
+    EXPECT_NEAR(found_sum, wanted_sum, 0.03 * wanted_sum);
+    EXPECT_LT(error, 0.1 * mean);
+    EXPECT_EQ(baked.status.non_finite, 0u);
+}
+
+TEST(LightAtlasReference, FurnishedRoom) {
+    expect_reference(furnished(7));
+    expect_reference(furnished(11));
+}
+
+TEST(LightAtlasReference, ChambersJoinedByASlit) { expect_reference(chambers()); }
+
+// Alone in the dark chamber, where all light comes through the slit.
+TEST(LightAtlasReference, TheChamberBehindTheSlit) { expect_reference(chambers(), 2.06); }
+
+}  // namespace
+}  // namespace clgi
