@@ -2,7 +2,7 @@
 # Runs a program under oclgrind, which must find no access outside a buffer and no data race.
 # (Its check for uninitialised values crashes on these kernels, version 21.10.)
 #
-#   oclgrind.sh path/to/tiny_frame
+#   oclgrind.sh path/to/program
 #
 # Exit status 77 stands for "skipped": there is no oclgrind.
 # SPDX-License-Identifier: MIT

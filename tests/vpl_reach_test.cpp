@@ -8,7 +8,7 @@
 namespace clgi {
 namespace {
 
-// The share of a VPL at the origin, facing +z, with specks far below that keep the frame in place.
+// The share of a VPL at a point of the world.
 float reach(Scene world, std::uint32_t size = 64, const glm::vec3& normal = glm::vec3(0, 0, 1),
             const glm::dvec3& at = glm::dvec3(0)) {
     const DeviceScene scene = test::on_device(world);
@@ -59,7 +59,8 @@ void add_disc(Scene& world, const glm::dvec3& center, double radius, bool away =
             test::add_triangle(world, center, at(k + 1), at(k), material);
 }
 
-// The face of the cube from -0.99 to 0.99 in the direction d, from z = 0 on.
+// A face of the half cube above the origin: the top, or one of four sides from the horizon on. A
+// little smaller, so that none of its neighbours' rays meet it.
 void add_face(Scene& world, int face) {
     const double h = 0.99;
     if (face == 0) {
@@ -69,7 +70,6 @@ void add_face(Scene& world, int face) {
     const double angle = test::pi / 2 * (face - 1);
     const glm::dvec3 out(std::cos(angle), std::sin(angle), 0), across(-out.y, out.x, 0);
     const glm::dvec3 up(0, 0, h);
-
     test::add_quad(
         world, {out + across * h, out - across * h, out - across * h + up, out + across * h + up});
 }

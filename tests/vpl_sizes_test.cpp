@@ -113,7 +113,7 @@ TEST(Sizes, OfVplPasses) {
                 [=, &e](B b) { call(e.buffers, z, z, b); });
         }
 
-    // Views of no pixel look at the first one only; nothing is there.
+    // Views of one pixel each, the first one, where nothing is.
     const cl::Buffer views = test::upload([] {
         View view{};
         view.width = view.height = 1;

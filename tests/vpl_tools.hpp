@@ -56,12 +56,6 @@ inline cl::Buffer upload_points(const std::vector<SurfacePlace>& points, std::ui
     return upload(out.values);
 }
 
-inline cl::Buffer upload_vectors(const std::vector<glm::vec3>& values, std::uint32_t stride) {
-    Planes out(3, stride);
-    for (std::size_t i = 0; i < values.size(); ++i) out.put(0, i, values[i]);
-    return upload(out.values);
-}
-
 // Sites on the device. They shoot in their order unless `order` says otherwise; they have
 // `received`, none of it unshot; balance factors are 1, the reach is 1.
 struct Sites {
