@@ -257,6 +257,23 @@ TEST(AtlasShow, HardlyJumpsAtTheEdgesOfACube) {
     EXPECT_GT(most, 0.0);
 }
 
+// Charts of a UV set may lie side by side, without an empty texel between them.
+TEST(AtlasShow, LetsNothingBleedFromOneChartIntoTheNext) {
+    Scene scene = test::plain_scene();
+    for (const double x : {0.0, 3.0})
+        test::add_quad(scene, {glm::dvec3(x, 0, 0), {x + 1, 0, 0}, {x + 1, 2, 0}, {x, 2, 0}});
+    for (const float u : {0.0f, 0.5f})
+        for (const glm::vec2 at : {glm::vec2(0, 0), {0.5, 0}, {0.5, 1}, {0, 1}})
+            scene.uvs.emplace_back(u + at.x, at.y, 0, 0);
+    const Shown shown(scene, 16, AtlasUvs::set_0);
+    ASSERT_EQ(shown.layout.charts.size(), 2u);
+    const std::vector<Point> points = random_points(scene, 500);
+    const auto found =
+        shown(points, shown.light([](const glm::dvec3& p) { return p.x < 2.0 ? 1.0 : 2.0; }));
+    for (std::size_t i = 0; i < points.size(); ++i)
+        ASSERT_FLOAT_EQ(found[i].x, points[i].triangle < 2 ? 1.0f : 2.0f) << i;
+}
+
 TEST(AtlasShow, HasNoLightWhereNothingIs) {
     Scene scene = tilted_quad();
     test::add_triangle(scene, {0, 0, 0}, {1, 1, 1}, {2, 2, 2});  // without area: in no chart
