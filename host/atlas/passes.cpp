@@ -11,20 +11,60 @@ namespace {
 
 constexpr std::size_t word = sizeof(float);
 
+void need_shooters(const PassKernel& pass, const FillParams& params, const SiteBuffers& b,
+                   const cl::Buffer& views) {
+    need_stride(pass, "stride", params.stride, params.texel_count);
+    need(pass, "chosen", b.chosen,
+         (std::size_t{params.first_shooter} + params.shooter_count) * word);
+    need(pass, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
+    need(pass, "sites", b.sites, b.site_count * sizeof(Site));
+    need(pass, "planes", b.planes, SITE_PLANES * word * params.site_stride);
+    need(pass, "light", b.light, SITE_LIGHT_PLANES * word * params.site_stride);
+    need(pass, "samples", b.samples, GBUFFER_PLANES * word * params.sample_stride);
+    need(pass, "weights", b.weights, word * params.sample_stride);
+}
+
+// Corners and triangles of M are counted in 32 bits; views and their mesh have to agree.
+void need_mesh(const PassKernel& pass, const MeshParams& params) {
+    if (params.squares < 2 || params.squares > 256 || params.squares % 2 != 0)
+        throw Error(pass.name + ": squares is " + std::to_string(params.squares) +
+                    ", an even number from 2 to 256 needed");
+    if (params.shooter_count > 4096)
+        throw Error(pass.name + ": shooter_count is " + std::to_string(params.shooter_count) +
+                    ", at most 4096 needed");
+}
+
+std::size_t mesh_corners(const MeshParams& params) {
+    return std::size_t{params.shooter_count} * MESH_CORNERS(params.squares);
+}
+
+std::size_t mesh_triangles(const MeshParams& params) {
+    return std::size_t{params.shooter_count} * MESH_TRIANGLES(params.squares);
+}
+
+std::size_t hemicube_bytes(const MeshParams& params) {
+    return 3 * sizeof(std::uint64_t) * params.shooter_count * params.size * params.size;
+}
+
 }  // namespace
 
 AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
     : storage_(options.storage) {
     BuildOptions full = options;
     full.storage = Storage::full;
+    BuildOptions scalar = full;
+    scalar.packet_width = 1;
     gather_ = programs.kernel("atlas", "gather", full);
+    geometry_ = programs.kernel("atlas", "geometry", scalar);
+    replicate_ = programs.kernel("atlas", "replicate", scalar);
+    project_ = programs.kernel("atlas", "project", scalar);
     nearest_ = programs.kernel("atlas", "nearest", full);
     complete_ = programs.kernel("atlas", "complete", full);
     show_ = programs.kernel("atlas", "show", options);
 }
 
 void AtlasPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({gather_, nearest_, complete_, show_}, passes);
+    build_named({gather_, geometry_, replicate_, project_, nearest_, complete_, show_}, passes);
 }
 
 cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& params,
@@ -32,21 +72,66 @@ cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& p
                               const cl::Buffer& depth, const cl::Buffer& texels,
                               const cl::Buffer& irradiance, const cl::Buffer& filled,
                               const WaitList& wait) const {
-    need_stride(gather_, "stride", params.stride, params.texel_count);
-    need(gather_, "chosen", b.chosen,
-         (std::size_t{params.first_shooter} + params.shooter_count) * word);
-    need(gather_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
-    need(gather_, "sites", b.sites, b.site_count * sizeof(Site));
-    need(gather_, "planes", b.planes, SITE_PLANES * word * params.site_stride);
-    need(gather_, "light", b.light, SITE_LIGHT_PLANES * word * params.site_stride);
-    need(gather_, "samples", b.samples, GBUFFER_PLANES * word * params.sample_stride);
-    need(gather_, "weights", b.weights, word * params.sample_stride);
+    need_shooters(gather_, params, b, views);
     need(gather_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
     need(gather_, "irradiance", irradiance, 3 * word * params.stride);
     need(gather_, "filled", filled, word * params.stride);
     return launch(gather_, queue, packets(gather_, params.texel_count - params.first_texel), wait,
                   params, b.chosen, views, depth, b.sites, b.planes, b.light, b.samples, b.weights,
                   texels, irradiance, filled);
+}
+
+cl::Event AtlasPasses::geometry(const cl::CommandQueue& queue, const MeshParams& params,
+                                const DeviceScene& scene, const cl::Buffer& views,
+                                const cl::Buffer& visibility, const MeshBuffers& mesh,
+                                const WaitList& wait) const {
+    need_mesh(geometry_, params);
+    const std::size_t triangles = scene.info().triangle_count;
+    need(geometry_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
+    need(geometry_, "visibility", visibility, hemicube_bytes(params));
+    need(geometry_, "uvs", mesh.uvs, 3 * triangles * 2 * word);
+    need(geometry_, "charts", mesh.charts, triangles * word);
+    need(geometry_, "corners", mesh.corners, mesh_corners(params) * sizeof(MeshCorner));
+    return launch(geometry_, queue, mesh_corners(params), wait, params, views, visibility,
+                  scene.triangles(), scene.positions(), mesh.uvs, mesh.charts, mesh.corners);
+}
+
+cl::Event AtlasPasses::replicate(const cl::CommandQueue& queue, const MeshParams& params,
+                                 const MeshBuffers& mesh, const WaitList& wait) const {
+    need_mesh(replicate_, params);
+    need(replicate_, "corners", mesh.corners, mesh_corners(params) * sizeof(MeshCorner));
+    need(replicate_, "boxes", mesh.boxes, mesh.chart_count * 4 * word);
+    need(replicate_, "copies", mesh.copies,
+         MESH_COPIES * mesh_triangles(params) * sizeof(MeshCopy));
+    return launch(replicate_, queue, mesh_triangles(params), wait, params, mesh.corners,
+                  mesh.boxes, mesh.copies);
+}
+
+cl::Event AtlasPasses::project(const cl::CommandQueue& queue, const FillParams& params,
+                               const MeshParams& mesh_params, const SiteBuffers& b,
+                               const cl::Buffer& views, const cl::Buffer& visibility,
+                               const MeshBuffers& mesh, const cl::Buffer& texels,
+                               const cl::Buffer& irradiance, const cl::Buffer& filled,
+                               const WaitList& wait) const {
+    need_mesh(project_, mesh_params);
+    need_shooters(project_, params, b, views);
+    if (mesh_params.shooter_count < params.shooter_count)
+        throw Error(project_.name + ": the mesh has " + std::to_string(mesh_params.shooter_count) +
+                    " hemicubes, " + std::to_string(params.shooter_count) + " needed");
+    if (mesh_params.reach < 0)
+        throw Error(project_.name + ": reach is " + std::to_string(mesh_params.reach) +
+                    ", 0 or more needed");
+    need(project_, "visibility", visibility, hemicube_bytes(mesh_params));
+    need(project_, "copies", mesh.copies,
+         MESH_COPIES * mesh_triangles(mesh_params) * sizeof(MeshCopy));
+    need(project_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
+    need(project_, "places", mesh.places, PLACE_PLANES * word * params.stride);
+    need(project_, "irradiance", irradiance, 3 * word * params.stride);
+    need(project_, "filled", filled, word * params.stride);
+    return launch(project_, queue, params.texel_count - params.first_texel, wait, params,
+                  mesh_params, b.chosen, views, visibility, mesh.copies, b.sites, b.planes,
+                  b.light, b.balance, b.samples, b.weights, texels, mesh.places, irradiance,
+                  filled);
 }
 
 cl::Event AtlasPasses::nearest(const cl::CommandQueue& queue, const FillParams& params,

@@ -38,6 +38,7 @@ struct BakeFlags {
     AtlasOptions atlas;
     std::string uvs = "auto";
     std::string threshold;
+    std::string filling = "gather";
     LightAtlasOptions bake;
     bool dilate = false;
     std::string gltf;
@@ -99,6 +100,7 @@ void run_bake(BakeFlags flags) {
     if (!flags.threshold.empty())
         flags.bake.threshold =
             static_cast<float>(parse_percent("bake", "--threshold", flags.threshold));
+    flags.bake.filling = flags.filling == "project" ? Filling::project : Filling::gather;
     flags.atlas.uvs = uvs_of(flags.uvs);
     flags.bake.build = build_of(flags.device);
     Scene scene =
@@ -184,6 +186,21 @@ void add_method_flags(CLI::App& command, BakeFlags& flags) {
                     "Pixels of a hemicube's face when the atlas is filled")
         ->type_name("N")
         ->check(CLI::Range(32, 1024));
+    command
+        .add_option("--filling", flags.filling,
+                    "How texels get light: gather, or project as in the paper")
+        ->type_name("HOW")
+        ->check(CLI::IsMember({"gather", "project"}));
+    command
+        .add_option("--mesh", flags.bake.mesh,
+                    "With --filling project: triangles of the mesh over a hemicube's face")
+        ->type_name("N")
+        ->check(CLI::Range(8, 131072));
+    command
+        .add_option("--kernel", flags.bake.kernel,
+                    "With --filling project: pixels to each side for soft shadows; 0: hard ones")
+        ->type_name("K")
+        ->check(CLI::Range(0, 64));
     command.add_flag("--direct", flags.bake.direct, "Direct light in the atlas too");
 }
 

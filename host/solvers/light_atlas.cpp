@@ -70,7 +70,7 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     if (atlas_layout.texels.empty()) throw Error("light-atlas: there is no texel");
     const BufferTable all =
         table(b, emitters, scene, vpl_layout.samples.size(), vpl_layout.vpls.size(),
-              atlas_layout.texels.size(), options, budget,
+              atlas_layout, options, budget,
               device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
     all.check(device, options.memory_budget, scene.bytes());
     all.allocate(record);
@@ -82,7 +82,11 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     lights.build({"direct"});
     vpl.build({"place", "receive", "transport", "reach", "balance_receivers", "balance_shooters",
                "emit", "shoot", "weigh"});
-    atlas.build({"gather", "nearest", "complete"});
+    atlas.build({"nearest", "complete"});
+    if (options.filling == Filling::project)
+        atlas.build({"geometry", "replicate", "project"});
+    else
+        atlas.build({"gather"});
     emitters.write(record);
     upload(vpl_layout, atlas_layout);
 }
@@ -116,6 +120,7 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
     for (const AtlasTexel& texel : texels.texels)
         list.push_back({device_triangle(device, texel.triangle), texel.b1, texel.b2, 0.0f});
     record.write(b.texel_list, list.data(), list.size() * sizeof(SurfaceSample));
+    if (options.filling == Filling::project) upload_charts(texels, device);
 }
 
 // Where samples, VPLs and texels are, and what they reflect. [section 3.1]
@@ -286,10 +291,22 @@ void LightAtlasSolver::State::shoot_strongest() {
     }
 }
 
+FillParams LightAtlasSolver::State::fill_params(std::uint32_t first, std::uint32_t count) const {
+    return {first, count, b.sites.stride, b.sites.sample_stride, b.texel_count, b.texel_stride, 0,
+            1};
+}
+
+void LightAtlasSolver::State::gather(std::uint32_t first, std::uint32_t count) {
+    record("atlas.gather", std::size_t{count} * b.texel_count, [&](const WaitList& wait) {
+        return atlas.gather(queue, fill_params(first, count), b.sites, b.views, b.pixels,
+                            b.texels.planes, b.irradiance, b.filled, wait);
+    });
+}
+
 // What the VPLs received, sent on to the texels. [section 4]
 void LightAtlasSolver::State::fill() {
     const std::uint32_t n = b.sites.site_count;
-    FillParams all{0, n, b.sites.stride, b.sites.sample_stride, b.texel_count, b.texel_stride, 0, 1};
+    const FillParams all = fill_params(0, n);
     record("atlas.nearest", b.texel_count, [&](const WaitList& wait) {
         return atlas.nearest(queue, all, b.sites, b.texels.planes, b.reach, wait);
     });
@@ -299,13 +316,11 @@ void LightAtlasSolver::State::fill() {
     while (filled_vpls < n && !record.cancelled()) {
         const std::uint32_t first = filled_vpls;
         const std::uint32_t count = std::min(b.filling_batch, n - first);
-        hemicubes(first, count, options.filling_size, Pixels::depth);
-        const FillParams params{first, count, b.sites.stride, b.sites.sample_stride, b.texel_count,
-                                b.texel_stride, 0, 1};
-        record("atlas.gather", std::size_t{count} * b.texel_count, [&](const WaitList& wait) {
-            return atlas.gather(queue, params, b.sites, b.views, b.pixels, b.texels.planes,
-                                b.irradiance, b.filled, wait);
-        });
+        hemicubes(first, count, options.filling_size, filling_pixels(options));
+        if (options.filling == Filling::project)
+            project(first, count);
+        else
+            gather(first, count);
         filled_vpls += count;
         if (first % 64 == 0) record.report(0.45 + 0.54 * filled_vpls / n);
     }

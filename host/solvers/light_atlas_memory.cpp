@@ -23,11 +23,52 @@ void check(const LightAtlasOptions& options) {
             throw Error(std::string("light-atlas: ") + name + " is " + std::to_string(size) +
                         ", an even number needed");
     }
+    need_range<double>("light-atlas", "kernel", options.kernel, 0, 64);
+    need_range<double>("light-atlas", "mesh", options.mesh, 8, 131072);
+    const int squares = static_cast<int>(mesh_squares(options.mesh));
+    if (2 * squares * squares != options.mesh || squares % 2 != 0)
+        throw Error("light-atlas: mesh is " + std::to_string(options.mesh) +
+                    ", twice the square of an even number needed, such as 128, 512 or 2048");
+    if (squares > options.filling_size)
+        throw Error("light-atlas: mesh is " + std::to_string(options.mesh) +
+                    ", at most 2 filling_size^2 = " +
+                    std::to_string(2 * options.filling_size * options.filling_size) + " needed");
 }
 
+std::uint32_t mesh_squares(int triangles) {
+    std::uint32_t out = 0;
+    while (2 * (out + 1) * (out + 1) <= static_cast<std::uint32_t>(triangles)) ++out;
+    return out;
+}
+
+namespace {
+
+// Nothing unless the atlas is filled by projection.
+void add_mesh(BufferTable& t, Buffers& b, const DeviceScene& scene, std::size_t charts,
+              const LightAtlasOptions& options) {
+    if (options.filling != Filling::project) return;
+    const char* mesh = "mesh";
+    const std::size_t word = sizeof(float);
+    const std::size_t triangles = scene.info().triangle_count;
+    const std::size_t squares = mesh_squares(options.mesh);
+    b.mesh.chart_count = static_cast<std::uint32_t>(charts);
+    t.add(b.mesh.uvs, "atlas coordinates", "the scene", triangles * 3 * 2 * word);
+    t.add(b.mesh.charts, "charts of triangles", "the scene", triangles * word);
+    t.add(b.mesh.boxes, "boxes of charts", "the scene", charts * 4 * word);
+    t.add(b.mesh.places, "places of texels", "the size of the atlas",
+          PLACE_PLANES * word * b.texel_stride);
+    t.add(b.mesh.corners, "corners of meshes", mesh,
+          b.filling_batch * MESH_CORNERS(squares) * sizeof(MeshCorner));
+    t.add(b.mesh.copies, "triangles of meshes", mesh,
+          b.filling_batch * MESH_TRIANGLES(squares) * MESH_COPIES * sizeof(MeshCopy));
+}
+
+}  // namespace
+
 BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std::size_t samples,
-                  std::size_t sites, std::size_t texels, const LightAtlasOptions& options,
+                  std::size_t sites, const AtlasLayout& atlas, const LightAtlasOptions& options,
                   std::size_t budget, std::size_t largest) {
+    const std::size_t texels = atlas.texels.size();
     const char* vpls = "the number of VPLs";
     const char* points = "the number of VPLs or of samples for each";
     const char* size = "the size of the atlas";
@@ -79,7 +120,9 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
     };
     t.add(b.pixels, "hemicubes", "exchange_size or filling_size",
           std::max(pixels(options.exchange_size, b.exchange_batch) * pixel_bytes(Pixels::visibility),
-                   pixels(options.filling_size, b.filling_batch) * pixel_bytes(Pixels::depth)));
+                   pixels(options.filling_size, b.filling_batch) *
+                       pixel_bytes(filling_pixels(options))));
+    add_mesh(t, b, scene, atlas.charts.size(), options);
     t.add_word(b.non_finite, "counters", 0);
     const std::size_t row = s.stride * sizeof(cl_half), all = sites * row;
     b.kept = all <= largest && t.bytes() + all <= budget;

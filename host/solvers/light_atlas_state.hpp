@@ -23,6 +23,7 @@ struct Buffers {
     cl::Buffer rows;                     // transport, half
     cl::Buffer strongest, arg_max_scratch;
     cl::Buffer views, pixels;  // hemicubes of a batch
+    MeshBuffers mesh;          // for Filling::project
     cl::Buffer non_finite;
     RasterBuffers lists;  // for what is not drawn a view a work-item
     std::uint32_t texel_count = 0, texel_stride = 0;
@@ -33,10 +34,18 @@ struct Buffers {
 // Throws Error for options out of range.
 void check(const LightAtlasOptions& options);
 
+// Squares across a face of a mesh of so many triangles.
+std::uint32_t mesh_squares(int triangles);
+
+// What the filling reads of hemicubes.
+inline Pixels filling_pixels(const LightAtlasOptions& options) {
+    return options.filling == Filling::project ? Pixels::visibility : Pixels::depth;
+}
+
 // The row of every buffer. `budget`: bytes for all, from which it follows whether the transport is
 // kept.
 BufferTable table(Buffers& buffers, Emitters& emitters, const DeviceScene& scene,
-                  std::size_t samples, std::size_t sites, std::size_t texels,
+                  std::size_t samples, std::size_t sites, const AtlasLayout& atlas,
                   const LightAtlasOptions& options, std::size_t budget, std::size_t largest);
 
 }  // namespace light_atlas
@@ -62,6 +71,10 @@ struct LightAtlasSolver::State {
     void exchange();
     void fill();
     void put_back();
+    void gather(std::uint32_t first, std::uint32_t count);
+    void upload_charts(const AtlasLayout& atlas, const std::vector<std::uint32_t>& device);
+    void project(std::uint32_t first, std::uint32_t count);
+    FillParams fill_params(std::uint32_t first, std::uint32_t count) const;
     ShootParams shoot_params(std::uint32_t first, std::uint32_t count) const;
     double unshot_power() const;    // exposed
     float strongest_power();        // exposed; waits

@@ -23,6 +23,18 @@ struct AtlasMap {
     std::uint32_t size = 0, pages = 0, texel_count = 0;
 };
 
+// What the projection of the mesh M into the atlas needs. Triangles are those of the device, texel
+// coordinates those of a page.
+struct MeshBuffers {
+    cl::Buffer uvs;      // [3 * triangle_count] float2, of the corners, texels
+    cl::Buffer charts;   // [triangle_count] uint; MESH_NO_CHART: in none
+    cl::Buffer boxes;    // [chart_count] float4: least u, least v, largest u, largest v, texels
+    cl::Buffer places;   // [PLACE_PLANES][stride] int, of the texels
+    cl::Buffer corners;  // [shooter_count][MESH_CORNERS] MeshCorner
+    cl::Buffer copies;   // [shooter_count][MESH_TRIANGLES][MESH_COPIES] MeshCopy
+    std::uint32_t chart_count = 0;
+};
+
 class CLGI_API AtlasPasses {
 public:
     explicit AtlasPasses(const Programs& programs, const BuildOptions& options = {});
@@ -37,6 +49,26 @@ public:
                      const SiteBuffers& buffers, const cl::Buffer& views, const cl::Buffer& depth,
                      const cl::Buffer& texels, const cl::Buffer& irradiance,
                      const cl::Buffer& filled, const WaitList& wait = {}) const;
+
+    // What a batch of VPLs sees at the corners of M -> mesh.corners. visibility: their hemicubes with
+    // triangles.
+    cl::Event geometry(const cl::CommandQueue& queue, const MeshParams& params,
+                       const DeviceScene& scene, const cl::Buffer& views,
+                       const cl::Buffer& visibility, const MeshBuffers& mesh,
+                       const WaitList& wait = {}) const;
+
+    // mesh.corners -> mesh.copies: the triangles of M in every chart that they touch.
+    cl::Event replicate(const cl::CommandQueue& queue, const MeshParams& params,
+                        const MeshBuffers& mesh, const WaitList& wait = {}) const;
+
+    // In place of gather: adds the light of a batch of VPLs to the texels that mesh.copies cover,
+    // with soft shadows. params.words is not used.
+    cl::Event project(const cl::CommandQueue& queue, const FillParams& params,
+                      const MeshParams& mesh_params, const SiteBuffers& buffers,
+                      const cl::Buffer& views, const cl::Buffer& visibility,
+                      const MeshBuffers& mesh, const cl::Buffer& texels,
+                      const cl::Buffer& irradiance, const cl::Buffer& filled,
+                      const WaitList& wait = {}) const;
 
     // The reach of the VPL nearest to each texel, of those that face the same way -> reach [stride]
     // float. params.shooter_count: all VPLs.
@@ -64,7 +96,7 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel gather_, nearest_, complete_, show_;
+    PassKernel gather_, geometry_, replicate_, project_, nearest_, complete_, show_;
     Storage storage_;  // of what show reads and writes
 };
 

@@ -33,6 +33,54 @@ typedef struct {
 
 #define ATLAS_NONE 0xffffffffu  // no texel, no chart, no page
 
+// The mesh M over the faces of hemicubes [Schaerfig16, section 4.1]: a square grid, each square cut
+// into two triangles. Side faces have half as many lines of squares. Corners and triangles of a
+// hemicube: those of the first face line by line, then those of the sides.
+typedef struct {
+    uint shooter_count;
+    uint size;     // pixels, width of the hemicubes' faces
+    uint squares;  // of M across a face, even
+    int reach;     // K: pixels to each side that the shadow test looks at; 0: one pixel alone
+} MeshParams;
+
+#define MESH_CORNERS(squares) (((squares) + 1) * (3 * (squares) + 5))
+#define MESH_TRIANGLES(squares) (6 * (squares) * (squares))
+
+// The G-buffer G at a corner of M: atlas coordinates U and their W, both linear on the screen, with
+// their change per unit of the image plane to the right and up.
+typedef struct {
+    float u;  // texels of the page / depth
+    float v;
+    float w;  // 1 / depth
+    uint chart;  // MESH_NO_CHART: nothing is seen there that has texels
+    float u_right;
+    float v_right;
+    float w_right;
+    float pad0_;
+    float u_up;
+    float v_up;
+    float w_up;
+    float pad1_;
+} MeshCorner;
+
+#define MESH_NO_CHART 0xffffffffu
+
+// A triangle of M as it is projected into one chart.
+typedef struct {
+    float4 depth;  // x: W at the first corner; y, z: its change per unit to the right and up; w: a
+                   // texel with a smaller W is none of the triangle's
+    float4 box;    // texels of the page: least u, least v, largest u, largest v
+    uint chart;    // MESH_NO_CHART: unused
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+} MeshCopy;
+
+enum { MESH_COPIES = 3 };  // of a triangle at most: a chart for every corner
+
+// Planes of the texels' places, int.
+enum { PLACE_CHART = 0, PLACE_COLUMN = 1, PLACE_ROW = 2, PLACE_PLANES = 3 };
+
 CLGI_SHARED_END
 
 #endif

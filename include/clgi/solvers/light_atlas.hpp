@@ -19,6 +19,12 @@
 
 namespace clgi {
 
+// How the VPLs' light reaches the texels.
+enum class Filling {
+    gather,   // every texel looks up every VPL's depth maps
+    project,  // triangles of a mesh M over each VPL's view are projected into the atlas [section 4]
+};
+
 struct LightAtlasOptions {
     EmitterOptions emitters;  // shadow maps and samples of the lights; emitters.vpls is not used
     // How often light is reflected at most before it reaches a texel, at least 1; 0: until the
@@ -33,6 +39,10 @@ struct LightAtlasOptions {
     std::uint32_t exchange_samples = 10;
     int exchange_size = 64;   // pixels of a hemicube's face when VPLs exchange light; even
     int filling_size = 256;   // and when the atlas is filled
+    Filling filling = Filling::gather;
+    int mesh = 512;  // triangles of M over a hemicube's face, for Filling::project: 2 n^2 with an
+                     // even n of at most filling_size, 8 to 131072
+    int kernel = 5;  // K, its soft shadows: pixels to each side, 0 (hard) to 64
     bool direct = false;      // direct light in the atlas too
     // Bytes that the solver's buffers may take together; 0: what the device has beside the scene.
     // The transport between all pairs of VPLs is kept if it fits, else computed anew each bounce.
