@@ -99,7 +99,9 @@ TEST(LightAtlasOfASphere, LitByASpotIsEven) {
         expect_all(test::over_texels(bakery, baked.texels, in_beam), glm::dvec3(wanted), 0.08,
                    "in the beam");
         EXPECT_NEAR(test::over_texels(bakery, baked.texels).mean.x, wanted, 0.003 * wanted);
-        EXPECT_NEAR(test::over_texels(bakery, baked.texels, in_beam).mean.x, wanted, 0.01 * wanted);
+        // The VPL that a texel lies on gives it nothing: 1 / 107.
+        EXPECT_NEAR(test::over_texels(bakery, baked.texels, in_beam).mean.x, wanted,
+                    0.015 * wanted);
         expect_balance(baked.status, "spot");
     }
 }
