@@ -141,7 +141,8 @@ TEST(LightAtlasModes, RunAgainGivesTheSameBits) {
     }
 }
 
-// Cancelled at every report that a bake makes; then it is run to its end.
+// Cancelled at every report that a bake makes but the last, which comes too late; then it is run to
+// its end.
 TEST(LightAtlasModes, RunAgainAfterACancelledBakeGivesTheSameBits) {
     for (const LightAtlasOptions& options : ways()) {
         const Baked wanted = test::bake(small_room(), options);
@@ -152,7 +153,7 @@ TEST(LightAtlasModes, RunAgainAfterACancelledBakeGivesTheSameBits) {
         }
         ASSERT_GT(reports, 3);
         const int step = std::max(1, reports / 8);
-        for (int last = 1; last <= reports; last += step) {
+        for (int last = 1; last < reports; last += step) {
             LightAtlasSolver solver = small_room().solver(options);
             int seen = 0;
             EXPECT_FALSE(solver.run([&](double) { return ++seen < last; }));

@@ -15,7 +15,7 @@ struct HandVpl {
     double area = 0.01;           // m^2
     glm::dvec3 albedo = {0.5, 0.7, 0.3};
     glm::dvec3 received = {3.0, 2.0, 5.0};  // lux
-    double balance = 0.875;
+    double balance = 0.875;  // which has no part in filling
 };
 
 inline const AtlasPasses& atlas_passes() { return shared_passes<AtlasPasses>(Math::strict); }
@@ -188,7 +188,7 @@ struct OneBatch {
             std::max(0.0, glm::dot(d, vpl.normal)) * std::max(0.0, -glm::dot(d, normal(texel)));
         const double kernel = cosines * (square + radius2) /
                               (square * (square * (square + radius2) + radius2 * radius2));
-        const double factor = kernel * vpl.balance * vpl.area / std::numbers::pi;
+        const double factor = kernel * vpl.area / std::numbers::pi;
         return glm::dvec4(factor * vpl.albedo * vpl.received, factor);
     }
 

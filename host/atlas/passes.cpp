@@ -130,7 +130,7 @@ cl::Event AtlasPasses::project(const cl::CommandQueue& queue, const FillParams& 
     need(project_, "filled", filled, word * params.stride);
     return launch(project_, queue, params.texel_count - params.first_texel, wait, params,
                   mesh_params, b.chosen, views, visibility, mesh.copies, b.sites, b.planes,
-                  b.light, b.balance, b.samples, b.weights, texels, mesh.places, irradiance,
+                  b.light, b.samples, b.weights, texels, mesh.places, irradiance,
                   filled);
 }
 

@@ -332,9 +332,6 @@ void LightAtlasSolver::State::fill() {
 
 // Light goes from VPL to VPL. [section 3.3]
 void LightAtlasSolver::State::exchange() {
-    // Bounces of all VPLs make what is not kept anyway.
-    const bool all_shoot = options.bounces == 0 ? !options.one_at_a_time : options.bounces > 1;
-    if (!measured && (b.kept || !all_shoot)) measure_transport();
     if (options.bounces > 0)
         for (std::uint32_t k = 1; k < options.bounces && !record.cancelled(); ++k) bounce();
     else if (options.one_at_a_time)
@@ -354,6 +351,9 @@ bool LightAtlasSolver::State::run(const Progress& progress) {
     receive_direct();
     // Factors begin with 1, also after a bake that was cancelled half-way or went on from a state.
     if (!measured) record.fill(b.sites.balance, one_bits);
+    // Bounces of all VPLs make what is not kept anyway.
+    const bool all_shoot = options.bounces == 0 ? !options.one_at_a_time : options.bounces > 1;
+    if (!restored && !measured && (b.kept || !all_shoot)) measure_transport();
     direct.resize(3 * std::size_t{b.sites.stride});
     record.wait();
     queue.enqueueReadBuffer(b.sites.light, CL_TRUE, 0, direct.size() * sizeof(float),

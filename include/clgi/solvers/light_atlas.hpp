@@ -37,7 +37,7 @@ struct LightAtlasOptions {
     // Sample points of a receiving VPL that are looked at when VPLs exchange light, at least 1. All
     // of them send light to the texels near by.
     std::uint32_t exchange_samples = 10;
-    int exchange_size = 64;   // pixels of a hemicube's face when VPLs exchange light; even
+    int exchange_size = 128;  // pixels of a hemicube's face when VPLs exchange light; even
     int filling_size = 256;   // and when the atlas is filled
     Filling filling = Filling::gather;
     int mesh = 512;  // triangles of M over a hemicube's face, for Filling::project: 2 n^2 with an
