@@ -40,7 +40,8 @@ TEST(VplEvenness, DoesNotDependOnHowAWallIsCut) {
         for (const std::uint32_t cells : {1u, 9u, 70u}) {
             const Scene scene = test::crooked_wall(size.x, size.y, cells);
             const Patches patches = make_patches(scene);
-            const VplLayout layout = place_vpls(scene, patches, {.count = 100});
+            const VplLayout layout =
+                place_vpls(scene, patches, {.count = 100, .samples_per_vpl = 10});
             ASSERT_EQ(layout.vpls.size(), 100u);
             ASSERT_EQ(layout.samples.size(), 1000u);
             const std::vector<glm::dvec3> vpls = positions(scene, layout.vpls);
@@ -61,7 +62,8 @@ TEST(VplEvenness, KeepsOffTheBordersOfATurnedWall) {
         Scene scene = test::crooked_wall(4, 1, 9);
         const double c = std::cos(angle), s = std::sin(angle);
         for (glm::dvec3& p : scene.positions) p = {c * p.x - s * p.y, 2 * p.z, s * p.x + c * p.y};
-        const VplLayout layout = place_vpls(scene, make_patches(scene), {.count = 64});
+        const VplLayout layout =
+            place_vpls(scene, make_patches(scene), {.count = 64, .samples_per_vpl = 10});
         for (const VplSite& vpl : layout.vpls) {
             const glm::dvec3 p = position(scene, vpl);
             const double x = c * p.x + s * p.z, y = c * p.z - s * p.x;

@@ -79,7 +79,7 @@ TEST(VplLayout, DividesACubeEquallyAndKeepsOffItsEdges) {
     test::add_box(scene, {0, 0, 0}, {1, 1, 1}, -1);
     const Patches patches = make_patches(scene);
     for (const std::uint32_t n : {6u, 96u, 600u}) {
-        const VplLayout layout = place_vpls(scene, patches, {.count = n});
+        const VplLayout layout = place_vpls(scene, patches, {.count = n, .samples_per_vpl = 10});
         expect_consistent(scene, patches, layout);
         ASSERT_EQ(layout.vpls.size(), n);
         EXPECT_EQ(layout.region_count, 6u);
@@ -101,7 +101,7 @@ TEST(VplLayout, DividesACubeEquallyAndKeepsOffItsEdges) {
         }
     }
     // 101 = 16 * 6 + 5: no face has two more than another.
-    const VplLayout layout = place_vpls(scene, patches, {.count = 101});
+    const VplLayout layout = place_vpls(scene, patches, {.count = 101, .samples_per_vpl = 10});
     std::vector<int> face(6);
     for (const VplSite& vpl : layout.vpls) ++face[vpl.region];
     for (const int count : face) EXPECT_TRUE(count == 16 || count == 17);
@@ -118,7 +118,7 @@ TEST(VplLayout, GivesSmallTrianglesTheirShareOnly) {
     scene.triangles.push_back({{first, first + 1, first + 2}, 0});
     scene.triangles.push_back({{first, first + 2, first + 3}, 0});
     const Patches patches = make_patches(scene);
-    const VplLayout layout = place_vpls(scene, patches, {.count = 40});
+    const VplLayout layout = place_vpls(scene, patches, {.count = 40, .samples_per_vpl = 10});
     expect_consistent(scene, patches, layout);
     EXPECT_EQ(layout.region_count, 2u);
     EXPECT_EQ(std::count_if(layout.vpls.begin(), layout.vpls.end(),
@@ -133,7 +133,7 @@ TEST(VplLayout, CoversASphere) {
     const Scene scene = furnace({.subdivisions = 5});
     const Patches patches = make_patches(scene);
     for (const std::uint32_t n : {1u, 10u, 200u, 3000u}) {
-        const VplLayout layout = place_vpls(scene, patches, {.count = n});
+        const VplLayout layout = place_vpls(scene, patches, {.count = n, .samples_per_vpl = 10});
         expect_consistent(scene, patches, layout, n > 1000 ? 7 : 1);
         EXPECT_TRUE(layout.vpls.size() == n || (n == 1 && layout.vpls.size() <= 12));
         // The sum of A_j x_j over a sphere vanishes, and that of A_j is 4 pi, less what the
@@ -152,7 +152,7 @@ TEST(VplLayout, MergesWhatIsTooSmall) {
     const Patches patches = make_patches(scene, {0.02f, 0.02f});
     ASSERT_GT(patches.patches.size(), 4000u);
     for (const std::uint32_t n : {100u, 1600u}) {
-        const VplLayout layout = place_vpls(scene, patches, {.count = n});
+        const VplLayout layout = place_vpls(scene, patches, {.count = n, .samples_per_vpl = 10});
         expect_consistent(scene, patches, layout, 5);
         EXPECT_EQ(layout.vpls.size(), n);
         // Walls, 32 of some 34.5 m^2, give up a quarter of all VPLs at most.
@@ -160,7 +160,7 @@ TEST(VplLayout, MergesWhatIsTooSmall) {
         for (const VplSite& vpl : layout.vpls) on_walls += test::area_of(scene, vpl.triangle) > 1.0;
         EXPECT_GT(on_walls, n * 32 / 34.6 - 0.25 * n - 6);  // rounding of six walls
     }
-    const VplLayout one = place_vpls(scene, patches, {.count = 1});
+    const VplLayout one = place_vpls(scene, patches, {.count = 1, .samples_per_vpl = 10});
     expect_consistent(scene, patches, one);
     EXPECT_LE(one.vpls.size(), 6u);
 }
@@ -180,7 +180,7 @@ TEST(VplLayout, ClustersSpecks) {
     const Patches patches = make_patches(scene);
     ASSERT_EQ(patches.patches.size(), 3001u);
     for (const std::uint32_t n : {100u, 1000u}) {
-        const VplLayout layout = place_vpls(scene, patches, {.count = n});
+        const VplLayout layout = place_vpls(scene, patches, {.count = n, .samples_per_vpl = 10});
         expect_consistent(scene, patches, layout);
         EXPECT_EQ(layout.vpls.size(), n);
         const auto on_floor = std::count_if(layout.vpls.begin(), layout.vpls.end(),
@@ -188,11 +188,11 @@ TEST(VplLayout, ClustersSpecks) {
         EXPECT_GE(on_floor, 0.74 * n);
         EXPECT_LT(on_floor, n);
     }
-    EXPECT_LE(place_vpls(scene, patches, {.count = 1}).vpls.size(), 6u);
+    EXPECT_LE(place_vpls(scene, patches, {.count = 1, .samples_per_vpl = 10}).vpls.size(), 6u);
     // Nothing but specks.
     scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
     const Patches alone = make_patches(scene);
-    const VplLayout layout = place_vpls(scene, alone, {.count = 200});
+    const VplLayout layout = place_vpls(scene, alone, {.count = 200, .samples_per_vpl = 10});
     expect_consistent(scene, alone, layout);
     EXPECT_EQ(layout.vpls.size(), 200u);
 }
@@ -201,7 +201,7 @@ TEST(VplLayout, MirrorsDoubleSidedRegions) {
     Scene scene = test::crooked_wall(2, 1, 5);
     scene.materials[0].double_sided = true;
     const Patches patches = make_patches(scene);
-    const VplLayout layout = place_vpls(scene, patches, {.count = 41});
+    const VplLayout layout = place_vpls(scene, patches, {.count = 41, .samples_per_vpl = 10});
     expect_consistent(scene, patches, layout);
     EXPECT_NEAR(layout.area, 4.0, 1e-12);
     ASSERT_EQ(layout.vpls.size(), 40u);
@@ -222,7 +222,7 @@ TEST(VplLayout, MirrorsDoubleSidedRegions) {
 TEST(VplLayout, ApproximatesAreasByNumbersOfSamples) {
     const Scene scene = corridor();
     const Patches patches = make_patches(scene);
-    const VplLayout layout = place_vpls(scene, patches, {});
+    const VplLayout layout = place_vpls(scene, patches, {.samples_per_vpl = 10});
     expect_consistent(scene, patches, layout);
     EXPECT_EQ(layout.vpls.size(), 1600u);
     std::vector<double> area(layout.region_count), samples(layout.region_count);
@@ -238,13 +238,13 @@ TEST(VplLayout, ApproximatesAreasByNumbersOfSamples) {
 TEST(VplLayout, TakesManyVplsAndSamplesOfOne) {
     const Scene scene = cornell();
     const Patches patches = make_patches(scene);
-    const VplLayout layout = place_vpls(scene, patches, {.count = 25600});
+    const VplLayout layout = place_vpls(scene, patches, {.count = 25600, .samples_per_vpl = 10});
     expect_consistent(scene, patches, layout, 997);
     EXPECT_EQ(layout.vpls.size(), 25600u);
     const VplLayout single = place_vpls(scene, patches, {.count = 300, .samples_per_vpl = 1});
     expect_consistent(scene, patches, single);
     EXPECT_EQ(single.vpls.size(), 300u);
-    const VplLayout dense = place_vpls(scene, patches, {.density = 50.0});
+    const VplLayout dense = place_vpls(scene, patches, {.density = 50.0, .samples_per_vpl = 10});
     expect_consistent(scene, patches, dense);
     EXPECT_EQ(dense.vpls.size(), std::lround(50.0 * patches.area));
 }
@@ -256,13 +256,14 @@ TEST(VplLayout, OfLittleIsLittle) {
     EXPECT_EQ(none.area, 0.0);
     test::add_triangle(scene, {0, 0, 0}, {3, 0, 0}, {0, 3, 0});
     const Patches patches = make_patches(scene);
-    const VplLayout one = place_vpls(scene, patches, {.count = 1});
+    const VplLayout one = place_vpls(scene, patches, {.count = 1, .samples_per_vpl = 10});
     expect_consistent(scene, patches, one);
     ASSERT_EQ(one.vpls.size(), 1u);
     EXPECT_EQ(one.samples.size(), 10u);
     EXPECT_FLOAT_EQ(one.vpls[0].area, 4.5f);
     EXPECT_LT(glm::length(position(scene, one.vpls[0]) - glm::dvec3(1, 1, 0)), 0.5);
-    expect_consistent(scene, patches, place_vpls(scene, patches, {.count = 1000}));
+    expect_consistent(scene, patches,
+                      place_vpls(scene, patches, {.count = 1000, .samples_per_vpl = 10}));
 }
 
 TEST(VplLayout, OutlivesSliversNeedlesAndDistance) {
@@ -280,7 +281,8 @@ TEST(VplLayout, OutlivesSliversNeedlesAndDistance) {
         const Scene there = test::moved(scene, {away, -away, 0.5 * away});
         const Patches patches = make_patches(there);
         for (const std::uint32_t n : {50u, 2000u}) {
-            const VplLayout layout = place_vpls(there, patches, {.count = n});
+            const VplLayout layout =
+                place_vpls(there, patches, {.count = n, .samples_per_vpl = 10});
             EXPECT_EQ(layout.vpls.size(), n);
             if (away == 0.0) expect_consistent(there, patches, layout, 7);
         }
@@ -291,13 +293,16 @@ TEST(VplLayout, OutlivesSliversNeedlesAndDistance) {
     test::add_triangle(scene, {-1, 1, 0}, {1, 1, 0}, {1, 1, 2e-6});
     const Patches patches = make_patches(scene);
     EXPECT_EQ(patches.skipped_triangles, 0u);
-    expect_consistent(scene, patches, place_vpls(scene, patches, {.count = 20}));
+    expect_consistent(scene, patches,
+                      place_vpls(scene, patches, {.count = 20, .samples_per_vpl = 10}));
 }
 
 TEST(VplLayout, IsTheSameInEveryRun) {
     const Scene scene = box();
-    const VplLayout a = place_vpls(scene, make_patches(scene), {.count = 500});
-    const VplLayout b = place_vpls(scene, make_patches(scene), {.count = 500});
+    const VplLayout a =
+        place_vpls(scene, make_patches(scene), {.count = 500, .samples_per_vpl = 10});
+    const VplLayout b =
+        place_vpls(scene, make_patches(scene), {.count = 500, .samples_per_vpl = 10});
     ASSERT_EQ(a.vpls.size(), b.vpls.size());
     ASSERT_EQ(a.samples.size(), b.samples.size());
     for (std::size_t v = 0; v < a.vpls.size(); ++v) {
