@@ -83,9 +83,14 @@ kernel void atlas_project(
 
         uint site = chosen[params.first_shooter + s];
         Shooter shooter = exchange_shooter(sites, site_planes, params.site_stride, site);
-        float value = lit * exchange_kernel(&shooter, samples, weights, params.sample_stride, p.x,
-                                            p.y, p.z, n.x, n.y, n.z, p.x - shooter.position.x,
-                                            p.y - shooter.position.y, p.z - shooter.position.z);
+        float3 to = p - shooter.position.xyz;
+        float kernel_value[CLGI_WIDTH];  // all lanes alike; there is one
+        packet_store(exchange_kernel(&shooter, samples, weights, params.sample_stride,
+                                     packet_splat(p.x), packet_splat(p.y), packet_splat(p.z),
+                                     packet_splat(n.x), packet_splat(n.y), packet_splat(n.z),
+                                     packet_splat(to.x), packet_splat(to.y), packet_splat(to.z)),
+                     kernel_value);
+        float value = lit * kernel_value[0];
         float factor = sites[site].area * (1.0f / CLGI_PI);
         float3 albedo = project_row(site_planes + SITE_ALBEDO * params.site_stride + site,
                                     params.site_stride);
