@@ -158,13 +158,14 @@ inline const AtlasPasses& atlas_passes(Math math = Math::strict) {
 // Halves as they lie in the rows: [shooters or sites][stride].
 inline std::vector<std::uint16_t> transport_rows(const Sites& sites, const Hemicubes& cubes,
                                                  bool kept = false, float row_scale = 1.0f,
-                                                 const VplPasses& passes = vpl_passes()) {
+                                                 const VplPasses& passes = vpl_passes(),
+                                                 std::uint32_t most_samples = 1u << 20) {
     const SiteBuffers& b = sites.buffers;
     const std::size_t halves = std::size_t{kept ? b.site_count : cubes.count} * b.stride;
     const cl::Buffer rows = upload(std::vector<std::uint16_t>(halves, 0x7e00));  // NaN
     passes.transport(device().queue,
                      {cubes.first, cubes.count, kept ? 1u : 0u, b.site_count, b.stride,
-                      b.sample_stride, cubes.size, row_scale, cubes.words, 1u << 20, 0, 0},
+                      b.sample_stride, cubes.size, row_scale, cubes.words, most_samples, 0, 0},
                      b, cubes.views, cubes.pixels, rows);
     return download<std::uint16_t>(rows, halves);
 }
