@@ -11,17 +11,26 @@ namespace {
 
 constexpr std::size_t word = sizeof(float);
 
-void need_shooters(const PassKernel& pass, const FillParams& params, const SiteBuffers& b,
-                   const cl::Buffer& views) {
+void need_senders(const PassKernel& pass, const FillParams& params, const SiteBuffers& b) {
     need_stride(pass, "stride", params.stride, params.texel_count);
-    need(pass, "chosen", b.chosen,
-         (std::size_t{params.first_shooter} + params.shooter_count) * word);
-    need(pass, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
     need(pass, "sites", b.sites, b.site_count * sizeof(Site));
     need(pass, "planes", b.planes, SITE_PLANES * word * params.site_stride);
-    need(pass, "light", b.light, SITE_LIGHT_PLANES * word * params.site_stride);
+    need(pass, "site_power", b.site_power, 3 * word * params.site_stride);
     need(pass, "samples", b.samples, GBUFFER_PLANES * word * params.sample_stride);
-    need(pass, "weights", b.weights, word * params.sample_stride);
+    need(pass, "sample_power", b.sample_power, 3 * word * params.sample_stride);
+}
+
+std::size_t last_shooter(const FillParams& params) {
+    return std::size_t{params.first_shooter} + params.shooter_count;
+}
+
+// How many texels there are from the first on.
+template <typename Params>
+std::uint32_t texels_left(const PassKernel& pass, const Params& params) {
+    if (params.first_texel > params.texel_count)
+        throw Error(pass.name + ": first_texel is " + std::to_string(params.first_texel) +
+                    ", at most " + std::to_string(params.texel_count) + " needed");
+    return params.texel_count - params.first_texel;
 }
 
 // Corners and triangles of M are counted in 32 bits; views and their mesh have to agree.
@@ -54,6 +63,7 @@ AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
     full.storage = Storage::full;
     BuildOptions scalar = full;
     scalar.packet_width = 1;
+    see_ = programs.kernel("atlas", "see", full);
     gather_ = programs.kernel("atlas", "gather", full);
     geometry_ = programs.kernel("atlas", "geometry", scalar);
     replicate_ = programs.kernel("atlas", "replicate", scalar);
@@ -64,21 +74,38 @@ AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
 }
 
 void AtlasPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({gather_, geometry_, replicate_, project_, nearest_, complete_, show_}, passes);
+    build_named({see_, gather_, geometry_, replicate_, project_, nearest_, complete_, show_}, passes);
+}
+
+cl::Event AtlasPasses::see(const cl::CommandQueue& queue, const SeeParams& params,
+                           const cl::Buffer& views, const cl::Buffer& depth,
+                           const cl::Buffer& texels, const cl::Buffer& seen,
+                           const WaitList& wait) const {
+    need_stride(see_, "stride", params.stride, params.texel_count);
+    const std::size_t shooters = params.shooter_count;
+    need(see_, "views", views, 5 * shooters * sizeof(View));
+    need(see_, "depth", depth, 3 * word * shooters * params.size * params.size);
+    need(see_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
+    need(see_, "seen", seen, (params.first_row + seen_rows(shooters)) * params.stride);
+    return launch(see_, queue, packets(see_, texels_left(see_, params)), wait, params, views, depth,
+                  texels, seen);
 }
 
 cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& params,
-                              const SiteBuffers& b, const cl::Buffer& views,
-                              const cl::Buffer& depth, const cl::Buffer& texels,
-                              const cl::Buffer& irradiance, const cl::Buffer& filled,
-                              const WaitList& wait) const {
-    need_shooters(gather_, params, b, views);
-    need(gather_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
-    need(gather_, "irradiance", irradiance, 3 * word * params.stride);
+                              const SiteBuffers& b, const cl::Buffer& texels,
+                              const cl::Buffer& seen, const cl::Buffer& gathered,
+                              const cl::Buffer& filled, const WaitList& wait) const {
+    need_senders(gather_, params, b);
+    need(gather_, "list", b.list, last_shooter(params) * word);
+    need(gather_, "listed", b.listed, word);
+    need(gather_, "texels", texels, (GBUFFER_NORMAL + 3) * word * params.stride);
+    need(gather_, "seen", seen,
+         seen_rows(params.flags & FILL_KEPT ? b.site_count : params.shooter_count) * params.stride);
+    need(gather_, "gathered", gathered, 3 * word * params.stride);
     need(gather_, "filled", filled, word * params.stride);
-    return launch(gather_, queue, packets(gather_, params.texel_count - params.first_texel), wait,
-                  params, b.chosen, views, depth, b.sites, b.planes, b.light, b.samples, b.weights,
-                  texels, irradiance, filled);
+    return launch(gather_, queue, packets(gather_, texels_left(gather_, params)), wait, params,
+                  b.list, b.listed, b.sites, b.planes, b.site_power, b.samples, b.sample_power,
+                  texels, seen, gathered, filled);
 }
 
 cl::Event AtlasPasses::geometry(const cl::CommandQueue& queue, const MeshParams& params,
@@ -111,10 +138,12 @@ cl::Event AtlasPasses::project(const cl::CommandQueue& queue, const FillParams& 
                                const MeshParams& mesh_params, const SiteBuffers& b,
                                const cl::Buffer& views, const cl::Buffer& visibility,
                                const MeshBuffers& mesh, const cl::Buffer& texels,
-                               const cl::Buffer& irradiance, const cl::Buffer& filled,
+                               const cl::Buffer& gathered, const cl::Buffer& filled,
                                const WaitList& wait) const {
     need_mesh(project_, mesh_params);
-    need_shooters(project_, params, b, views);
+    need_senders(project_, params, b);
+    need(project_, "chosen", b.chosen, last_shooter(params) * word);
+    need(project_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
     if (mesh_params.shooter_count < params.shooter_count)
         throw Error(project_.name + ": the mesh has " + std::to_string(mesh_params.shooter_count) +
                     " hemicubes, " + std::to_string(params.shooter_count) + " needed");
@@ -126,12 +155,11 @@ cl::Event AtlasPasses::project(const cl::CommandQueue& queue, const FillParams& 
          MESH_COPIES * mesh_triangles(mesh_params) * sizeof(MeshCopy));
     need(project_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
     need(project_, "places", mesh.places, PLACE_PLANES * word * params.stride);
-    need(project_, "irradiance", irradiance, 3 * word * params.stride);
+    need(project_, "gathered", gathered, 3 * word * params.stride);
     need(project_, "filled", filled, word * params.stride);
-    return launch(project_, queue, params.texel_count - params.first_texel, wait, params,
-                  mesh_params, b.chosen, views, visibility, mesh.copies, b.sites, b.planes,
-                  b.light, b.samples, b.weights, texels, mesh.places, irradiance,
-                  filled);
+    return launch(project_, queue, texels_left(project_, params), wait, params, mesh_params,
+                  b.chosen, views, visibility, mesh.copies, b.sites, b.planes, b.site_power,
+                  b.samples, b.sample_power, texels, mesh.places, gathered, filled);
 }
 
 cl::Event AtlasPasses::nearest(const cl::CommandQueue& queue, const FillParams& params,
@@ -142,21 +170,22 @@ cl::Event AtlasPasses::nearest(const cl::CommandQueue& queue, const FillParams& 
     need(nearest_, "balance", b.balance, BALANCE_PLANES * word * params.site_stride);
     need(nearest_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
     need(nearest_, "reach", reach, word * params.stride);
-    return launch(nearest_, queue, packets(nearest_, params.texel_count - params.first_texel), wait,
+    return launch(nearest_, queue, packets(nearest_, texels_left(nearest_, params)), wait,
                   params, b.planes, b.balance, texels, reach);
 }
 
 cl::Event AtlasPasses::complete(const cl::CommandQueue& queue, const FillParams& params,
                                 const cl::Buffer& reach, const cl::Buffer& filled,
-                                const cl::Buffer& irradiance, const cl::Buffer& non_finite,
-                                const WaitList& wait) const {
+                                const cl::Buffer& gathered, const cl::Buffer& irradiance,
+                                const cl::Buffer& non_finite, const WaitList& wait) const {
     need_stride(complete_, "stride", params.stride, params.texel_count);
     need(complete_, "reach", reach, word * params.stride);
     need(complete_, "filled", filled, word * params.stride);
+    need(complete_, "gathered", gathered, 3 * word * params.stride);
     need(complete_, "irradiance", irradiance, 3 * word * params.stride);
     need(complete_, "non_finite", non_finite, word);
-    return launch(complete_, queue, packets(complete_, params.texel_count - params.first_texel),
-                  wait, params, reach, filled, irradiance, non_finite);
+    return launch(complete_, queue, packets(complete_, texels_left(complete_, params)), wait, params,
+                  reach, filled, gathered, irradiance, non_finite);
 }
 
 cl::Event AtlasPasses::show(const cl::CommandQueue& queue, const ShowParams& params,

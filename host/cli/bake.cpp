@@ -57,29 +57,32 @@ AtlasUvs uvs_of(const std::string& text) {
 std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device& device) {
     const LightAtlasOptions& bake = flags.bake;
     const EmitterOptions& emitters = bake.emitters;
-    return fmt::format("{} {} {} | {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} {} {} {} | {} {} {} {}",
+    return fmt::format("{} {} {} | {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} {} {} | {} {} {} {}",
                        CLGI_VERSION, report::scene_key(scene), describe(device), flags.vpls.count,
                        flags.vpls.samples_per_vpl, flags.atlas.size, flags.uvs, flags.atlas.padding,
                        flags.atlas.texels_per_metre, flags.atlas.most_pages, bake.bounces,
                        bake.threshold, bake.one_at_a_time, bake.exchange_samples,
-                       bake.exchange_size, bake.filling_size, flags.filling, bake.mesh, bake.kernel,
+                       bake.hemicube_size, flags.filling, bake.mesh, bake.kernel,
                        bake.direct, emitters.shadow_size,
                        emitters.face_size, emitters.area_samples, emitters.environment_lights) +
            build_flags(flags.device);
 }
 
 // Bakes from the start, or from where the file says. Keeps in the file what Ctrl-C cut short, and
-// deletes it once the bake is done. Returns how many VPLs had lit the texels before.
+// deletes it once the bake is done. Returns how many VPLs were done before.
 std::uint32_t run_to_the_end(const BakeFlags& flags, const std::string& key,
                              LightAtlasSolver& solver) {
+    const auto done = [](const LightAtlasState& state) {
+        return std::max(state.measured_vpls, state.filled_vpls);
+    };
     std::uint32_t begin = 0;
     std::error_code ignored;
     if (!flags.resume.empty() && std::filesystem::exists(flags.resume, ignored)) {
         const LightAtlasState state = report::load_bake_state(flags.resume, key);
         solver.restore(state);
-        begin = state.filled_vpls;
+        begin = done(state);
         notice(flags.device.quiet,
-               fmt::format("the bake goes on after VPL {} of {}", state.filled_vpls, state.vpls));
+               fmt::format("the bake goes on after VPL {} of {}", begin, state.vpls));
     }
     catch_interrupts();
     if (solver.run(progress_bar("bake", flags.device.quiet))) return begin;
@@ -87,9 +90,9 @@ std::uint32_t run_to_the_end(const BakeFlags& flags, const std::string& key,
     if (const auto state = solver.state()) {
         report::save_bake_state(*state, key, flags.resume);
         notice(flags.device.quiet, fmt::format("{} keeps the first {} of {} VPLs", flags.resume,
-                                               state->filled_vpls, state->vpls));
+                                               done(*state), state->vpls));
     } else {
-        notice(flags.device.quiet, "nothing to keep: no texel was lit yet");
+        notice(flags.device.quiet, "nothing to keep: no VPL was done yet");
     }
     throw Interrupted();
 }
@@ -178,13 +181,8 @@ void add_method_flags(CLI::App& command, BakeFlags& flags) {
     command.add_flag("--one-at-a-time", flags.bake.one_at_a_time,
                      "With --bounces 0: shoot the strongest VPL alone, as in the paper");
     command
-        .add_option("--exchange-size", flags.bake.exchange_size,
-                    "Pixels of a hemicube's face when VPLs exchange light")
-        ->type_name("N")
-        ->check(CLI::Range(32, 1024));
-    command
-        .add_option("--filling-size", flags.bake.filling_size,
-                    "Pixels of a hemicube's face when the atlas is filled")
+        .add_option("--hemicube-size", flags.bake.hemicube_size,
+                    "Pixels of the face of a VPL's hemicube")
         ->type_name("N")
         ->check(CLI::Range(32, 1024));
     command

@@ -63,13 +63,8 @@ void add_atlas_method_flags(CLI::App& command, AtlasFlags& flags) {
         ->type_name("N")
         ->check(CLI::Range(1, 8192));
     command
-        .add_option("--exchange-size", flags.bake.exchange_size,
-                    "atlas: pixels of a hemicube's face when VPLs exchange light")
-        ->type_name("N")
-        ->check(CLI::Range(32, 1024));
-    command
-        .add_option("--filling-size", flags.bake.filling_size,
-                    "atlas: pixels of a hemicube's face when the atlas is filled")
+        .add_option("--hemicube-size", flags.bake.hemicube_size,
+                    "atlas: pixels of the face of a VPL's hemicube")
         ->type_name("N")
         ->check(CLI::Range(32, 1024));
 }

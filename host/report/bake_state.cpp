@@ -12,7 +12,7 @@ namespace clgi::report {
 namespace {
 
 constexpr char magic[] = "clgi bake state\n";  // without its last zero
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 std::uint64_t checksum(const char* bytes, std::size_t count) {
     std::uint64_t out = 0xcbf29ce484222325u;
@@ -26,9 +26,22 @@ void put(std::string& out, const T& value) {
     out.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-void put(std::string& out, const std::vector<float>& values) {
+template <typename T>
+void put(std::string& out, const std::vector<T>& values) {
     put(out, std::uint64_t{values.size()});
-    out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+    out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+// All counts and all lists of a state, in the order of the file.
+template <typename State, typename Count, typename List>
+void each(State& state, const Count& count, const List& list) {
+    for (auto* value : {&state.vpls, &state.texels, &state.measured_vpls, &state.filled_vpls,
+                        &state.shots})
+        count(*value);
+    list(state.rows);
+    list(state.seen);
+    for (auto* values : {&state.balance, &state.light, &state.irradiance, &state.filled})
+        list(*values);
 }
 
 // Never reads past the end, whatever lengths the file states.
@@ -54,13 +67,13 @@ public:
         return out;
     }
 
-    std::vector<float> floats() {
+    template <typename T>
+    void list(std::vector<T>& out) {
         const auto count = value<std::uint64_t>();
-        if (count > bytes_.size() / sizeof(float)) fail("is damaged: it ends too early");
-        const std::string raw = text(count * sizeof(float));
-        std::vector<float> out(count);
+        if (count > bytes_.size() / sizeof(T)) fail("is damaged: it ends too early");
+        const std::string raw = text(count * sizeof(T));
+        out.resize(count);
         if (count > 0) std::memcpy(out.data(), raw.data(), raw.size());
-        return out;
     }
 
     std::size_t at() const { return at_; }
@@ -87,10 +100,9 @@ void save_bake_state(const LightAtlasState& state, const std::string& key,
     put(out, version);
     put(out, std::uint64_t{key.size()});
     out += key;
-    for (const std::uint32_t count : {state.vpls, state.texels, state.filled_vpls, state.shots})
-        put(out, count);
-    for (const auto* values : {&state.light, &state.balance, &state.irradiance, &state.filled})
-        put(out, *values);
+    each(
+        state, [&](std::uint32_t count) { put(out, count); },
+        [&](const auto& values) { put(out, values); });
     put(out, checksum(out.data(), out.size()));
     io::AtomicFile writer(file);
     writer.write(out.data(), out.size());
@@ -108,10 +120,9 @@ LightAtlasState load_bake_state(const std::filesystem::path& file, const std::st
                 " needed");
     const std::string found_key = in.text(in.value<std::uint64_t>());
     LightAtlasState out;
-    for (std::uint32_t* count : {&out.vpls, &out.texels, &out.filled_vpls, &out.shots})
-        *count = in.value<std::uint32_t>();
-    for (auto* values : {&out.light, &out.balance, &out.irradiance, &out.filled})
-        *values = in.floats();
+    each(
+        out, [&](std::uint32_t& count) { count = in.value<std::uint32_t>(); },
+        [&](auto& values) { in.list(values); });
     const std::size_t end = in.at();
     if (in.value<std::uint64_t>() != checksum(bytes.data(), end) || !in.ended())
         in.fail("is damaged: its checksum is another");

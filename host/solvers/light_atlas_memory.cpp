@@ -16,23 +16,20 @@ void check(const LightAtlasOptions& options) {
     need_range<double>("light-atlas", "bounces", options.bounces, 0, 1000);
     need_range<double>("light-atlas", "exchange_samples", options.exchange_samples, 1, 4096);
     need_range<double>("light-atlas", "threshold", options.threshold, 1e-7, 1);
-    for (const auto& [name, size] : {std::pair{"exchange_size", options.exchange_size},
-                                     std::pair{"filling_size", options.filling_size}}) {
-        need_range<double>("light-atlas", name, size, 32, 1024);
-        if (size % 2 != 0)
-            throw Error(std::string("light-atlas: ") + name + " is " + std::to_string(size) +
-                        ", an even number needed");
-    }
+    need_range<double>("light-atlas", "hemicube_size", options.hemicube_size, 32, 1024);
+    if (options.hemicube_size % 2 != 0)
+        throw Error("light-atlas: hemicube_size is " + std::to_string(options.hemicube_size) +
+                    ", an even number needed");
     need_range<double>("light-atlas", "kernel", options.kernel, 0, 64);
     need_range<double>("light-atlas", "mesh", options.mesh, 8, 131072);
     const int squares = static_cast<int>(mesh_squares(options.mesh));
     if (2 * squares * squares != options.mesh || squares % 2 != 0)
         throw Error("light-atlas: mesh is " + std::to_string(options.mesh) +
                     ", twice the square of an even number needed, such as 128, 512 or 2048");
-    if (squares > options.filling_size)
+    if (squares > options.hemicube_size)
         throw Error("light-atlas: mesh is " + std::to_string(options.mesh) +
-                    ", at most 2 filling_size^2 = " +
-                    std::to_string(2 * options.filling_size * options.filling_size) + " needed");
+                    ", at most 2 hemicube_size^2 = " +
+                    std::to_string(2 * options.hemicube_size * options.hemicube_size) + " needed");
 }
 
 std::uint32_t mesh_squares(int triangles) {
@@ -58,9 +55,9 @@ void add_mesh(BufferTable& t, Buffers& b, const DeviceScene& scene, std::size_t 
     t.add(b.mesh.places, "places of texels", "the size of the atlas",
           PLACE_PLANES * word * b.texel_stride);
     t.add(b.mesh.corners, "corners of meshes", mesh,
-          b.filling_batch * MESH_CORNERS(squares) * sizeof(MeshCorner));
+          b.batch * MESH_CORNERS(squares) * sizeof(MeshCorner));
     t.add(b.mesh.copies, "triangles of meshes", mesh,
-          b.filling_batch * MESH_TRIANGLES(squares) * MESH_COPIES * sizeof(MeshCopy));
+          b.batch * MESH_TRIANGLES(squares) * MESH_COPIES * sizeof(MeshCopy));
 }
 
 }  // namespace
@@ -82,9 +79,8 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
     b.texel_stride = plane_stride(texels);
     b.samples.stride = s.sample_stride;
     b.texels.stride = b.texel_stride;
-    // Maps of a batch should stay in a core's cache, and every core have views to draw.
-    b.exchange_batch = 16;
-    b.filling_batch = 8;
+    // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits each.
+    b.batch = SEEN_VPLS;
 
     BufferTable t("light-atlas");
     emitters.add_to(t);
@@ -103,38 +99,46 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
           GBUFFER_ID_PLANES * word * s.sample_stride);
     t.add(b.sample_irradiance, "irradiance of sample points", points,
           irradiance_bytes(Storage::full, s.sample_stride));
-    t.add(s.weights, "weights of sample points", points, word * s.sample_stride);
+    t.add(s.sent, "light that was sent", points, 3 * word * s.sample_stride);
+    t.add(s.sample_power, "light that is sent", points, 3 * word * s.sample_stride);
+    t.add(s.site_power, "light that VPLs send", vpls, 3 * word * s.stride);
+    t.add(s.sends, "flags of VPLs", vpls, s.stride);
+    t.add(s.list, "lists of VPLs that send", vpls, word * sites);
+    t.add(s.listed, "their number", vpls, word);
+    t.add(b.list_scratch, "sums of tiles", vpls, scan_scratch_bytes(sites));
     t.add(b.texel_list, "texels", size, texels * sizeof(SurfaceSample));
     t.add(b.texels.planes, "planes of texels", size, gbuffer_bytes(Storage::full, b.texel_stride));
     t.add(b.texels.ids, "ids of texels", size, GBUFFER_ID_PLANES * word * b.texel_stride);
-    t.add(b.irradiance, "irradiance of texels", size,
-          irradiance_bytes(Storage::full, b.texel_stride));
+    for (cl::Buffer* buffer : {&b.gathered, &b.irradiance})
+        t.add(*buffer, "irradiance of texels", size,
+              irradiance_bytes(Storage::full, b.texel_stride));
     t.add(b.reach, "reach of texels", size, word * b.texel_stride);
     t.add(b.filled, "form factors of texels", size, word * b.texel_stride);
     t.add(b.strongest, "maxima", vpls, sizeof(ArgMax));
     t.add(b.arg_max_scratch, "maxima of tiles", vpls, arg_max_scratch_bytes(sites));
-    const std::size_t batch = std::max(b.exchange_batch, b.filling_batch);
-    t.add(b.views, "views", vpls, 5 * batch * sizeof(View));
-    const auto pixels = [](int side, std::size_t count) {
-        return 3 * count * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-    };
-    t.add(b.pixels, "hemicubes", "exchange_size or filling_size",
-          std::max(pixels(options.exchange_size, b.exchange_batch) * pixel_bytes(Pixels::visibility),
-                   pixels(options.filling_size, b.filling_batch) *
-                       pixel_bytes(filling_pixels(options))));
+    t.add(b.views, "views", vpls, 5 * b.batch * sizeof(View));
+    const auto side = static_cast<std::size_t>(options.hemicube_size);
+    t.add(b.pixels, "hemicubes", "hemicube_size",
+          3 * b.batch * side * side * pixel_bytes(filling_pixels(options)));
     add_mesh(t, b, scene, atlas.charts.size(), options);
     t.add_word(b.non_finite, "counters", 0);
-    const std::size_t row = s.stride * sizeof(cl_half), all = sites * row;
-    b.kept = all <= largest && t.bytes() + all <= budget;
-    t.add(b.rows, "rows of transport", vpls, b.kept ? all : b.exchange_batch * row);
+    const auto fits = [&](std::size_t all) { return all <= largest && t.bytes() + all <= budget; };
+    const std::size_t row = s.stride * sizeof(cl_half);
+    b.kept = fits(sites * row);
+    t.add(b.rows, "rows of transport", vpls, (b.kept ? sites : b.batch) * row);
+    if (options.filling == Filling::project) return t;
+    const std::size_t seen = seen_rows(sites) * b.texel_stride;
+    b.seen_kept = b.kept && fits(seen);
+    t.add(b.seen, "texels that VPLs see", "the number of VPLs or the size of the atlas",
+          b.seen_kept ? seen : b.texel_stride);
     return t;
 }
 
 }  // namespace light_atlas
 
 std::size_t light_atlas_least_bytes(std::size_t vpls, std::size_t samples) {
-    const std::size_t word = sizeof(float), light_and_weight = 4;
-    std::size_t of_point = light_and_weight, of_site = 5;  // lists and powers
+    const std::size_t word = sizeof(float), light_and_powers = 9;
+    std::size_t of_point = light_and_powers, of_site = 9;  // lists and powers
     for (const std::size_t planes : {std::size_t{GBUFFER_PLANES}, std::size_t{GBUFFER_ID_PLANES}})
         of_point += planes;
     for (const std::size_t planes : {std::size_t{SITE_PLANES}, std::size_t{SITE_LIGHT_PLANES},

@@ -44,7 +44,7 @@ void LightAtlasSolver::State::upload_charts(const AtlasLayout& atlas_layout,
 
 void LightAtlasSolver::State::project(std::uint32_t first, std::uint32_t count) {
     const std::uint32_t squares = mesh_squares(options.mesh);
-    const MeshParams params{count, static_cast<std::uint32_t>(options.filling_size), squares,
+    const MeshParams params{count, static_cast<std::uint32_t>(options.hemicube_size), squares,
                             options.kernel};
     record("atlas.geometry", std::size_t{count} * MESH_CORNERS(squares), [&](const WaitList& wait) {
         return atlas.geometry(queue, params, scene, b.views, b.pixels, b.mesh, wait);
@@ -53,7 +53,7 @@ void LightAtlasSolver::State::project(std::uint32_t first, std::uint32_t count) 
            [&](const WaitList& wait) { return atlas.replicate(queue, params, b.mesh, wait); });
     record("atlas.project", std::size_t{count} * b.texel_count, [&](const WaitList& wait) {
         return atlas.project(queue, fill_params(first, count), params, b.sites, b.views, b.pixels,
-                             b.mesh, b.texels.planes, b.irradiance, b.filled, wait);
+                             b.mesh, b.texels.planes, b.gathered, b.filled, wait);
     });
 }
 

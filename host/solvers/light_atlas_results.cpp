@@ -54,7 +54,14 @@ void LightAtlasSolver::lights_changed() {
     s.emitters.write(s.record);
 }
 
-bool LightAtlasSolver::run(const Progress& progress) { return state_->run(progress); }
+bool LightAtlasSolver::run(const Progress& progress) { return state_->run(progress, -1.0); }
+
+bool LightAtlasSolver::update(double least, const Progress& progress) {
+    State& s = *state_;
+    if (!(least >= 0.0))
+        throw Error("light-atlas: least is " + std::to_string(least) + ", 0 or more needed");
+    return s.run(progress, s.ended && s.b.seen_kept ? least : -1.0);
+}
 
 LightAtlasStatus LightAtlasSolver::status() const {
     const State& s = *state_;
@@ -63,6 +70,8 @@ LightAtlasStatus LightAtlasSolver::status() const {
     out.non_finite = s.record.read_word(s.b.non_finite);
     out.shots = s.shots;
     out.transport_kept = s.b.kept;
+    out.visibility_kept = s.b.seen_kept;
+    if (s.ended) out.sent = s.record.read_word(s.b.sites.listed);
     if (s.direct.empty()) return out;
     const std::size_t stride = s.b.sites.stride;
     const auto planes = read(s.queue, s.b.sites.planes, SITE_PLANES * stride);

@@ -18,8 +18,10 @@ struct Buffers {
     GBuffer samples, texels;   // of sample points and VPLs, of texels
     cl::Buffer sample_list, texel_list;  // SurfaceSample
     cl::Buffer sample_irradiance;        // [IRRADIANCE_PLANES][sample_stride]
-    cl::Buffer irradiance;               // [IRRADIANCE_PLANES][texel_stride]
+    cl::Buffer gathered, irradiance;     // [IRRADIANCE_PLANES][texel_stride]; the second completed
     cl::Buffer reach, filled;            // [texel_stride]
+    cl::Buffer seen;                     // [rows][texel_stride] uchar, atlas.see
+    cl::Buffer list_scratch;             // of the list of VPLs that send
     cl::Buffer rows;                     // transport, half
     cl::Buffer strongest, arg_max_scratch;
     cl::Buffer views, pixels;  // hemicubes of a batch
@@ -27,8 +29,9 @@ struct Buffers {
     cl::Buffer non_finite;
     RasterBuffers lists;  // for what is not drawn a view a work-item
     std::uint32_t texel_count = 0, texel_stride = 0;
-    std::uint32_t exchange_batch = 0, filling_batch = 0;  // shooters at a time
-    bool kept = false;  // rows of all sites
+    std::uint32_t batch = 0;  // shooters at a time
+    bool kept = false;        // rows of all sites
+    bool seen_kept = false;   // what texels see of them; only if the rows are kept
 };
 
 // Throws Error for options out of range.
@@ -37,13 +40,12 @@ void check(const LightAtlasOptions& options);
 // Squares across a face of a mesh of so many triangles.
 std::uint32_t mesh_squares(int triangles);
 
-// What the filling reads of hemicubes.
+// What the filling reads of hemicubes, where it draws them.
 inline Pixels filling_pixels(const LightAtlasOptions& options) {
     return options.filling == Filling::project ? Pixels::visibility : Pixels::depth;
 }
 
-// The row of every buffer. `budget`: bytes for all, from which it follows whether the transport is
-// kept.
+// The row of every buffer. `budget`: bytes for all, from which it follows what is kept.
 BufferTable table(Buffers& buffers, Emitters& emitters, const DeviceScene& scene,
                   std::size_t samples, std::size_t sites, const AtlasLayout& atlas,
                   const LightAtlasOptions& options, std::size_t budget, std::size_t largest);
@@ -59,9 +61,10 @@ struct LightAtlasSolver::State {
     void receive_direct();
     void light_points(const GBuffer& points, std::uint32_t count, const cl::Buffer& irradiance,
                       bool add);
-    void hemicubes(std::uint32_t first, std::uint32_t count, int size, Pixels kind);
+    void hemicubes(std::uint32_t first, std::uint32_t count, Pixels kind);
     void transport(std::uint32_t first, std::uint32_t count);
-    void measure_transport();
+    void see(std::uint32_t first, std::uint32_t count);
+    void measure();
     void balance();
     void balance_shooters(std::uint32_t first, std::uint32_t count);
     void shoot(std::uint32_t first, std::uint32_t count);
@@ -69,8 +72,10 @@ struct LightAtlasSolver::State {
     void bounce_to_threshold();
     void shoot_strongest();
     void exchange();
+    void send(float least);
     void fill();
-    void put_back();
+    void put_back_measurement();
+    void put_back_light();
     void gather(std::uint32_t first, std::uint32_t count);
     void upload_charts(const AtlasLayout& atlas, const std::vector<std::uint32_t>& device);
     void project(std::uint32_t first, std::uint32_t count);
@@ -78,7 +83,7 @@ struct LightAtlasSolver::State {
     ShootParams shoot_params(std::uint32_t first, std::uint32_t count) const;
     double unshot_power() const;    // exposed
     float strongest_power();        // exposed; waits
-    bool run(const Progress& progress);
+    bool run(const Progress& progress, double least);
 
     cl::CommandQueue queue;
     const DeviceScene& scene;
@@ -97,7 +102,9 @@ struct LightAtlasSolver::State {
     float threshold = 0.0f;     // exposed lumen
     std::uint32_t shots = 0;
     std::size_t bytes = 0;
-    bool placed = false, measured = false, ended = false;
+    bool placed = false, measured = false, near_known = false, ended = false;
+    bool differences = false;       // this run adds to what the texels have
+    std::uint32_t measured_vpls = 0;
     std::uint32_t filled_vpls = 0;  // that have lit the texels in this run
     std::optional<LightAtlasState> restored;
     std::vector<Site> sites;

@@ -62,12 +62,12 @@ VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
     balance_shooters_ = few("balance_shooters", full(options));
     emit_ = few("emit", scalar(options));
     shoot_ = few("shoot", full(options));
-    weigh_ = few("weigh", scalar(options));
+    send_ = few("send", scalar(options));
 }
 
 void VplPasses::build(std::initializer_list<const char*> passes) const {
     build_named({place_, receive_, transport_, reach_, balance_receivers_, balance_shooters_,
-                 emit_, shoot_, weigh_},
+                 emit_, shoot_, send_},
                 passes);
 }
 
@@ -89,14 +89,18 @@ cl::Event VplPasses::receive(const cl::CommandQueue& queue, const SiteBuffers& b
                   b.light);
 }
 
-cl::Event VplPasses::weigh(const cl::CommandQueue& queue, const SiteBuffers& b,
-                           const cl::Buffer& irradiance, const WaitList& wait) const {
-    need_sites(weigh_, b);
-    need(weigh_, "irradiance", irradiance, IRRADIANCE_PLANES * word * b.sample_stride);
-    need(weigh_, "light", b.light, SITE_LIGHT_PLANES * word * b.stride);
-    need(weigh_, "weights", b.weights, word * b.sample_stride);
-    return launch(weigh_, queue, b.site_count, wait, site_params(b), b.sites, irradiance, b.light,
-                  b.samples, b.weights);
+cl::Event VplPasses::send(const cl::CommandQueue& queue, const SiteBuffers& b,
+                          const cl::Buffer& irradiance, float least, const WaitList& wait) const {
+    need_sites(send_, b);
+    need(send_, "irradiance", irradiance, IRRADIANCE_PLANES * word * b.sample_stride);
+    need(send_, "light", b.light, SITE_LIGHT_PLANES * word * b.stride);
+    need(send_, "sent", b.sent, 3 * word * b.sample_stride);
+    need(send_, "sample_power", b.sample_power, 3 * word * b.sample_stride);
+    need(send_, "site_power", b.site_power, 3 * word * b.stride);
+    need(send_, "sends", b.sends, b.site_count);
+    const SendParams params{b.site_count, b.stride, b.sample_stride, least};
+    return launch(send_, queue, b.site_count, wait, params, b.sites, b.planes, irradiance, b.light,
+                  b.samples, b.sent, b.sample_power, b.site_power, b.sends);
 }
 
 cl::Event VplPasses::transport(const cl::CommandQueue& queue, const TransportParams& params,
@@ -110,25 +114,23 @@ cl::Event VplPasses::transport(const cl::CommandQueue& queue, const TransportPar
          last_shooter(params.first_shooter, params.shooter_count) * word);
     need(transport_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
     need(transport_, "depth", depth,
-         3 * word * params.words * params.shooter_count * params.size * params.size);
+         3 * word * params.shooter_count * params.size * params.size);
     need_rows(transport_, b, rows, params.kept, params.shooter_count);
     return launch_rows(transport_, queue, b.site_count, params.shooter_count, wait, params,
                        b.chosen, views, depth, b.sites, b.planes, b.samples, rows);
 }
 
 cl::Event VplPasses::reach(const cl::CommandQueue& queue, const TransportParams& params,
-                           const DeviceScene& scene, const SiteBuffers& b,
-                           const cl::Buffer& views, const cl::Buffer& visibility,
+                           const SiteBuffers& b, const cl::Buffer& views, const cl::Buffer& depth,
                            const WaitList& wait) const {
     need_sites(reach_, b);
     need(reach_, "chosen", b.chosen,
          last_shooter(params.first_shooter, params.shooter_count) * word);
     need(reach_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
-    need(reach_, "visibility", visibility,
-         3 * sizeof(cl_ulong) * params.shooter_count * params.size * params.size);
+    need(reach_, "depth", depth, 3 * word * params.shooter_count * params.size * params.size);
     need(reach_, "balance", b.balance, BALANCE_PLANES * word * b.stride);
-    return launch(reach_, queue, params.shooter_count, wait, params, b.chosen, views, visibility,
-                  scene.triangles(), scene.positions(), b.balance);
+    return launch(reach_, queue, params.shooter_count, wait, params, b.chosen, views, depth,
+                  b.balance);
 }
 
 cl::Event VplPasses::balance_receivers(const cl::CommandQueue& queue, const ShootParams& params,

@@ -2,7 +2,7 @@
 // by none. What fills the rest of its hemisphere stands for that strip too. Discs also stand out
 // over the edges of their patches, and form factors that sum up to more than 1 are too large:
 //
-//   I <- I clamp(h / S, min(1, 1 / S), COMPLETE_MOST),   S = sum_i F_i
+//   I = G clamp(h / S, min(1, 1 / S), COMPLETE_MOST),   S = sum_i F_i,   G: gathered
 //                                                        [derived: sum of form factors, h: nearest.cl]
 //
 // In a closed scene h is 1 and the sum of all form factors becomes what it has to be. Where h is
@@ -21,6 +21,7 @@ kernel void atlas_complete(
     const FillParams       params,
     global const float*    restrict reach,       // [stride]
     global const float*    restrict filled,      // [stride]
+    global const float*    restrict gathered,    // [3][stride] lux, exposed
     global float*          restrict irradiance,  // [3][stride] lux, exposed
     volatile global uint*  restrict non_finite)  // [1]
 {
@@ -34,10 +35,10 @@ kernel void atlas_complete(
     factor = packet_select(one, factor, sum > 0.0f);
     uintp worst = (uintp)(0);
     for (int c = 0; c < 3; ++c) {
-        global float* out = irradiance + c * params.stride + at;
-        floatp value = packet_load(out) * factor;
+        uint place = c * params.stride + at;
+        floatp value = packet_load(gathered + place) * factor;
         worst = max(worst, packet_magnitude(value));
-        packet_store(value, out);
+        packet_store(value, irradiance + place);
     }
     intp bad = (as_intp(worst) >= NOT_FINITE) & ((int)at + packet_lanes < (int)params.texel_count);
     if (packet_any(bad)) atomic_inc(non_finite);

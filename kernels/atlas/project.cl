@@ -38,12 +38,12 @@ kernel void atlas_project(
     global const MeshCopy*  restrict copies,       // [shooter_count][MESH_TRIANGLES][MESH_COPIES]
     global const Site*      restrict sites,
     global const float*     restrict site_planes,  // [SITE_PLANES][site_stride]
-    global const float*     restrict light,        // [SITE_LIGHT_PLANES][site_stride]
+    global const float*     restrict site_power,   // [3][site_stride] exposed lumen
     global const float*     restrict samples,      // [GBUFFER_PLANES][sample_stride]
-    global const float*     restrict weights,      // [sample_stride] of the samples
+    global const float*     restrict sample_power, // [3][sample_stride] exposed lumen
     global const float*     restrict texels,       // [>= GBUFFER_GEOMETRIC + 3][stride]
     global const int*       restrict places,       // [PLACE_PLANES][stride]
-    global float*           restrict irradiance,   // [3][stride] lux, exposed
+    global float*           restrict gathered,     // [3][stride] lux, exposed
     global float*           restrict filled)       // [stride] sum of form factors
 {
     uint texel = params.first_texel + (uint)get_global_id(0);
@@ -55,8 +55,10 @@ kernel void atlas_project(
     uint chart = (uint)places[PLACE_CHART * stride + texel];
     float u = (float)places[PLACE_COLUMN * stride + texel] + 0.5f;
     float v = (float)places[PLACE_ROW * stride + texel] + 0.5f;
-    float3 sum = (float3)(0.0f);
-    float form_factors = 0.0f;
+    Receiver to;
+    to.x = packet_splat(p.x), to.y = packet_splat(p.y), to.z = packet_splat(p.z);
+    to.nx = packet_splat(n.x), to.ny = packet_splat(n.y), to.nz = packet_splat(n.z);
+    Exchanged sum = {packet_zero, packet_zero, packet_zero, packet_zero};
     for (uint s = 0; s < params.shooter_count; ++s) {
         global const View* cube = views + 5 * s;
         float3 d = p - cube->eye.xyz;
@@ -83,24 +85,15 @@ kernel void atlas_project(
 
         uint site = chosen[params.first_shooter + s];
         Shooter shooter = exchange_shooter(sites, site_planes, params.site_stride, site);
-        float3 to = p - shooter.position.xyz;
-        float kernel_value[CLGI_WIDTH];  // all lanes alike; there is one
-        packet_store(exchange_kernel(&shooter, samples, weights, params.sample_stride,
-                                     packet_splat(p.x), packet_splat(p.y), packet_splat(p.z),
-                                     packet_splat(n.x), packet_splat(n.y), packet_splat(n.z),
-                                     packet_splat(to.x), packet_splat(to.y), packet_splat(to.z)),
-                     kernel_value);
-        float value = lit * kernel_value[0];
-        float factor = sites[site].area * (1.0f / CLGI_PI);
-        float3 albedo = project_row(site_planes + SITE_ALBEDO * params.site_stride + site,
-                                    params.site_stride);
-        float3 received = project_row(light + SITE_RECEIVED * params.site_stride + site,
-                                      params.site_stride);
-        form_factors = fma(value, factor, form_factors);
-        sum = fma((float3)(value), factor * albedo * received, sum);
+        exchange_light(&shooter, site_power + site, params.site_stride, samples, sample_power,
+                       params.sample_stride, &to, packet_splat(lit), &sum);
     }
-    irradiance[texel] += sum.x;
-    irradiance[stride + texel] += sum.y;
-    irradiance[2 * stride + texel] += sum.z;
-    filled[texel] += form_factors;
+    // All lanes are alike; there is one.
+    float out[4][CLGI_WIDTH];
+    packet_store(sum.r, out[0]);
+    packet_store(sum.g, out[1]);
+    packet_store(sum.b, out[2]);
+    packet_store(sum.form_factor, out[3]);
+    for (uint c = 0; c < 3; ++c) gathered[c * stride + texel] += out[c][0];
+    filled[texel] += out[3][0];
 }

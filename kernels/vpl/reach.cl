@@ -8,7 +8,6 @@
 // Writes       its own share
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
-#include "clgi/shared/scene.h"
 #include "clgi/shared/vpl.h"
 #include "packet.clh"
 
@@ -16,12 +15,10 @@ enum { REACH_GRID = 32 };  // rays across a face
 
 kernel void vpl_reach(
     const TransportParams  params,
-    global const uint*     restrict chosen,      // [first_shooter + shooter_count] sites
-    global const View*     restrict views,       // [5 * shooter_count]
-    global const ulong*    restrict visibility,  // [pixels of the views]
-    global const uint4*    restrict triangles,
-    global const float4*   restrict positions,
-    global float*          restrict balance)     // [BALANCE_PLANES][stride]
+    global const uint*     restrict chosen,   // [first_shooter + shooter_count] sites
+    global const View*     restrict views,    // [5 * shooter_count]
+    global const uint*     restrict depth,    // [pixels of the views]
+    global float*          restrict balance)  // [BALANCE_PLANES][stride]
 {
     uint s = (uint)get_global_id(0);
     if (s >= params.shooter_count) return;
@@ -40,15 +37,7 @@ kernel void vpl_reach(
                 float square = 1.0f + u * u + v * v;
                 float weight = (f == 0 ? 1.0f : v) / (square * square);
                 all += weight;
-                ulong word = visibility[view.first_pixel + y * view.width + x];
-                if (word == (ulong)-1) continue;
-                uint4 t = triangles[(uint)word];
-                if (!(t.w & (uint)TRIANGLE_DOUBLE_SIDED)) {
-                    float3 a = positions[t.x].xyz;
-                    float3 n = cross(positions[t.y].xyz - a, positions[t.z].xyz - a);
-                    if (!(dot(n, view.eye.xyz - a) > 0.0f)) continue;
-                }
-                met += weight;
+                if ((depth[view.first_pixel + y * view.width + x] & 1u) == 0) met += weight;
             }
     }
     balance[BALANCE_REACH * params.stride + chosen[params.first_shooter + s]] = met / all;

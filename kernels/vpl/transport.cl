@@ -2,9 +2,9 @@
 //
 //   T_ij = 1/m sum_k  cos cos' k(d, r_i) v_ik / pi         (irradiance at j for a power of 1 at i)
 //
-// over the first m sample points k of the receiver, each seen or not in the shooter's hemicube. The paper
-// takes the form factor of the two VPLs times the share of samples that are seen (Eq. 6); the
-// samples' own form factors cost nothing more and are right near by. [Schaerfig16, Eq. 6]
+// over the first m sample points k of the receiver, each seen or not in the shooter's hemicube. The
+// paper takes the form factor of the two VPLs times the share of samples that are seen (Eq. 6); the
+// samples' own form factors cost nothing more and are right near by.      [Schaerfig16, Eq. 6]
 //
 // Work size    2D, one work-item a receiver, and the shooters; any local size; tail guarded
 // Writes       its own number of the row, as half, times row_scale
@@ -17,7 +17,7 @@ kernel void vpl_transport(
     const TransportParams  params,
     global const uint*     restrict chosen,   // [first_shooter + shooter_count] sites
     global const View*     restrict views,    // [5 * shooter_count]
-    global const uint*     restrict depth,    // [pixels of the views] one or two words each
+    global const uint*     restrict depth,    // [pixels of the views]
     global const Site*     restrict sites,    // [site_count]
     global const float*    restrict planes,   // [SITE_PLANES][stride]
     global const float*    restrict samples,  // [GBUFFER_PLANES][sample_stride]
@@ -29,7 +29,7 @@ kernel void vpl_transport(
     uint site = chosen[params.first_shooter + s];
     uint stride = params.sample_stride;
     Shooter shooter = exchange_shooter(sites, planes, params.stride, site);
-    Hemicube cube = hemicube_of(views + 5 * s, params.words);
+    Hemicube cube = hemicube_of(views + 5 * s);
     Site own = sites[receiver];
     uint count = min(own.sample_count, params.most_samples);
     floatp zero = packet_zero;
@@ -52,10 +52,8 @@ kernel void vpl_transport(
         if (!packet_any(wanted)) continue;
         intp seen = hemicube_sees(&cube, depth, dx, dy, dz, gx, gy, gz, wanted);
         if (!packet_any(seen)) continue;
-        floatp factor = exchange_kernel(&shooter, samples, 0, stride, px, py, pz, nx, ny, nz,
-                                        px - packet_splat(shooter.position.x),
-                                        py - packet_splat(shooter.position.y),
-                                        pz - packet_splat(shooter.position.z));
+        Receiver to = {px, py, pz, nx, ny, nz};
+        floatp factor = exchange_kernel(&shooter, samples, stride, &to);
         float lane[CLGI_WIDTH];
         packet_store(packet_select(zero, factor, seen), lane);
         for (int k = 0; k < CLGI_WIDTH; ++k) sum += lane[k];

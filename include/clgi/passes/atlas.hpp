@@ -35,6 +35,9 @@ struct MeshBuffers {
     std::uint32_t chart_count = 0;
 };
 
+// Rows of bits for so many VPLs.
+constexpr std::size_t seen_rows(std::size_t vpls) { return (vpls + SEEN_VPLS - 1) / SEEN_VPLS; }
+
 class CLGI_API AtlasPasses {
 public:
     explicit AtlasPasses(const Programs& programs, const BuildOptions& options = {});
@@ -42,13 +45,19 @@ public:
                 const BuildOptions& options = {})
         : AtlasPasses(Programs(context, device), options) {}
 
-    // Adds the light of a batch of VPLs to texels. views, depth: their hemicubes.
-    // texels: a G-buffer's planes, float; irradiance: [3][stride] float, exposed lux; filled:
-    // [stride] float, the sum of the form factors.
+    // Which texels a batch of VPLs sees -> seen [rows][stride] uchar, a bit for each VPL. views,
+    // depth: their hemicubes.
+    cl::Event see(const cl::CommandQueue& queue, const SeeParams& params, const cl::Buffer& views,
+                  const cl::Buffer& depth, const cl::Buffer& texels, const cl::Buffer& seen,
+                  const WaitList& wait = {}) const;
+
+    // Adds what sites of buffers.list send to the texels that they see. texels: a G-buffer's planes,
+    // float; gathered: [3][stride] float, exposed lux; filled: [stride] float, the sum of the form
+    // factors, with FILL_FORM_FACTORS.
     cl::Event gather(const cl::CommandQueue& queue, const FillParams& params,
-                     const SiteBuffers& buffers, const cl::Buffer& views, const cl::Buffer& depth,
-                     const cl::Buffer& texels, const cl::Buffer& irradiance,
-                     const cl::Buffer& filled, const WaitList& wait = {}) const;
+                     const SiteBuffers& buffers, const cl::Buffer& texels, const cl::Buffer& seen,
+                     const cl::Buffer& gathered, const cl::Buffer& filled,
+                     const WaitList& wait = {}) const;
 
     // What a batch of VPLs sees at the corners of M -> mesh.corners. visibility: their hemicubes with
     // triangles.
@@ -61,13 +70,13 @@ public:
     cl::Event replicate(const cl::CommandQueue& queue, const MeshParams& params,
                         const MeshBuffers& mesh, const WaitList& wait = {}) const;
 
-    // In place of gather: adds the light of a batch of VPLs to the texels that mesh.copies cover,
-    // with soft shadows. params.words is not used.
+    // In place of see and gather: adds what a batch of VPLs, of buffers.chosen, sends to the texels
+    // that mesh.copies cover, with soft shadows.
     cl::Event project(const cl::CommandQueue& queue, const FillParams& params,
                       const MeshParams& mesh_params, const SiteBuffers& buffers,
                       const cl::Buffer& views, const cl::Buffer& visibility,
                       const MeshBuffers& mesh, const cl::Buffer& texels,
-                      const cl::Buffer& irradiance, const cl::Buffer& filled,
+                      const cl::Buffer& gathered, const cl::Buffer& filled,
                       const WaitList& wait = {}) const;
 
     // The reach of the VPL nearest to each texel, of those that face the same way -> reach [stride]
@@ -76,12 +85,13 @@ public:
                       const SiteBuffers& buffers, const cl::Buffer& texels,
                       const cl::Buffer& reach, const WaitList& wait = {}) const;
 
-    // Raises the light of texels whose hemisphere the VPLs fill less than surfaces do, and lowers it
-    // where they fill more than there is, once all VPLs are gathered. non_finite: [1] uint, counts
+    // gathered -> irradiance, both [3][stride] float: raised where VPLs fill the hemisphere of a texel
+    // less than surfaces do, lowered where they fill more than there is. non_finite: [1] uint, counts
     // packets with numbers that are not finite.
     cl::Event complete(const cl::CommandQueue& queue, const FillParams& params,
                        const cl::Buffer& reach, const cl::Buffer& filled,
-                       const cl::Buffer& irradiance, const cl::Buffer& non_finite,
+                       const cl::Buffer& gathered, const cl::Buffer& irradiance,
+                       const cl::Buffer& non_finite,
                        const WaitList& wait = {}) const;
 
     // The light of an atlas at points of a G-buffer, whose triangles must be there (RESOLVE_TRIANGLE),
@@ -96,7 +106,7 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel gather_, geometry_, replicate_, project_, nearest_, complete_, show_;
+    PassKernel see_, gather_, geometry_, replicate_, project_, nearest_, complete_, show_;
     Storage storage_;  // of what show reads and writes
 };
 

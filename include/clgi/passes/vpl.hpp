@@ -22,8 +22,14 @@ struct SiteBuffers {
     cl::Buffer power;    // [stride] unshot power, exposed lumen; channels summed
     cl::Buffer shot;     // [3][stride] power on its way, exposed lumen
     cl::Buffer samples;  // [GBUFFER_PLANES][sample_stride] of the sample points, then of the sites
-    cl::Buffer weights;  // [sample_stride] by which samples share the power of their site
     cl::Buffer chosen;   // uint: sites in the order in which they shoot
+    // What texels receive of them; exposed lumen.
+    cl::Buffer sent;          // [3][sample_stride] what samples sent so far
+    cl::Buffer sample_power;  // [3][sample_stride] what they send now
+    cl::Buffer site_power;    // [3][stride] the same of their sites
+    cl::Buffer sends;         // [site_count] uchar, 1: the site sends something
+    cl::Buffer list;          // [site_count] uint: sites that send
+    cl::Buffer listed;        // [1] uint: how many they are
     std::uint32_t site_count = 0;
     std::uint32_t stride = 0;
     std::uint32_t sample_count = 0;
@@ -46,22 +52,24 @@ public:
     cl::Event receive(const cl::CommandQueue& queue, const SiteBuffers& buffers,
                       const cl::Buffer& irradiance, const WaitList& wait = {}) const;
 
-    // How the sample points share the power that their site reflects: by their own direct light and
-    // reflectance. irradiance: as for receive.
-    cl::Event weigh(const cl::CommandQueue& queue, const SiteBuffers& buffers,
-                    const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+    // What the sites send to the texels beyond what they have sent, shared among their sample points
+    // by their own direct light and reflectance -> sent, sample_power, site_power, sends. irradiance:
+    // as for receive. least: the smallest change of a site's power that is sent, exposed lumen;
+    // below 0: every site sends.
+    cl::Event send(const cl::CommandQueue& queue, const SiteBuffers& buffers,
+                   const cl::Buffer& irradiance, float least, const WaitList& wait = {}) const;
 
-    // Rows of the transport of a batch of shooters. views, depth: their hemicubes, of params.words a
-    // pixel. rows: [site_count or shooter_count][stride] half.
+    // Rows of the transport of a batch of shooters. views, depth: their hemicubes.
+    // rows: [site_count or shooter_count][stride] half.
     cl::Event transport(const cl::CommandQueue& queue, const TransportParams& params,
                         const SiteBuffers& buffers, const cl::Buffer& views,
                         const cl::Buffer& depth, const cl::Buffer& rows,
                         const WaitList& wait = {}) const;
 
-    // BALANCE_REACH of a batch of shooters. visibility: their hemicubes with triangles.
+    // BALANCE_REACH of a batch of shooters. views, depth: their hemicubes.
     cl::Event reach(const cl::CommandQueue& queue, const TransportParams& params,
-                    const DeviceScene& scene, const SiteBuffers& buffers, const cl::Buffer& views,
-                    const cl::Buffer& visibility, const WaitList& wait = {}) const;
+                    const SiteBuffers& buffers, const cl::Buffer& views, const cl::Buffer& depth,
+                    const WaitList& wait = {}) const;
 
     // BALANCE_RECEIVER of all sites; rows of all.
     cl::Event balance_receivers(const cl::CommandQueue& queue, const ShootParams& params,
@@ -90,7 +98,7 @@ public:
 
 private:
     PassKernel place_, receive_, transport_, reach_, balance_receivers_, balance_shooters_, emit_,
-        shoot_, weigh_;
+        shoot_, send_;
 };
 
 }  // namespace clgi

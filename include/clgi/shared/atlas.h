@@ -7,17 +7,37 @@
 
 CLGI_SHARED_BEGIN
 
-// A batch of shooting VPLs, whose hemicubes are there, and the texels.
+// Shooting VPLs and the texels.
 typedef struct {
-    uint first_shooter;  // in the list of chosen sites
+    uint first_shooter;  // in the list of sites
     uint shooter_count;
     uint site_stride;    // of the planes of sites
     uint sample_stride;  // of the planes of sample points
     uint texel_count;
-    uint stride;  // of the planes of texels and of the irradiance
+    uint stride;       // of the planes of texels, of the irradiance, and of rows of SEEN_VPLS sites
     uint first_texel;  // of this part, a multiple of the packet
-    uint words;        // of a pixel of the hemicubes: 1 for depth alone, 2 for visibility
+    uint flags;        // FILL_...
 } FillParams;
+
+enum {
+    FILL_KEPT = 1,         // what texels see is kept: a site has its own bit; else a shooter has
+    FILL_FORM_FACTORS = 2  // form factors are summed as well
+};
+
+// Which texels are seen by which VPLs: rows of a byte for every texel, a bit for every VPL of eight.
+enum { SEEN_VPLS = 8 };
+
+// Looking texels up in the hemicubes of a batch.
+typedef struct {
+    uint shooter_count;
+    uint size;  // pixels, width of the hemicubes' faces
+    uint texel_count;
+    uint stride;
+    uint first_texel;  // as in FillParams
+    uint first_row;    // that is written
+    uint pad0_;
+    uint pad1_;
+} SeeParams;
 
 // Points of surfaces at which a filled atlas is looked up.
 typedef struct {

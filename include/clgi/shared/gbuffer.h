@@ -27,7 +27,8 @@ enum { VIEW_CULL_BACK_FACES = 1 };
 // Visibility buffer: one 64-bit word per pixel, (~closeness bits) << 32 | triangle. The smallest
 // wins: the nearest surface, and of equal ones the smaller triangle index. Closeness is linear on
 // the screen and grows towards the eye: 1/z, or (far - z)/(far - near) when orthographic.
-// Background: all bits set. A depth buffer has only the upper half of each word, 32 bits per pixel.
+// Background: all bits set. A depth buffer has only the upper half of each word, 32 bits per pixel; its
+// lowest bit says whether the back of a single-sided triangle is seen, 1 for the background too.
 
 enum { VERTEX_BEFORE_NEAR = 1, VERTEX_BEYOND_GUARD = 2 };
 enum { SUBPIXELS = 256, GUARD_PIXELS = 32000 };
@@ -50,8 +51,8 @@ typedef struct {
     int bottom;
     uint count;     // corners, 3 to 8
     uint material;  // fourth word of the triangle
-    uint pad0_;
-    uint pad1_;
+    uint back;      // 1: of a single-sided triangle, seen from behind
+    uint pad_;
 } RasterPolygon;
 
 // The polygons that one work-item of raster listed. They are neighbours on the mesh, so a tile

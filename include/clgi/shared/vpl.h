@@ -53,10 +53,10 @@ typedef struct {
     uint sample_stride;  // of the planes of samples
     uint size;           // pixels, width of the hemicubes' faces
     float row_scale;     // multiplies the transport, so that a half holds it: the area of all sites
-    uint words;          // of a pixel: 1 for depth alone, 2 for visibility
     uint most_samples;   // of a receiver, the first of its own, that are looked at
     uint pad0_;
     uint pad1_;
+    uint pad2_;
 } TransportParams;
 
 typedef struct {
@@ -71,6 +71,14 @@ typedef struct {
 } ShootParams;
 
 enum { SHOOT_ALL = 0, SHOOT_STRONGEST = 1 };
+
+// Sending what the sites hold on to the texels.
+typedef struct {
+    uint site_count;
+    uint stride;
+    uint sample_stride;
+    float least;  // change of a site's power that is worth sending, exposed lumen; below 0: all are
+} SendParams;
 
 // Factors of the transport, planes of [stride] each: of the shooter, of the receiver, and the share
 // of the shooter's hemisphere in which it meets surfaces.

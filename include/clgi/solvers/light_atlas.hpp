@@ -37,15 +37,15 @@ struct LightAtlasOptions {
     // Sample points of a receiving VPL that are looked at when VPLs exchange light, at least 1. All
     // of them send light to the texels near by.
     std::uint32_t exchange_samples = 10;
-    int exchange_size = 128;  // pixels of a hemicube's face when VPLs exchange light; even
-    int filling_size = 256;   // and when the atlas is filled
+    int hemicube_size = 256;  // pixels of the face of a VPL's hemicube, even
     Filling filling = Filling::gather;
     int mesh = 512;  // triangles of M over a hemicube's face, for Filling::project: 2 n^2 with an
-                     // even n of at most filling_size, 8 to 131072
+                     // even n of at most hemicube_size, 8 to 131072
     int kernel = 5;  // K, its soft shadows: pixels to each side, 0 (hard) to 64
     bool direct = false;      // direct light in the atlas too
     // Bytes that the solver's buffers may take together; 0: what the device has beside the scene.
-    // The transport between all pairs of VPLs is kept if it fits, else computed anew each bounce.
+    // The transport between all pairs of VPLs is kept if it fits, else computed anew each bounce;
+    // then which texels each VPL sees, else the scene is drawn again to fill the atlas.
     std::size_t memory_budget = 0;
     BuildOptions build;
 };
@@ -54,7 +54,9 @@ struct LightAtlasOptions {
 struct LightAtlasStatus {
     std::uint32_t non_finite = 0;  // packets of numbers that are not finite
     std::uint32_t shots = 0;       // VPLs that shot, counted at every bounce
+    std::uint32_t sent = 0;        // VPLs that sent light to the texels in the last run
     bool transport_kept = false;
+    bool visibility_kept = false;  // which texels each VPL sees
     double power_direct = 0.0;    // that all VPLs reflect of direct light
     double power_shot = 0.0;      // by all VPLs together
     double power_received = 0.0;  // by all VPLs, of what was shot
@@ -62,17 +64,20 @@ struct LightAtlasStatus {
     double power_left = 0.0;      // not shot
 };
 
-// A bake that was cancelled while the atlas was filled, as plain data. Light is exposed. It belongs
-// to one scene, its layouts and the options that change the light; the same device carries it on to
-// the same bits.
+// A bake that was cancelled, as plain data: what was measured, or, where that is not kept, the light.
+// Light is exposed. It belongs to one scene, its layouts and its options; the same device carries it
+// on to the same bits.
 struct LightAtlasState {
     std::uint32_t vpls = 0, texels = 0;
-    std::uint32_t filled_vpls = 0;   // the first so many have lit the texels
-    std::uint32_t shots = 0;         // as in LightAtlasStatus
-    std::vector<float> light;        // [SITE_LIGHT_PLANES][stride of VPLs]
-    std::vector<float> balance;      // [BALANCE_PLANES][stride of VPLs]
-    std::vector<float> irradiance;   // [3][stride of texels]
-    std::vector<float> filled;       // [stride of texels] sums of form factors
+    std::uint32_t measured_vpls = 0;    // the first so many have their rows, seen and balance
+    std::uint32_t filled_vpls = 0;      // or: the first so many have lit the texels
+    std::uint32_t shots = 0;            // as in LightAtlasStatus
+    std::vector<std::uint16_t> rows;    // [measured_vpls][stride of VPLs] half
+    std::vector<std::uint8_t> seen;     // [seen_rows(measured_vpls)][stride of texels]
+    std::vector<float> balance;         // [BALANCE_PLANES][stride of VPLs]
+    std::vector<float> light;           // [SITE_LIGHT_PLANES][stride of VPLs]
+    std::vector<float> irradiance;      // [3][stride of texels]
+    std::vector<float> filled;          // [stride of texels] sums of form factors
 };
 
 // Bytes that a solver's buffers take at the least, beside those for the texels: what to check before
@@ -93,19 +98,26 @@ public:
     LightAtlasSolver& operator=(const LightAtlasSolver&) = delete;
 
     // Reads the scene's lights again, after DeviceScene::set_light. The next run keeps the
-    // transport: only direct light, the exchange and the filling are computed anew.
+    // transport and what texels see: direct light, the exchange and the filling are computed anew,
+    // and nothing is drawn but shadow maps.
     void lights_changed();
 
     // Bakes, and waits for the end. Returns whether it was not cancelled; a cancelled bake may be
     // run again.
     bool run(const Progress& progress = nullptr);
 
+    // Bakes for lights that changed since the last run. Light is exchanged anew; then only VPLs
+    // whose power changed by more than `least`, in mean powers of direct light that VPLs reflect,
+    // send the difference to the texels [section 6.2]. What is not sent is not lost: it counts in
+    // the next update. Bakes as run() does where no run has ended before, or where what texels see
+    // is not kept. Throws Error for a `least` that is negative or no number.
+    bool update(double least = 1e-3, const Progress& progress = nullptr);
+
     // What the last run left behind when it was cancelled; empty if it ended, or was cancelled
-    // before the first texel was lit. Waits.
+    // before there was anything to keep. Waits.
     std::optional<LightAtlasState> state() const;
 
-    // The next run goes on from there: the exchange between VPLs is left out. Throws Error for the
-    // state of a bake of another size.
+    // The next run goes on from there. Throws Error for the state of a bake of another size.
     void restore(const LightAtlasState& state);
 
     // Waits for the last run and reads what it found.
