@@ -39,6 +39,7 @@ void save_bake_stats(const BakeRecord& record, const std::filesystem::path& path
         {"charts", record.atlas.charts.size()},
         {"shots", status.shots},
         {"transport_kept", status.transport_kept},
+        {"visibility_kept", status.visibility_kept},
         {"resumed_at", record.resumed_at},
         {"power",
          {{"direct", status.power_direct},

@@ -280,7 +280,7 @@ void add_render(CLI::App& app) {
         };
         flags->second_order_only = given({"--negative-vpls", "--low-res", "--low-res-step",
                                           "--replicates", "--target-error", "--time-budget"});
-        flags->atlas_only = given({"--bounces", "--atlas-size", "--hemicube-size"});
+        flags->atlas_only = given({"--bounces", "--atlas-size", "--hemicube-size", "--least-change"});
         if (command->count("--vpls") > 0)
             flags->atlas.vpls.count = static_cast<std::uint32_t>(flags->options.emitters.vpls);
         run_render(*flags);

@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "cli/bake_room.hpp"
+#include "cli/percent.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
 #include "report/preview.hpp"
@@ -67,12 +68,19 @@ void add_atlas_method_flags(CLI::App& command, AtlasFlags& flags) {
                     "atlas: pixels of the face of a VPL's hemicube")
         ->type_name("N")
         ->check(CLI::Range(32, 1024));
+    command
+        .add_option("--least-change", flags.least_change,
+                    "atlas, with --spin-light: change of a VPL's power that lights texels anew, of "
+                    "the mean power of VPLs")
+        ->type_name("X");
 }
 
 void run_atlas(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     AtlasFlags& atlas_flags = flags.atlas;
     const bool quiet = flags.device.quiet;
+    const double least_change =
+        parse_percent("render", "--least-change", atlas_flags.least_change);
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet, true);
     check(flags, scene);
     const Camera camera = scene.cameras[static_cast<std::size_t>(flags.camera)];
@@ -109,11 +117,12 @@ void run_atlas(RenderFlags flags) {
         const double angle = glm::two_pi<double>() * frame / flags.frames;
         const Camera at = flags.orbit ? orbited(camera, 0.5 * (box.low + box.high), angle) : camera;
         start = Clock::now();
-        if (flags.spin_light) {  // the frame's time has another bake in it
+        if (flags.spin_light) {  // the frame's time has the change of the bake in it
             spin_lights(device_scene, scene, angle);
             solver.lights_changed();
             view.lights_changed();
-            if (!solver.run([](double) { return !interrupted(); })) throw Interrupted();
+            if (!solver.update(least_change, [](double) { return !interrupted(); }))
+                throw Interrupted();
         }
         view.render(at, solver.irradiance_planes(), solver.stride());
         session.queue.finish();

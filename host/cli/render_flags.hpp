@@ -18,6 +18,7 @@ struct AtlasFlags {
     VplOptions vpls;
     AtlasOptions layout;
     LightAtlasOptions bake;
+    std::string least_change = "0.1%";  // that a VPL sends on, of the mean power of VPLs
 };
 void add_atlas_method_flags(CLI::App& command, AtlasFlags& flags);
 
