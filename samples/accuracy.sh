@@ -21,10 +21,14 @@ mkdir -p "$out"
 clgi=build/clgi
 "$clgi" scene box ${mesh:+--mesh "$mesh"} -o "$out/box.glb"
 "$clgi" scene cornell -o "$out/cornell.glb"
+"$clgi" scene corridor --door 90 -o "$out/corridor.glb"
 for scene in box cornell; do
     "$clgi" sweep "$out/$scene.glb" -o "$out/$scene"
+done
+for scene in cornell corridor; do
+    "$clgi" sweep "$out/$scene.glb" --method atlas --spp 800 -o "$out/$scene-atlas"
 done
 
 echo
 echo "commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown), $(date +%F)"
-echo "pages: $out/box/index.html $out/cornell/index.html"
+echo "pages:" "$out"/*/index.html

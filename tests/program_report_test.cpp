@@ -58,10 +58,35 @@ TEST_F(Program, SweepsASceneIntoAFolder) {
     EXPECT_GE(json.at("summary").size(), 5u);
     for (const auto& line : json.at("summary"))
         EXPECT_NE(outcome.out.find(line.get<std::string>()), std::string::npos) << line;
-    expect_one_error_line(run("sweep " + scene + " -o " + folder.string() + " --method atlas"), 1);
+    expect_one_error_line(run("sweep " + scene + " -o " + folder.string() + " --method vpl"), 1);
     expect_one_error_line(run("sweep " + scene), 1);
     std::ofstream(file("taken")) << "a file";
     expect_one_error_line(run("sweep " + scene + " --quiet -o " + file("taken").string()), 2);
+}
+
+TEST_F(Program, SweepsALightAtlas) {
+    const std::string scene = make("cornell --light spot");
+    const std::string sweep = "sweep " + scene + " --quick -o " + file("sweep").string();
+    const Outcome outcome = run(sweep + " --method atlas --atlas-size 32 --spp 16 --rounds 1");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* name : {"index.html", "sweep.csv", "sweep.json", "reference-atlas.exr"})
+        EXPECT_TRUE(fs::exists(file("sweep") / name)) << name;
+    const auto json = nlohmann::json::parse(read("sweep/sweep.json"));
+    EXPECT_EQ(json.at("size"), (std::vector<int>{32, 32}));
+    EXPECT_NE(json.at("command").get<std::string>().find(
+                  "--method atlas --quick --atlas-size 32 --spp 16 --rounds 1"),
+              std::string::npos);
+    for (const auto& line : json.at("summary"))
+        EXPECT_NE(outcome.out.find(line.get<std::string>()), std::string::npos) << line;
+    const std::string reference = (file("sweep") / "reference-atlas.exr").string();
+    for (const std::string& flags : std::vector<std::string>{
+             "--method atlas --size 32x32", "--method atlas --camera 0", "--atlas-size 32",
+             "--reference " + reference, "--method atlas --atlas-size 0"})
+        expect_one_error_line(run(sweep + " --quiet " + flags), 1);
+    for (const std::string& flags : std::vector<std::string>{
+             "--atlas-size 33 --reference " + reference,
+             "--reference " + file("absent.exr").string(), "--atlas-size 1"})
+        expect_one_error_line(run(sweep + " --quiet --method atlas " + flags), 2);
 }
 
 TEST_F(Program, RendersReplicatesWithTheirStandardError) {

@@ -16,6 +16,7 @@
 #include "report/reference_picture.hpp"
 #include "report/relative_error.hpp"
 #include "report/sweep_files.hpp"
+#include "report/sweep_pictures.hpp"
 #include "report/sweep_summary.hpp"
 #include "scenes.hpp"
 
@@ -130,13 +131,11 @@ protected:
     }
     static Sweep make(const Scene& scene, const std::filesystem::path& folder) {
         SweepSetup setup{test::device().queue, scene};
-        setup.width = 40;
-        setup.height = 30;
         setup.quick = true;
         setup.rounds = 1;
         setup.reference_samples = 1024;
         setup.folder = folder;
-        return sweep(setup);
+        return sweep_pictures(setup, {0, 40, 30});
     }
     static std::string text(const std::filesystem::path& file) {
         std::ostringstream out;
@@ -146,7 +145,7 @@ protected:
 };
 
 TEST_F(SmallSweep, MarksFrontsThatFallWithTime) {
-    for (int t = 0; t < truths; ++t) {
+    for (std::size_t t = 0; t < picture_truths; ++t) {
         std::map<double, double> front;
         for (const SweepPoint& point : made().points) {
             EXPECT_GT(point.milliseconds, 0.0);
@@ -169,7 +168,7 @@ TEST_F(SmallSweep, MarksFrontsThatFallWithTime) {
     EXPECT_LT(many, 0.6 * few);
     // 3,000 lights are 7 % off, most of it at the walls beside them. The noise of the truth, 9 %,
     // is taken out of the square of the error; what is left of it has this standard deviation.
-    const io::Image& truth = made().truth[unshadowed_bounce];
+    const io::Image& truth = made().truths[unshadowed_bounce].picture;
     const auto& noise = truth.find("error.Y")->values;
     double fourth = 0.0, mean = 0.0;
     for (std::size_t i = 0; i < noise.size(); ++i) {
@@ -192,7 +191,7 @@ TEST_F(SmallSweep, WritesFilesThatStandAlone) {
               made().points.size() + 1);
     const auto json = nlohmann::json::parse(text(out.path() / "sweep.json"));
     EXPECT_EQ(json.at("points").size(), made().points.size());
-    EXPECT_EQ(json.at("speedups").size(), static_cast<std::size_t>(truths));
+    EXPECT_EQ(json.at("speedups").size(), static_cast<std::size_t>(picture_truths));
     const std::string page = text(out.path() / "index.html");
     EXPECT_NE(page.find("clgi sweep &lt;me&gt;"), std::string::npos);
     for (const char* outside : {"src=\"http", "href=\"http", "src=\"/", "<link", "<script"})
@@ -224,7 +223,7 @@ TEST_F(SmallSweep, KeepsItsReferences) {
     const auto written = std::filesystem::last_write_time(file);
     const Sweep again = make(scene(), folder().path());
     EXPECT_EQ(std::filesystem::last_write_time(file), written);
-    EXPECT_EQ(again.truth[all_light].find("R")->values, made().truth[all_light].find("R")->values);
+    EXPECT_EQ(again.truths[all_light].picture.find("R")->values, made().truths[all_light].picture.find("R")->values);
     for (std::size_t i = 0; i < again.points.size(); ++i)
         if (again.points[i].method == "second-order") {
             EXPECT_NEAR(again.points[i].energy, made().points[i].energy, 1e-9) << i;
@@ -243,17 +242,16 @@ TEST_F(SmallSweep, KeepsItsReferences) {
     const io::Image made_anew =
         cached_reference(tracer, other.cameras[0], options, "all",
                          copy.path() / "reference-full.exr", scene_key(other), nullptr);
-    EXPECT_NE(made_anew.find("R")->values, made().truth[all_light].find("R")->values);
+    EXPECT_NE(made_anew.find("R")->values, made().truths[all_light].picture.find("R")->values);
 }
 
 TEST_F(SmallSweep, CanBeCancelled) {
     SweepSetup setup{test::device().queue, scene()};
-    setup.width = setup.height = 16;
     setup.quick = true;
     const test::TempFolder out;
     setup.folder = out.path();
     setup.progress = [](double done) { return done < 0.2; };
-    EXPECT_THROW(sweep(setup), Error);
+    EXPECT_THROW(sweep_pictures(setup, {0, 16, 16}), Error);
     // What was finished is whole; what was not is not there.
     for (const auto& entry : std::filesystem::directory_iterator(out.path()))
         EXPECT_NO_THROW(io::load_image(entry.path()));

@@ -5,13 +5,18 @@
 #include <CLI/CLI.hpp>
 #include <clgi/error.hpp>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
 #include "cli/version.hpp"
+#include "report/sweep_atlas.hpp"
 #include "report/sweep_files.hpp"
+#include "report/sweep_pictures.hpp"
 #include "report/sweep_summary.hpp"
 
 namespace clgi::cli {
@@ -24,35 +29,62 @@ struct SweepFlags {
     std::string output;
     std::string method = "all";
     std::string size;
+    std::string reference;
+    int atlas_size = 0;
     int scene_index = -1;
     int camera = 0;
     int samples = 0;
     int rounds = 0;
     bool quick = false;
     std::string command;
+    // Flags given that go with one kind of sweep alone.
+    std::vector<std::string> pictures_only, atlas_only;
 };
 
-void size_of(const SweepFlags& flags, report::SweepSetup& setup) {
-    setup.width = flags.quick ? 160 : 320;
-    setup.height = flags.quick ? 120 : 240;
-    parse_size("sweep", flags.size, 4096, setup.width, setup.height);
-}
+bool of_atlas(const SweepFlags& flags) { return flags.method == "atlas"; }
 
-void run_sweep(const SweepFlags& flags) {
-    const Scene scene =
-        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
+report::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
+    report::PictureSweep out;
     if (flags.camera >= static_cast<int>(scene.cameras.size()))
         throw Error(fmt::format("sweep: --camera is {}, the scene has {}", flags.camera,
                                 scene.cameras.size()));
+    out.camera = flags.camera;
+    out.width = flags.quick ? 160 : 320;
+    out.height = flags.quick ? 120 : 240;
+    parse_size("sweep", flags.size, 4096, out.width, out.height);
+    return out;
+}
+
+report::AtlasSweep atlas_of(const SweepFlags& flags) {
+    report::AtlasSweep out;
+    out.layout.size = flags.atlas_size > 0 ? flags.atlas_size : flags.quick ? 64 : 256;
+    out.reference = flags.reference;
+    return out;
+}
+
+int samples_of(const SweepFlags& flags) {
+    if (flags.samples > 0) return flags.samples;
+    if (of_atlas(flags)) return flags.quick ? 100 : 400;
+    return flags.quick ? 64 : 192;
+}
+
+void run_sweep(const SweepFlags& flags) {
+    const std::vector<std::string>& foreign =
+        of_atlas(flags) ? flags.pictures_only : flags.atlas_only;
+    if (!foreign.empty())
+        throw Error(fmt::format("sweep: {} goes {}with --method atlas", foreign.front(),
+                                of_atlas(flags) ? "not " : "only "));
+    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment,
+                                   flags.device.quiet, of_atlas(flags));
+    const report::PictureSweep pictures =
+        of_atlas(flags) ? report::PictureSweep() : pictures_of(flags, scene);
     const Session session = open_session(flags.device);
     report::SweepSetup setup{session.queue, scene};
-    size_of(flags, setup);
-    setup.camera = flags.camera;
     setup.quick = flags.quick;
-    setup.second_order = flags.method != "reference";
+    setup.solver = flags.method != "reference";
     setup.path_tracer = flags.method != "second-order";
     setup.rounds = flags.rounds > 0 ? flags.rounds : flags.quick ? 2 : 3;
-    setup.reference_samples = flags.samples > 0 ? flags.samples : flags.quick ? 64 : 192;
+    setup.reference_samples = samples_of(flags);
     setup.build = build_of(flags.device);
     setup.folder = flags.output;
     std::error_code failed;
@@ -62,7 +94,8 @@ void run_sweep(const SweepFlags& flags) {
     setup.progress = progress_bar("sweep", flags.device.quiet);
     report::Sweep result;
     try {
-        result = report::sweep(setup);
+        result = of_atlas(flags) ? report::sweep_atlas(setup, atlas_of(flags))
+                                 : report::sweep_pictures(setup, pictures);
     } catch (const Error&) {
         if (interrupted()) throw Interrupted();
         throw;
@@ -70,6 +103,9 @@ void run_sweep(const SweepFlags& flags) {
     if (setup.progress) setup.progress(1.0);
     const std::string why = report::save_sweep(result, {flags.command, CLGI_VERSION}, setup.folder);
     if (!why.empty()) notice(flags.device.quiet, "no plots: " + why);
+    if (result.non_finite > 0)
+        notice(false, fmt::format("warning: {} packets held numbers that are not finite",
+                                  result.non_finite));
     if (flags.device.quiet) return;
     for (const std::string& line : report::summary(result)) fmt::print("{}\n", line);
     fmt::print("{}: index.html, sweep.csv, sweep.json{}\n", flags.output,
@@ -91,13 +127,22 @@ void add_sweep(CLI::App& app) {
         ->type_name("FOLDER");
     command->add_option("--method", flags->method, "What to measure")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"second-order", "reference", "all"}));
+        ->check(CLI::IsMember({"second-order", "reference", "all", "atlas"}));
     command->add_option("--size", flags->size, "Pixels across and down")
         ->type_name("WxH")
         ->default_str("320x240; with --quick 160x120");
-    command->add_option("--spp", flags->samples, "Samples per pixel of the references")
+    command->add_option("--atlas-size", flags->atlas_size, "atlas: texels, side of a page")
         ->type_name("N")
-        ->default_str("192; with --quick 64")
+        ->default_str("256; with --quick 64")
+        ->check(CLI::Range(1, 8192));
+    command
+        ->add_option("--reference", flags->reference,
+                     "atlas: EXR of the irradiance that bakes are compared with")
+        ->type_name("FILE")
+        ->default_str("made with --spp");
+    command->add_option("--spp", flags->samples, "Samples per pixel or texel of the references")
+        ->type_name("N")
+        ->default_str("192, atlas 400; with --quick 64, 100")
         ->check(CLI::Range(2, 1 << 20));
     command->add_option("--rounds", flags->rounds, "Times that every setting is measured")
         ->type_name("N")
@@ -108,12 +153,25 @@ void add_sweep(CLI::App& app) {
     add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {
+        const auto given = [&](std::initializer_list<const char*> names) {
+            std::vector<std::string> out;
+            for (const char* name : names)
+                if (command->count(name) > 0) out.emplace_back(name);
+            return out;
+        };
+        flags->pictures_only = given({"--size", "--camera"});
+        flags->atlas_only = given({"--atlas-size", "--reference"});
         flags->command = fmt::format(
             "clgi sweep {} -o {}{}{}", std::filesystem::path(flags->scene).filename().string(),
             std::filesystem::path(flags->output).filename().string(),
             flags->method == "all" ? "" : " --method " + flags->method,
             (flags->quick ? " --quick" : "") +
                 (flags->size.empty() ? std::string() : " --size " + flags->size) +
+                (flags->atlas_size > 0 ? fmt::format(" --atlas-size {}", flags->atlas_size) : "") +
+                (flags->reference.empty()
+                     ? std::string()
+                     : " --reference " +
+                           std::filesystem::path(flags->reference).filename().string()) +
                 (flags->samples > 0 ? fmt::format(" --spp {}", flags->samples) : "") +
                 (flags->rounds > 0 ? fmt::format(" --rounds {}", flags->rounds) : "") +
                 (flags->scene_index >= 0 ? fmt::format(" --scene {}", flags->scene_index) : "") +

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "report/bench_schaerfig.hpp"
 
-#include <chrono>
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 
 #include "report/peak.hpp"
+#include "report/timed_bake.hpp"
 #include "report/timing.hpp"
 
 namespace clgi::report {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr std::uint32_t counts[] = {100, 400, 1600, 6400, 25600};
 
@@ -40,11 +34,6 @@ struct Filling {
     void (*choose)(LightAtlasOptions&);
 };
 constexpr Filling fillings[] = {{"gather", [](LightAtlasOptions&) {}}};
-
-struct Bake {
-    double seconds = 0.0, layout = 0.0;
-    std::size_t texels = 0;
-};
 
 // About so many units of work, for progress alone: filling a texel by a VPL, drawing a triangle.
 double work_of(const Scene& scene, double vpls) {
@@ -84,27 +73,16 @@ SchaerfigTable bench_schaerfig1(const SchaerfigSetup& setup,
             if (count <= setup.most_vpls) all += std::size(fillings) * work_of(scene, count);
     const auto bake = [&](const Scene& scene, const DeviceScene& on_device, int size,
                           std::uint32_t count, const Filling& filling, double share) {
-        const auto start = Clock::now();
-        const Patches patches = make_patches(scene);
-        VplOptions vpl_options;
-        vpl_options.count = count;
-        const VplLayout vpls = place_vpls(scene, patches, vpl_options);
-        AtlasOptions atlas_options;
-        atlas_options.size = size;
-        const AtlasLayout atlas = make_atlas(scene, patches.triangle_patch, atlas_options);
-        Bake made;
-        made.layout = seconds_since(start);
-        made.texels = atlas.texels.size();
-        LightAtlasOptions options;
-        options.build = setup.build;
-        filling.choose(options);
-        LightAtlasSolver solver(programs, setup.queue, on_device, vpls, atlas, options);
-        if (!solver.run([&](double part) {
-                return !setup.progress || setup.progress((done + part * share) / all);
-            }))
-            throw Error("bench: cancelled");
-        made.seconds = seconds_since(start);
-        return made;
+        BakeJob job{programs, setup.queue, scene, on_device, {}, {}, {}};
+        job.vpls.count = count;
+        job.atlas.size = size;
+        job.options.build = setup.build;
+        filling.choose(job.options);
+        const std::optional<TimedBake> made = timed_bake(job, [&](double part) {
+            return !setup.progress || setup.progress((done + part * share) / all);
+        });
+        if (!made) throw Error("bench: cancelled");
+        return *made;
     };
 
     for (const auto& [name, scene] : scenes) {
@@ -114,13 +92,13 @@ SchaerfigTable bench_schaerfig1(const SchaerfigSetup& setup,
             bake(scene, on_device, size, counts[0], filling, 0.0);  // builds kernels
             for (std::size_t i = 0; i < std::size(counts); ++i) {
                 if (counts[i] > setup.most_vpls) continue;
-                std::vector<Bake> bakes;
+                std::vector<TimedBake> bakes;
                 std::vector<double> seconds, layouts;
                 do {  // short ones are repeated: other load on the machine shows in them most
                     bakes.push_back(bake(scene, on_device, size, counts[i], filling,
                                          bakes.empty() ? work_of(scene, counts[i]) : 0.0));
                     seconds.push_back(bakes.back().seconds);
-                    layouts.push_back(bakes.back().layout);
+                    layouts.push_back(bakes.back().layout_seconds);
                 } while (bakes.size() < 3 && bakes.back().seconds < 3.0);
                 done += work_of(scene, counts[i]);
                 peaks.push_back(meter.gflops());
@@ -132,7 +110,7 @@ SchaerfigTable bench_schaerfig1(const SchaerfigSetup& setup,
                 if (row.paper) row.ratio = *row.paper / row.clgi;
                 row.layout = spread(layouts).median;
                 row.vpls = counts[i];
-                row.texels = bakes.back().texels;
+                row.texels = bakes.back().irradiance.size();
                 out.rows.push_back(row);
             }
         }

@@ -5,33 +5,11 @@
 
 #include <clgi/error.hpp>
 #include <cstdlib>
-#include <type_traits>
+
+#include "report/hash.hpp"
 
 namespace clgi::report {
 namespace {
-
-// FNV-1a, 64 bits.
-class Hash {
-public:
-    template <typename T>
-    void add(const T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        bytes(&value, sizeof value);
-    }
-    template <typename T>
-    void add(const std::vector<T>& values) {
-        add(values.size());
-        for (const T& value : values) add(value);
-    }
-    std::string text() const { return fmt::format("{:016x}", state_); }
-
-private:
-    void bytes(const void* data, std::size_t size) {
-        const auto* byte = static_cast<const unsigned char*>(data);
-        for (std::size_t i = 0; i < size; ++i) state_ = (state_ ^ byte[i]) * 0x100000001b3u;
-    }
-    std::uint64_t state_ = 0xcbf29ce484222325u;
-};
 
 void add_slot(Hash& hash, const TextureSlot& slot) {
     hash.add(slot.texture);
@@ -41,7 +19,6 @@ void add_slot(Hash& hash, const TextureSlot& slot) {
 
 std::string picture_key(const std::string& scene, const Camera& camera,
                         const reference::Options& options) {
-    constexpr int tracer_version = 2;  // goes up whenever the path tracer's pictures change
     Hash hash;
     hash.add(tracer_version);
     for (const char c : scene) hash.add(c);
@@ -131,11 +108,8 @@ std::string scene_key(const Scene& scene) {
     return hash.text();
 }
 
-io::Image cached_reference(const reference::PathTracer& tracer, const Camera& camera,
-                           const reference::Options& options, const std::string& effects,
-                           const std::filesystem::path& file, const std::string& scene,
-                           const Progress& progress) {
-    const std::string key = picture_key(scene, camera, options) + " " + effects;
+io::Image kept_image(const std::filesystem::path& file, const std::string& key,
+                     const std::function<io::Image()>& make) {
     if (std::filesystem::exists(file)) {
         try {
             io::Image kept = io::load_image(file);
@@ -145,12 +119,22 @@ io::Image cached_reference(const reference::PathTracer& tracer, const Camera& ca
             // Broken or another program's: made anew.
         }
     }
-    const reference::Picture picture = tracer.render(camera, options, progress);
-    if (picture.cancelled) return {};
-    io::Image out = reference_image(picture, effects);
+    io::Image out = make();
+    if (out.channels.empty()) return out;
     out.attributes["clgi:key"] = key;
     io::save_exr(out, file, io::PixelType::full);
     return out;
+}
+
+io::Image cached_reference(const reference::PathTracer& tracer, const Camera& camera,
+                           const reference::Options& options, const std::string& effects,
+                           const std::filesystem::path& file, const std::string& scene,
+                           const Progress& progress) {
+    const std::string key = picture_key(scene, camera, options) + " " + effects;
+    return kept_image(file, key, [&] {
+        const reference::Picture picture = tracer.render(camera, options, progress);
+        return picture.cancelled ? io::Image() : reference_image(picture, effects);
+    });
 }
 
 }  // namespace clgi::report

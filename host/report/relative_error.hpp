@@ -4,11 +4,14 @@
 
 #include <clgi/io/image.hpp>
 
+#include "report/mask.hpp"
+
 namespace clgi::report {
 
 // sqrt(mean (Y_a - Y_b)^2 - mean e_b^2) / mean Y_b, Y the luminance and e_b the standard error
 // that picture B states in its plane error.Y, if it has one. 0 where noise explains all.
-// Throws InputError when the sizes differ or R, G or B is missing.
-double relative_error(const io::Image& a, const io::Image& b);
+// mask: the pixels that count; null: all. Throws InputError when sizes differ, R, G or B is missing
+// or no pixel counts.
+double relative_error(const io::Image& a, const io::Image& b, const Mask* mask = nullptr);
 
 }  // namespace clgi::report

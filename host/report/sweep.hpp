@@ -1,12 +1,13 @@
-// Accuracy against time: a method's knobs turned one by one and together, each picture measured
-// against ground truth.
+// Accuracy against time: the settings of a method varied one by one and together, each result
+// measured against ground truth. What sweeps of pictures and of light atlases have in common.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/io/image.hpp>
-#include <clgi/reference.hpp>
+#include <clgi/opencl.hpp>
+#include <clgi/pass.hpp>
 #include <clgi/scene.hpp>
-#include <clgi/solvers/second_order.hpp>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -18,57 +19,49 @@ namespace clgi::report {
 struct SweepSetup {
     cl::CommandQueue queue;
     const Scene& scene;
-    int camera = 0;
-    int width = 320;
-    int height = 240;
-    bool quick = false;        // fewer settings, fewer samples
-    bool second_order = true;  // which methods
-    bool path_tracer = true;
-    int rounds = 3;               // through all settings; each times two frames
-    int reference_samples = 192;  // a pixel
-    BuildOptions build;           // of all series but "math"
+    bool quick = false;                    // fewer settings, fewer samples
+    bool solver = true;                    // what to measure: the method that runs on the device,
+    bool path_tracer = true;               // and the baseline
+    int rounds = 3;                        // through all settings
+    int reference_samples = 192;           // a pixel or texel
+    BuildOptions build;                    // of all series but "math"
     std::filesystem::path folder;          // where references are kept between runs; must exist
     std::function<bool(double)> progress;  // share done; false cancels
 };
 
-// The truths that pictures are held against.
-enum Truth { all_light, one_bounce, unshadowed_bounce };
-constexpr int truths = 3;
-extern const char* const truth_names[truths];    // "full", "one-bounce", "unshadowed"
-extern const char* const truth_effects[truths];  // for reference::parse_effects
+// What results are compared with.
+struct SweepTruth {
+    std::string name;     // "full"
+    std::string effects;  // for reference::parse_effects
+    io::Image picture;
+    double noise = 0.0;  // standard error over the mean, subtracted from all errors
+};
 
 struct SweepPoint {
-    std::string method;  // "second-order" or "path tracer"
-    std::string series;  // the knob that is turned alone, or "grid"
+    std::string method;  // one of Sweep::methods, or path_tracer_name
+    std::string series;  // the knob that is varied alone, or "grid"; of the path tracer, the truth
     std::map<std::string, std::string> knobs;
-    double milliseconds = 0.0;  // median of a whole frame
-    double error[truths] = {};  // relative_error() against each
-    double energy = 0.0;        // mean over the mean of the full truth
-    bool front[truths] = {};    // on its method's Pareto front against this truth
+    double milliseconds = 0.0;  // median of a whole frame or bake
+    std::vector<double> error;  // [truths] relative_error() against each
+    double energy = 0.0;        // mean over the mean of the first truth
+    std::vector<bool> front;    // [truths] on its method's Pareto front against this truth
     io::Image picture;
 };
+inline constexpr const char* path_tracer_name = "path tracer";
+
+enum class SweepOf { pictures, atlas };
 
 struct Sweep {
+    SweepOf of = SweepOf::pictures;
     std::string scene, device;
     std::size_t triangles = 0;
-    int width = 0;
+    int width = 0;  // pixels or texels
     int height = 0;
+    std::vector<std::string> methods;  // without the path tracer
+    std::vector<std::string> knobs;    // of all methods: the columns of tables
+    std::vector<SweepTruth> truths;
     std::vector<SweepPoint> points;
-    io::Image truth[truths];
-    double truth_noise[truths] = {};  // standard error over the mean, taken out of all errors
+    std::size_t non_finite = 0;  // packets of numbers that were not finite, in all results
 };
-
-// Throws what its parts throw, and Error when cancelled.
-Sweep sweep(const SweepSetup& setup);
-
-// The knob settings that a sweep tries for a method, by series. The first of each series that
-// turns one knob is that knob's least accurate setting; that of "math" is strict math on floats.
-struct Settings {
-    std::string series;
-    std::map<std::string, std::string> knobs;
-    SecondOrderOptions options;
-};
-std::vector<Settings> second_order_settings(int width, int height, bool quick,
-                                            const BuildOptions& build = {});
 
 }  // namespace clgi::report

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "report/sweep.hpp"
 
@@ -20,11 +21,11 @@ std::string sweep_csv(const Sweep& sweep);
 std::string sweep_json(const Sweep& sweep, const SweepNote& note);
 // Error over time in log-log against one truth, a curve a method, the front marked. Empty, with
 // the reason in `why`, when gnuplot is not there. folder: where it may work.
-std::string error_plot(const Sweep& sweep, int truth, const std::filesystem::path& folder,
+std::string error_plot(const Sweep& sweep, std::size_t truth, const std::filesystem::path& folder,
                        std::string& why);
-// One self-contained page with plots, fronts, pictures and differences.
+// One self-contained page with plots, fronts, pictures and differences. plots: one a truth.
 std::string sweep_page(const Sweep& sweep, const SweepNote& note,
-                       const std::string (&plots)[truths]);
+                       const std::vector<std::string>& plots);
 
 // All of them into a folder; returns a line to print when there are no plots, else nothing.
 std::string save_sweep(const Sweep& sweep, const SweepNote& note,

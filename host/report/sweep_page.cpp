@@ -9,7 +9,9 @@
 #include "io/png_encode.hpp"
 #include "report/difference.hpp"
 #include "report/preview.hpp"
+#include "report/sweep_atlas.hpp"
 #include "report/sweep_files.hpp"
+#include "report/sweep_pictures.hpp"
 #include "report/sweep_summary.hpp"
 
 namespace clgi::report {
@@ -54,14 +56,7 @@ std::string image_tag(int width, int height, const std::vector<std::uint8_t>& rg
         escaped(title));
 }
 
-std::string knobs_text(const SweepPoint& point) {
-    std::string out;
-    for (const auto& [name, value] : point.knobs)
-        out += (out.empty() ? "" : ", ") + name + " " + value;
-    return out;
-}
-
-std::string front_table(const Sweep& sweep, int truth) {
+std::string front_table(const Sweep& sweep, std::size_t truth) {
     std::vector<const SweepPoint*> front;
     for (const SweepPoint& point : sweep.points)
         if (point.front[truth]) front.push_back(&point);
@@ -80,21 +75,22 @@ std::string front_table(const Sweep& sweep, int truth) {
 }
 
 // Pictures of the front, thinned to the eye: at most eight, from quick to good.
-std::string gallery(const Sweep& sweep, int truth) {
+std::string gallery(const Sweep& sweep, std::size_t truth) {
     std::vector<const SweepPoint*> front;
     for (const SweepPoint& point : sweep.points)
-        if (point.front[truth] && point.method == "second-order") front.push_back(&point);
+        if (point.front[truth] && point.method == sweep.methods.front()) front.push_back(&point);
     std::sort(front.begin(), front.end(), [](const SweepPoint* a, const SweepPoint* b) {
         return a->milliseconds < b->milliseconds;
     });
-    const io::Image& truth_picture = sweep.truth[truth];
+    const io::Image& truth_picture = sweep.truths[truth].picture;
     const float exposure = preview_exposure(truth_picture);
     std::string out = image_tag(sweep.width, sweep.height, preview(truth_picture, exposure),
-                                fmt::format("{} reference", truth_names[truth]));
+                                fmt::format("{} reference", sweep.truths[truth].name));
     // One scale for all differences, so that they can be compared.
     double scale = 0.0;
     for (const float value : truth_picture.find("G")->values) scale += double{value};
     scale = 0.25 * scale / static_cast<double>(truth_picture.find("G")->values.size());
+    const char* unit = sweep.of == SweepOf::atlas ? "lx" : "cd/m\u00b2";
     constexpr std::size_t most = 8;
     const std::size_t count = std::min(front.size(), most);
     for (std::size_t i = 0; i < count; ++i) {
@@ -105,10 +101,29 @@ std::string gallery(const Sweep& sweep, int truth) {
                image_tag(sweep.width, sweep.height, preview(point.picture, exposure), title);
         const auto difference = difference_picture(point.picture, truth_picture, {.scale = scale});
         out += image_tag(difference.raster.width, difference.raster.height, difference.raster.rgba,
-                         fmt::format("difference, full colour at {:.3g} cd/m\u00b2", scale)) +
+                         fmt::format("difference, full colour at {:.3g} {}", scale, unit)) +
                "</div>\n";
     }
     return out;
+}
+
+// What each filling takes for the same error.
+std::string fillings_table(const Sweep& sweep) {
+    const auto pairs = at_equal_error(sweep, atlas_project, atlas_gather, 0);
+    if (pairs.empty()) return "";
+    std::string out =
+        "<h2>Fillings at equal error</h2>\n<p>The front of projection, and the quickest measured "
+        "settings of gathering that are at least as accurate.</p>\n"
+        "<table><tr><th>project</th><th>gather</th><th>project, ms</th><th>error %</th>"
+        "<th>gather, ms</th><th>error %</th><th>times less</th></tr>\n";
+    for (const AtEqualError& pair : pairs)
+        out += fmt::format(
+            "<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{:.2f}</td><td>{:.0f}</td>"
+            "<td>{:.2f}</td><td>{:.1f}</td></tr>\n",
+            escaped(knobs_text(*pair.slow)), escaped(knobs_text(*pair.quick)),
+            pair.slow->milliseconds, 100.0 * pair.slow->error[0], pair.quick->milliseconds,
+            100.0 * pair.quick->error[0], pair.factor);
+    return out + "</table>\n";
 }
 
 std::string math_table(const Sweep& sweep) {
@@ -142,25 +157,26 @@ figcaption{font-size:12px;color:#555}code{background:#f4f4f4;padding:2px 5px}
 }  // namespace
 
 std::string sweep_page(const Sweep& sweep, const SweepNote& note,
-                       const std::string (&plots)[truths]) {
+                       const std::vector<std::string>& plots) {
     std::string out = head;
     out += fmt::format(
-        "<h1>What accuracy costs in time: {}</h1>\n<p>{} triangles, {}\u00d7{} pixels, on {}.<br>"
+        "<h1>What accuracy costs in time: {}</h1>\n<p>{} triangles, {}\u00d7{} {}, on {}.<br>"
         "clgi {}, made by <code>{}</code></p>\n<ul>\n",
-        escaped(sweep.scene), sweep.triangles, sweep.width, sweep.height, escaped(sweep.device),
-        note.version, escaped(note.command));
+        escaped(sweep.scene), sweep.triangles, sweep.width, sweep.height,
+        sweep.of == SweepOf::atlas ? "texels" : "pixels", escaped(sweep.device), note.version,
+        escaped(note.command));
     for (const std::string& line : summary(sweep)) out += "<li>" + escaped(line) + "</li>\n";
     out += "</ul>\n";
-    for (int t = 0; t < truths; ++t) {
+    for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
         out += fmt::format("<h2>Against the {} reference <small>({})</small></h2>\n",
-                           truth_names[t], truth_effects[t]);
+                           sweep.truths[t].name, sweep.truths[t].effects);
         // Without the XML prologue the picture can stand inside the page.
         const std::size_t start = plots[t].find("<svg");
         if (start != std::string::npos) out += plots[t].substr(start);
         out += front_table(sweep, t);
-        if (t != unshadowed_bounce) out += gallery(sweep, t);
+        if (sweep.of == SweepOf::atlas || t != unshadowed_bounce) out += gallery(sweep, t);
     }
-    return out + math_table(sweep) + "</body></html>\n";
+    return out + fillings_table(sweep) + math_table(sweep) + "</body></html>\n";
 }
 
 std::string save_sweep(const Sweep& sweep, const SweepNote& note,
@@ -173,10 +189,10 @@ std::string save_sweep(const Sweep& sweep, const SweepNote& note,
     save("sweep.csv", sweep_csv(sweep));
     save("sweep.json", sweep_json(sweep, note));
     std::string why;
-    std::string plots[truths];
-    for (int t = 0; t < truths; ++t) {
+    std::vector<std::string> plots(sweep.truths.size());
+    for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
         plots[t] = error_plot(sweep, t, folder, why);
-        if (!plots[t].empty()) save(fmt::format("error-{}.svg", truth_names[t]), plots[t]);
+        if (!plots[t].empty()) save(fmt::format("error-{}.svg", sweep.truths[t].name), plots[t]);
     }
     save("index.html", sweep_page(sweep, note, plots));
     return why;

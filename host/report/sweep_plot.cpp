@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace clgi::report {
 namespace {
 
 // A gnuplot data block: time, error in per cent.
-std::string block(const std::string& name, std::vector<const SweepPoint*> points, int truth) {
+std::string block(const std::string& name, std::vector<const SweepPoint*> points,
+                  std::size_t truth) {
     std::sort(points.begin(), points.end(), [](const SweepPoint* a, const SweepPoint* b) {
         return a->milliseconds < b->milliseconds;
     });
@@ -32,46 +34,58 @@ std::string quoted(const std::string& name) {
     return out + "'";
 }
 
-std::string script(const Sweep& sweep, int truth, const std::string& file) {
-    std::vector<const SweepPoint*> all, front, traced;
-    for (const SweepPoint& point : sweep.points) {
-        if (point.method == "second-order") {
+// All settings and the front of each method, and the path tracer.
+std::string script(const Sweep& sweep, std::size_t truth, const std::string& file) {
+    constexpr struct {
+        const char *all, *front;
+    } colors[] = {{"#9ecae1", "#08519c"}, {"#a1d99b", "#006d2c"}};
+    std::string data, plots;
+    const auto plot = [&](const std::string& name, const std::vector<const SweepPoint*>& points,
+                          const std::string& how) {
+        const bool shown = std::any_of(points.begin(), points.end(), [&](const SweepPoint* point) {
+            return point->error[truth] > 0.0;
+        });
+        if (!shown) return;
+        data += block(name, points, truth);
+        plots += (plots.empty() ? "plot $" : ", $") + name + " with " + how;
+    };
+    for (std::size_t m = 0; m < sweep.methods.size(); ++m) {
+        const std::string& method = sweep.methods[m];
+        const auto& color = colors[m % std::size(colors)];
+        std::vector<const SweepPoint*> all, front;
+        for (const SweepPoint& point : sweep.points) {
+            if (point.method != method) continue;
             all.push_back(&point);
             if (point.front[truth]) front.push_back(&point);
-        } else if (point.series == truth_names[truth]) {
-            traced.push_back(&point);
         }
+        plot(fmt::format("all{}", m), all,
+             fmt::format("points pt 7 ps 0.45 lc rgb '{}' title '{}, all settings'", color.all,
+                         method));
+        plot(fmt::format("front{}", m), front,
+             fmt::format("linespoints pt 7 ps 0.7 lw 2 lc rgb '{}' title '{}, front'", color.front,
+                         method));
     }
-    std::string out =
-        block("all", all, truth) + block("front", front, truth) + block("traced", traced, truth);
-    out += fmt::format(
-        "set terminal svg size 760,460 font 'sans-serif,13' background '#ffffff'\n"
-        "set output {}\n"
-        "set logscale xy\nset xlabel 'milliseconds a frame'\n"
-        "set ylabel 'relative error, %'\nset grid lc rgb '#dddddd'\nset border lc rgb '#666666'\n"
-        "set key top right\nset title 'Error against the {} reference' noenhanced\n",
-        file, truth_names[truth]);
-    const auto shown = [&](const std::vector<const SweepPoint*>& points) {
-        return std::any_of(points.begin(), points.end(),
-                           [&](const SweepPoint* point) { return point->error[truth] > 0.0; });
-    };
-    std::string plots;
-    const auto plot = [&](bool there, const std::string& what) {
-        if (there) plots += (plots.empty() ? "plot " : ", ") + what;
-    };
-    plot(shown(all),
-         "$all with points pt 7 ps 0.45 lc rgb '#9ecae1' title 'second-order, all settings'");
-    plot(shown(front),
-         "$front with linespoints pt 7 ps 0.7 lw 2 lc rgb '#08519c' title 'second-order, front'");
-    plot(shown(traced),
-         "$traced with linespoints pt 5 ps 0.6 lw 2 lc rgb '#d95f02' title 'path tracer'");
-    return out + plots + "\n";
+    std::vector<const SweepPoint*> traced;
+    for (const SweepPoint& point : sweep.points)
+        if (point.method == path_tracer_name && point.series == sweep.truths[truth].name)
+            traced.push_back(&point);
+    plot("traced", traced, "linespoints pt 5 ps 0.6 lw 2 lc rgb '#d95f02' title 'path tracer'");
+    return data +
+           fmt::format(
+               "set terminal svg size 760,460 font 'sans-serif,13' background '#ffffff'\n"
+               "set output {}\n"
+               "set logscale xy\nset xlabel 'milliseconds a {}'\n"
+               "set ylabel 'relative error, %'\nset grid lc rgb '#dddddd'\n"
+               "set border lc rgb '#666666'\n"
+               "set key top right\nset title 'Error against the {} reference' noenhanced\n",
+               file, sweep.of == SweepOf::atlas ? "bake" : "frame", sweep.truths[truth].name) +
+           plots + "\n";
 }
 
 }  // namespace
 
 // gnuplot reads its script from a pipe: no name of a user's ever reaches a shell.
-std::string error_plot(const Sweep& sweep, int truth, const std::filesystem::path& folder,
+std::string error_plot(const Sweep& sweep, std::size_t truth, const std::filesystem::path& folder,
                        std::string& why) {
     const std::filesystem::path picture = std::filesystem::absolute(folder / "error-plot.tmp.svg");
     std::string out;

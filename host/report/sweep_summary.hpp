@@ -9,12 +9,15 @@
 
 namespace clgi::report {
 
+std::vector<const SweepPoint*> points_of(const Sweep& sweep, const std::string& series);
+
 // Where a curve over one knob stops falling: what is left is the method's bias.
 struct Floor {
     std::string setting;  // of the knob, the cheapest that is within a tenth of the least error
     double error = 0.0;
 };
-Floor floor_of(const Sweep& sweep, const std::string& series, const std::string& knob, int truth);
+Floor floor_of(const Sweep& sweep, const std::string& series, const std::string& knob,
+               std::size_t truth);
 
 // How many times faster a method reaches its own error than the path tracer does. 0 when either
 // has no points. Below `measured_to`, the least error that was measured of the path tracer, its
@@ -27,7 +30,9 @@ struct Speedup {
     double best_error = 0.0;
     double measured_to = 0.0;
 };
-Speedup speedup(const Sweep& sweep, const std::string& method, int truth);
+Speedup speedup(const Sweep& sweep, const std::string& method, std::size_t truth);
+// A sentence for every truth that has one.
+void add_speedups(const Sweep& sweep, const std::string& method, std::vector<std::string>& out);
 
 // What a way of building the kernels gains and costs: the points of the series "math".
 struct MathMode {
@@ -40,6 +45,24 @@ struct MathMode {
 };
 std::vector<MathMode> math_modes(const Sweep& sweep);
 
+// A setting of a method on its front, and the quickest measured one of another method that is at
+// least as accurate. No interpolation, so the factor is not flattered.
+struct AtEqualError {
+    const SweepPoint* slow = nullptr;
+    const SweepPoint* quick = nullptr;
+    double factor = 0.0;  // how many times less time the quick one takes
+};
+// slow, quick: methods. By time of the slow one; settings that the quick method cannot match are
+// left out.
+std::vector<AtEqualError> at_equal_error(const Sweep& sweep, const std::string& slow,
+                                         const std::string& quick, std::size_t truth);
+
+// "vpls 400, bounces all"
+std::string knobs_text(const SweepPoint& point);
+
 std::vector<std::string> summary(const Sweep& sweep);
+// What is particular to a kind of sweep; summary() has it.
+std::vector<std::string> pictures_summary(const Sweep& sweep);
+std::vector<std::string> atlas_summary(const Sweep& sweep);
 
 }  // namespace clgi::report

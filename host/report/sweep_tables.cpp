@@ -3,33 +3,32 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/sweep_atlas.hpp"
 #include "report/sweep_files.hpp"
 #include "report/sweep_summary.hpp"
 
 namespace clgi::report {
 namespace {
 
-std::string knob(const SweepPoint& point, const char* name) {
+std::string knob(const SweepPoint& point, const std::string& name) {
     const auto found = point.knobs.find(name);
     return found == point.knobs.end() ? "" : found->second;
 }
-
-constexpr const char* knobs[] = {"vpls",         "negative-vpls", "low-res", "shadow-size",
-                                 "area-samples", "math",          "storage", "spp"};
 
 }  // namespace
 
 std::string sweep_csv(const Sweep& sweep) {
     std::string out = "method,series";
-    for (const char* name : knobs) out += fmt::format(",{}", name);
+    for (const std::string& name : sweep.knobs) out += fmt::format(",{}", name);
     out += ",ms";
-    for (const char* truth : truth_names) out += fmt::format(",error {0},front {0}", truth);
+    for (const SweepTruth& truth : sweep.truths)
+        out += fmt::format(",error {0},front {0}", truth.name);
     out += ",energy ratio\n";
     for (const SweepPoint& point : sweep.points) {
         out += fmt::format("{},\"{}\"", point.method, point.series);
-        for (const char* name : knobs) out += "," + knob(point, name);
+        for (const std::string& name : sweep.knobs) out += "," + knob(point, name);
         out += fmt::format(",{:.4g}", point.milliseconds);
-        for (int t = 0; t < truths; ++t)
+        for (std::size_t t = 0; t < sweep.truths.size(); ++t)
             out += fmt::format(",{:.6g},{}", point.error[t], point.front[t] ? 1 : 0);
         out += fmt::format(",{:.6g}\n", point.energy);
     }
@@ -44,19 +43,28 @@ std::string sweep_json(const Sweep& sweep, const SweepNote& note) {
         {"scene", {{"name", sweep.scene}, {"triangles", sweep.triangles}}},
         {"size", {sweep.width, sweep.height}},
         {"summary", summary(sweep)}};
-    for (int t = 0; t < truths; ++t)
-        out["references"].push_back({{"name", truth_names[t]},
-                                     {"effects", truth_effects[t]},
-                                     {"standard_error", sweep.truth_noise[t]}});
-    for (int t = 0; t < truths; ++t) {
-        const Speedup factor = speedup(sweep, "second-order", t);
-        out["speedups"].push_back({{"method", factor.method},
-                                   {"reference", truth_names[t]},
-                                   {"at_least_error", factor.at_least_error},
-                                   {"least_error", factor.least_error},
-                                   {"best", factor.best},
-                                   {"best_error", factor.best_error}});
-    }
+    for (const SweepTruth& truth : sweep.truths)
+        out["references"].push_back(
+            {{"name", truth.name}, {"effects", truth.effects}, {"standard_error", truth.noise}});
+    for (const std::string& method : sweep.methods)
+        for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
+            const Speedup factor = speedup(sweep, method, t);
+            out["speedups"].push_back({{"method", factor.method},
+                                       {"reference", sweep.truths[t].name},
+                                       {"at_least_error", factor.at_least_error},
+                                       {"least_error", factor.least_error},
+                                       {"best", factor.best},
+                                       {"best_error", factor.best_error}});
+        }
+    if (sweep.of == SweepOf::atlas)
+        for (const AtEqualError& pair : at_equal_error(sweep, atlas_project, atlas_gather, 0))
+            out["fillings"].push_back({{"project", pair.slow->knobs},
+                                       {"project_ms", pair.slow->milliseconds},
+                                       {"project_error", pair.slow->error[0]},
+                                       {"gather", pair.quick->knobs},
+                                       {"gather_ms", pair.quick->milliseconds},
+                                       {"gather_error", pair.quick->error[0]},
+                                       {"factor", pair.factor}});
     for (const MathMode& mode : math_modes(sweep))
         out["math_modes"].push_back({{"math", mode.math},
                                      {"storage", mode.storage},
@@ -71,9 +79,9 @@ std::string sweep_json(const Sweep& sweep, const SweepNote& note) {
                                       {"knobs", point.knobs},
                                       {"ms", point.milliseconds},
                                       {"energy_ratio", point.energy}};
-        for (int t = 0; t < truths; ++t) {
-            row["error"][truth_names[t]] = point.error[t];
-            row["front"][truth_names[t]] = point.front[t];
+        for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
+            row["error"][sweep.truths[t].name] = point.error[t];
+            row["front"][sweep.truths[t].name] = bool{point.front[t]};
         }
         out["points"].push_back(row);
     }

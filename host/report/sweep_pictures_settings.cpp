@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "report/sweep.hpp"
+#include "report/sweep_pictures.hpp"
 
 namespace clgi::report {
 namespace {

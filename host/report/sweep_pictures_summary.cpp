@@ -1,0 +1,63 @@
+// What a sweep of second-order illumination says.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "report/relative_error.hpp"
+#include "report/sweep_pictures.hpp"
+#include "report/sweep_summary.hpp"
+
+namespace clgi::report {
+
+std::vector<MathMode> math_modes(const Sweep& sweep) {
+    std::vector<MathMode> out;
+    const std::vector<const SweepPoint*> points = points_of(sweep, "math");
+    for (const SweepPoint* point : points)
+        out.push_back({point->knobs.at("math"), point->knobs.at("storage"), point->milliseconds,
+                       points.front()->milliseconds / point->milliseconds, point->error[one_bounce],
+                       relative_error(point->picture, points.front()->picture)});
+    return out;
+}
+
+std::vector<std::string> pictures_summary(const Sweep& sweep) {
+    std::vector<std::string> out;
+    const auto floor_line = [&](const char* series, const char* what, std::size_t truth) {
+        const Floor floor = floor_of(sweep, series, "vpls", truth);
+        if (!floor.setting.empty())
+            out.push_back(fmt::format(
+                "{}: from {} VPLs on, error against the {} reference stays at {:.2f} %.", what,
+                floor.setting, sweep.truths[truth].name, 100.0 * floor.error));
+    };
+    floor_line("vpls, unshadowed", "Without negative VPLs", unshadowed_bounce);
+    floor_line("vpls, unshadowed", "Without negative VPLs", all_light);
+    floor_line("vpls", "With 150 negative VPLs", one_bounce);
+    floor_line("vpls", "With 150 negative VPLs", all_light);
+
+    const SweepPoint *none = nullptr, *best = nullptr;
+    for (const SweepPoint* point : points_of(sweep, "negative-vpls")) {
+        if (point->knobs.at("negative-vpls") == "0")
+            none = point;
+        else if (!best || point->error[all_light] < best->error[all_light])
+            best = point;
+    }
+    if (none && best)
+        out.push_back(fmt::format(
+            "Negative VPLs: at {} VPLs the error against the full reference is "
+            "{:.2f} % without and {:.2f} % with {} of them; against one bounce {:.2f} % and "
+            "{:.2f} %.",
+            none->knobs.at("vpls"), 100.0 * none->error[all_light], 100.0 * best->error[all_light],
+            best->knobs.at("negative-vpls"), 100.0 * none->error[one_bounce],
+            100.0 * best->error[one_bounce]));
+
+    add_speedups(sweep, "second-order", out);
+    for (const MathMode& mode : math_modes(sweep))
+        if (mode.difference > 0.0)
+            out.push_back(fmt::format(
+                "{} math, {} storage: {:.2f} times as fast as strict math on floats, pictures "
+                "differ by {:.4f} %.",
+                mode.math == "fast" ? "Fast" : "Strict", mode.storage, mode.speed,
+                100.0 * mode.difference));
+
+    return out;
+}
+
+}  // namespace clgi::report
