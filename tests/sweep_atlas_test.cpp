@@ -53,7 +53,7 @@ TEST(AtlasSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
         }
         EXPECT_EQ(varied,
                   (std::set<std::string>{"vpls", "bounces", "samples-per-vpl", "exchange-samples",
-                                         "exchange-size", "filling-size", "mesh", "kernel"}));
+                                         "hemicube-size", "mesh", "kernel"}));
     }
 }
 
@@ -217,8 +217,8 @@ TEST_F(SphereSweep, WritesFilesThatStandAlone) {
     const test::TempFolder out;
     const std::string why = save_sweep(made(), {"clgi sweep <me>", "1.2.3"}, out.path());
     const std::string csv = text(out.path() / "sweep.csv");
-    EXPECT_EQ(csv.rfind("method,series,vpls,bounces,samples-per-vpl,exchange-samples,exchange-size,"
-                        "filling,filling-size,mesh,kernel,spp,ms,error full,front full,energy "
+    EXPECT_EQ(csv.rfind("method,series,vpls,bounces,samples-per-vpl,exchange-samples,"
+                        "filling,hemicube-size,mesh,kernel,spp,ms,error full,front full,energy "
                         "ratio\n",
                         0),
               0u)

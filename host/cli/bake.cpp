@@ -175,9 +175,9 @@ void add_method_flags(CLI::App& command, BakeFlags& flags) {
         ->check(CLI::Range(0, 1000));
     command
         .add_option("--threshold", flags.threshold,
-                    "With --bounces 0: largest unshot power of a VPL, of all direct power")
+                    "With --bounces 0: largest unshot power of a VPL, of the mean direct power of VPLs")
         ->type_name("X")
-        ->default_str("0.001%");
+        ->default_str("0.1%");
     command.add_flag("--one-at-a-time", flags.bake.one_at_a_time,
                      "With --bounces 0: shoot the strongest VPL alone, as in the paper");
     command

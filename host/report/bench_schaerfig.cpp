@@ -33,7 +33,9 @@ struct Filling {
     const char* name;
     void (*choose)(LightAtlasOptions&);
 };
-constexpr Filling fillings[] = {{"gather", [](LightAtlasOptions&) {}}};
+constexpr Filling fillings[] = {
+    {"gather", [](LightAtlasOptions&) {}},
+    {"project", [](LightAtlasOptions& o) { o.filling = clgi::Filling::project; }}};
 
 // About so many units of work, for progress alone: filling a texel by a VPL, drawing a triangle.
 double work_of(const Scene& scene, double vpls) {
@@ -77,6 +79,7 @@ SchaerfigTable bench_schaerfig1(const SchaerfigSetup& setup,
         job.vpls.count = count;
         job.atlas.size = size;
         job.options.build = setup.build;
+        job.options.bounces = 5;
         filling.choose(job.options);
         const std::optional<TimedBake> made = timed_bake(job, [&](double part) {
             return !setup.progress || setup.progress((done + part * share) / all);

@@ -38,7 +38,7 @@ public:
         out_.height = layout_.size * layout_.pages;
         out_.methods = {atlas_gather, atlas_project};
         out_.knobs = {"vpls",          "bounces", "samples-per-vpl", "exchange-samples",
-                      "exchange-size", "filling", "filling-size",    "mesh",
+                      "filling",       "hemicube-size", "mesh",
                       "kernel",        "spp"};
         const reference::PathTracer tracer(setup_.scene);
         progress_.part(0.0, 0.3);

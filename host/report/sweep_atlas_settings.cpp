@@ -23,7 +23,7 @@ public:
     std::vector<AtlasSettings> operator()() {
         const auto vpls = [](AtlasSettings& to, std::uint32_t n) { to.vpls.count = n; };
         const auto size = [](AtlasSettings& to, std::uint32_t n) {
-            to.bake.filling_size = static_cast<int>(n);
+            to.bake.hemicube_size = static_cast<int>(n);
         };
         const auto mesh = [](AtlasSettings& to, std::uint32_t n) {
             to.bake.mesh = static_cast<int>(n);
@@ -38,13 +38,9 @@ public:
              [](AtlasSettings& to, std::uint32_t n) { to.vpls.samples_per_vpl = n; });
         vary(gather_, "exchange-samples", {2, 10}, {1, 3, 10, 20, 48},
              [](AtlasSettings& to, std::uint32_t n) { to.bake.exchange_samples = n; });
-        vary(gather_, "exchange-size", {64, 128}, {32, 64, 128, 256},
-             [](AtlasSettings& to, std::uint32_t n) {
-                 to.bake.exchange_size = static_cast<int>(n);
-             });
-        vary(gather_, "filling-size", {64, 256}, {32, 64, 128, 256, 512}, size);
+        vary(gather_, "hemicube-size", {64, 256}, {32, 64, 128, 256, 512}, size);
         vary(project_, "vpls, project", {50, 100}, {100, 400, 1600}, vpls);
-        vary(project_, "filling-size, project", {64, 256}, {64, 128, 256, 512}, size);
+        vary(project_, "hemicube-size, project", {64, 256}, {64, 128, 256, 512}, size);
         vary(project_, "mesh", {128, 512}, {32, 128, 512, 2048, 8192, 32768}, mesh);
         vary(project_, "kernel", {0, 5}, {0, 1, 2, 5, 10}, kernel);
         if (!quick_) {
@@ -79,7 +75,7 @@ private:
                 for (const std::uint32_t m : samples) {
                     AtlasSettings one = base;
                     one.vpls.count = n;
-                    one.bake.filling_size = size;
+                    one.bake.hemicube_size = size;
                     one.vpls.samples_per_vpl = m;
                     add(one, "grid");
                 }
@@ -93,9 +89,8 @@ private:
                      {"bounces", bake.bounces == 0 ? "all" : std::to_string(bake.bounces)},
                      {"samples-per-vpl", std::to_string(one.vpls.samples_per_vpl)},
                      {"exchange-samples", std::to_string(bake.exchange_samples)},
-                     {"exchange-size", std::to_string(bake.exchange_size)},
                      {"filling", project ? "project" : "gather"},
-                     {"filling-size", std::to_string(bake.filling_size)}};
+                     {"hemicube-size", std::to_string(bake.hemicube_size)}};
         if (project) {
             one.knobs["mesh"] = std::to_string(bake.mesh);
             one.knobs["kernel"] = std::to_string(bake.kernel);

@@ -60,8 +60,8 @@ std::vector<AtEqualError> at_equal_error(const Sweep& sweep, const std::string& 
 std::vector<std::string> atlas_summary(const Sweep& sweep) {
     std::vector<std::string> out;
     for (const char* series :
-         {"vpls", "bounces", "samples-per-vpl", "exchange-samples", "exchange-size", "filling-size",
-          "vpls, project", "filling-size, project", "mesh", "kernel"})
+         {"vpls", "bounces", "samples-per-vpl", "exchange-samples", "hemicube-size",
+          "vpls, project", "hemicube-size, project", "mesh", "kernel"})
         add_series(sweep, series, out);
     const std::vector<AtEqualError> fillings =
         at_equal_error(sweep, atlas_project, atlas_gather, 0);

@@ -161,7 +161,7 @@ bool LightAtlasSolver::State::run(const Progress& progress, double least) {
     queue.enqueueReadBuffer(b.sites.light, CL_TRUE, 0, direct.size() * sizeof(float),
                             direct.data());
     power_direct = unshot_power();
-    threshold = static_cast<float>(options.threshold * power_direct);
+    threshold = static_cast<float>(options.threshold * power_direct / b.sites.site_count);
     if (!differences)
         for (const cl::Buffer* buffer : {&b.sites.sent, &b.gathered, &b.filled})
             record.fill(*buffer, 0);

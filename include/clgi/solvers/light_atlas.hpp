@@ -29,8 +29,8 @@ struct LightAtlasOptions {
     EmitterOptions emitters;  // shadow maps and samples of the lights; emitters.vpls is not used
     // How often light is reflected at most before it reaches a texel, at least 1; 0: until the
     // largest unshot power is below the threshold.
-    std::uint32_t bounces = 5;
-    float threshold = 1e-5f;  // of the power that direct light makes all VPLs reflect, (0,1]
+    std::uint32_t bounces = 10;
+    float threshold = 1e-3f;  // of the mean power that direct light makes VPLs reflect, [1e-7,1]
     // With bounces = 0: the strongest VPL shoots alone, then the next, as in the paper. Otherwise
     // all shoot at once, which converges to the same light in far less time.
     bool one_at_a_time = false;
