@@ -19,7 +19,6 @@ struct AtlasFlags {
     AtlasOptions layout;
     LightAtlasOptions bake;
 };
-void add_atlas_method_flags(CLI::App& command, AtlasFlags& flags);
 
 struct RenderFlags {
     DeviceFlags device;
