@@ -126,5 +126,77 @@ TEST(AtlasSeams, OfNumbersThatAreNotFiniteAreNoNumber) {
     EXPECT_FALSE(std::isfinite(atlas_seams(scene, atlas, light).difference));
 }
 
+// A jump of a quarter nearly vanishes; texels that are not read at the edge stay what they were, and
+// the two sides give way alike.
+TEST(StitchedSeams, AgreeWhereTheSurfaceIsSmooth) {
+    const Scene scene = hinge(0.1);
+    const AtlasLayout atlas = charts_of(scene, 64);
+    const auto light = light_of(atlas, [](const AtlasTexel& texel) {
+        return texel.triangle < 2 ? 3.0 : 4.0;
+    });
+    const Vectors stitched = stitched_seams(scene, atlas, light);
+    const AtlasSeams before = atlas_seams(scene, atlas, light),
+                     after = atlas_seams(scene, atlas, stitched);
+    EXPECT_LT(after.difference, 0.1 * before.difference);
+    EXPECT_GT(before.difference, 0.2);
+    int changed = 0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const double x = test::place_of(scene, atlas.texels[i]).x;
+        sum += double{stitched[i].r} - double{light[i].r};
+        if (std::abs(x) * atlas.texels_per_metre > 2.0) {
+            ASSERT_EQ(stitched[i], light[i]);
+        } else {
+            changed += stitched[i] != light[i];
+            ASSERT_GT(stitched[i].r, 2.9f);
+            ASSERT_LT(stitched[i].r, 4.1f);
+            ASSERT_NEAR(stitched[i].g, 0.5 * stitched[i].r, 1e-5);
+        }
+    }
+    EXPECT_GT(changed, 60);
+    EXPECT_NEAR(sum / changed, 0.0, 0.05);
+}
+
+TEST(StitchedSeams, LeaveShadowsAndHardEdgesAsTheyAre) {
+    const auto jump = [](const AtlasTexel& texel) { return texel.triangle < 2 ? 3.0 : 4.0; };
+    const auto shadow = [](const AtlasTexel& texel) { return texel.triangle < 2 ? 0.01 : 4.0; };
+    const auto stays = [](const Scene& scene, const auto& of) {
+        const AtlasLayout atlas = charts_of(scene, 32);
+        const Vectors light = light_of(atlas, of);
+        return stitched_seams(scene, atlas, light) == light;
+    };
+    EXPECT_TRUE(stays(hinge(0.0), shadow));
+    EXPECT_TRUE(stays(hinge(0.6), jump));
+    EXPECT_TRUE(stays(hinge(0.0), [](const AtlasTexel&) { return 0.0; }));
+    EXPECT_FALSE(stays(hinge(0.0), jump));
+}
+
+TEST(StitchedSeams, KeepWhatIsNotFiniteWhereItIs) {
+    const Scene scene = hinge(0.0);
+    const AtlasLayout atlas = charts_of(scene, 32);
+    Vectors light = light_of(atlas, [](const AtlasTexel& texel) {
+        return texel.triangle < 2 ? 3.0 : 4.0;
+    });
+    // At the edge, half way along it.
+    std::size_t bad = 0;
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const double away = glm::distance(test::place_of(scene, atlas.texels[i]), {0, 1, 0});
+        if (away < nearest) {
+            nearest = away;
+            bad = i;
+        }
+    }
+    light[bad].g = std::numeric_limits<float>::quiet_NaN();
+    const Vectors stitched = stitched_seams(scene, atlas, light);
+    int changed = 0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        ASSERT_EQ(std::isfinite(stitched[i].g), i != bad);
+        changed += i != bad && stitched[i] != light[i];
+    }
+    EXPECT_GT(changed, 20);
+    EXPECT_THROW(stitched_seams(scene, atlas, Vectors(1)), Error);
+}
+
 }  // namespace
 }  // namespace clgi

@@ -35,6 +35,7 @@ struct BakeFlags {
     std::string filling = "gather";
     LightAtlasOptions bake;
     bool dilate = false;
+    bool stitch = false;
     BakeGltfFlags gltf;
     std::string stats;
     std::string resume;
@@ -126,7 +127,8 @@ void run_bake(BakeFlags flags) {
     const std::uint32_t resumed_at = run_to_the_end(flags, key, solver);
     const double bake_seconds = bake.seconds();
 
-    const std::vector<glm::vec3> irradiance = solver.irradiance();
+    std::vector<glm::vec3> irradiance = solver.irradiance();
+    if (flags.stitch) irradiance = stitched_seams(scene, layout.atlas, irradiance);
     const std::string effects = flags.bake.direct ? "direct,indirect" : "indirect";
     if (!flags.picture.exr.empty() || !flags.picture.png.empty())
         save_picture(report::baked_image(layout.atlas, irradiance, effects, flags.dilate),
@@ -194,6 +196,8 @@ void add_atlas_flags(CLI::App& command, BakeFlags& flags) {
     add_count(command, "--padding", flags.atlas.padding, "Empty texels around a chart", 1, 64);
     command.add_flag("--dilate", flags.dilate,
                      "Fill texels that are covered in part, and those around charts");
+    command.add_flag("--stitch", flags.stitch,
+                     "Make light agree where charts cut a smooth surface");
 }
 
 }  // namespace

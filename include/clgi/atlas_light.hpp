@@ -26,6 +26,12 @@ struct AtlasSeams {
 CLGI_API AtlasSeams atlas_seams(const Scene& scene, const AtlasLayout& atlas,
                                 const std::vector<glm::vec3>& irradiance);
 
+// The same light, but where charts cut a smooth surface, texels at the cut are changed as little as
+// makes both sides agree. Where one side has less than half of the other's luminance, a shadow ends
+// there or a wall stands there, and nothing is changed.
+CLGI_API std::vector<glm::vec3> stitched_seams(const Scene& scene, const AtlasLayout& atlas,
+                                               const std::vector<glm::vec3>& irradiance);
+
 // The same charts with `times` as many texels across. Throws Error beyond 16384 texels a side.
 CLGI_API AtlasLayout finer_atlas(const Scene& scene, const AtlasLayout& atlas, int times);
 
