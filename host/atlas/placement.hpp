@@ -23,6 +23,9 @@ struct AtlasPlacement {
 // Twice the area of a triangle along its normal, m^2; zero if its corners lie on a line.
 glm::dvec3 doubled_area_of(const Scene& scene, std::uint32_t triangle);
 
+// with_atlas_uvs with a vertex for every corner, corner k of triangle t at 3 t + k.
+Scene with_corner_uvs(const Scene& scene, const AtlasLayout& atlas, AtlasPages pages);
+
 // Charts are what edges connect that agree in position and texture coordinates. Their boxes are
 // those of their corners.
 AtlasPlacement place_by_uvs(const Scene& scene, int uv_set, int size);

@@ -2,9 +2,12 @@
 #include <clgi/atlas_layout.hpp>
 #include <clgi/error.hpp>
 
+#include "atlas/placement.hpp"
+#include "scene/merge.hpp"
+
 namespace clgi {
 
-Scene with_atlas_uvs(const Scene& scene, const AtlasLayout& atlas) {
+Scene with_corner_uvs(const Scene& scene, const AtlasLayout& atlas, AtlasPages pages) {
     if (atlas.uvs.size() != 3 * scene.triangles.size())
         throw Error("atlas: the layout has " + std::to_string(atlas.uvs.size() / 3) +
                     " triangles, the scene " + std::to_string(scene.triangles.size()));
@@ -21,12 +24,21 @@ Scene with_atlas_uvs(const Scene& scene, const AtlasLayout& atlas) {
             out.positions[corner] = scene.positions[from];
             out.normals[corner] = scene.normals[from];
             if (!scene.colors.empty()) out.colors[corner] = scene.colors[from];
-            const glm::vec2 page(0.0f, atlas.triangle_page[t] < 64u ? atlas.triangle_page[t] : 0u);
-            const glm::vec2 uv = (atlas.uvs[corner] / static_cast<float>(atlas.size) + page) /
-                                 glm::vec2(1.0f, static_cast<float>(atlas.pages));
+            glm::vec2 uv = atlas.uvs[corner] / static_cast<float>(atlas.size);
+            if (pages == AtlasPages::stacked) {
+                const std::uint32_t page = atlas.triangle_page[t];
+                uv.y = (uv.y + static_cast<float>(page < 64u ? page : 0u)) /
+                       static_cast<float>(atlas.pages);
+            }
             const glm::vec4 own = scene.uvs.empty() ? glm::vec4(0.0f) : scene.uvs[from];
             out.uvs[corner] = glm::vec4(own.x, own.y, uv.x, uv.y);
         }
+    return out;
+}
+
+Scene with_atlas_uvs(const Scene& scene, const AtlasLayout& atlas, AtlasPages pages) {
+    Scene out = with_corner_uvs(scene, atlas, pages);
+    merge_equal_vertices(out);
     return out;
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <clgi/clgi.hpp>
-#include <clgi/io/gltf.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "cli/bake_gltf.hpp"
 #include "cli/bake_room.hpp"
 #include "cli/bake_stats.hpp"
 #include "cli/commands.hpp"
@@ -23,12 +23,6 @@
 namespace clgi::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 struct BakeFlags {
     std::string scene;
     DeviceFlags device;
@@ -40,8 +34,10 @@ struct BakeFlags {
     std::string threshold;
     std::string filling = "gather";
     LightAtlasOptions bake;
+    bool progressive = false;
     bool dilate = false;
-    std::string gltf;
+    bool stitch = false;
+    BakeGltfFlags gltf;
     std::string stats;
     std::string resume;
     int scene_index = -1;
@@ -84,7 +80,6 @@ std::uint32_t run_to_the_end(const BakeFlags& flags, const std::string& key,
         notice(flags.device.quiet,
                fmt::format("the bake goes on after VPL {} of {}", begin, state.vpls));
     }
-    catch_interrupts();
     if (solver.run(progress_bar("bake", flags.device.quiet))) return begin;
     if (flags.resume.empty()) throw Interrupted();
     if (const auto state = solver.state()) {
@@ -97,9 +92,51 @@ std::uint32_t run_to_the_end(const BakeFlags& flags, const std::string& key,
     throw Interrupted();
 }
 
+void check(const BakeFlags& flags) {
+    if (flags.picture.exr.empty() && flags.picture.png.empty() && flags.gltf.lit.empty() &&
+        flags.gltf.unwrapped.empty())
+        throw Error(
+            "bake: no output; -o FILE.exr, --png FILE.png, --gltf FILE.glb or --unwrapped FILE.glb "
+            "needed");
+    if (flags.gltf.lights && flags.bake.direct)
+        throw Error("bake: --gltf-lights with --direct would show direct light twice");
+    if (flags.gltf.lit.empty() && (flags.gltf.lights || flags.gltf.detail > 0))
+        throw Error("bake: --gltf-lights and --gltf-detail go only with --gltf");
+    if (flags.progressive && flags.picture.exr.empty() && flags.picture.png.empty())
+        throw Error("bake: --progressive goes only with -o or --png");
+}
+
+// The atlas as a picture, in the files that are asked for.
+void save_atlas(const BakeFlags& flags, const AtlasLayout& atlas,
+                const std::vector<glm::vec3>& irradiance) {
+    if (flags.picture.exr.empty() && flags.picture.png.empty()) return;
+    const std::string effects = flags.bake.direct ? "direct,indirect" : "indirect";
+    save_picture(report::baked_image(atlas, irradiance, effects, flags.dilate), flags.picture);
+}
+
+// Quick bakes with fewer VPLs, each saved: something to look at early that becomes better. As each
+// has four times the VPLs of the one before, all of them take less than half of the last one's time.
+void bake_drafts(const BakeFlags& flags, const Session& session, const Programs& programs,
+                 const Scene& scene, const DeviceScene& device_scene, const BakeLayout& layout) {
+    constexpr std::uint32_t fewest = 50;
+    std::vector<std::uint32_t> counts;
+    for (std::uint32_t n = flags.vpls.count / 4; n >= fewest; n /= 4) counts.push_back(n);
+    for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
+        const Stopwatch watch;
+        VplOptions few = flags.vpls;
+        few.count = *count;
+        LightAtlasSolver solver(programs, session.queue, device_scene,
+                                place_vpls(scene, layout.patches, few), layout.atlas, flags.bake);
+        if (!solver.run(progress_bar(fmt::format("{} VPLs", few.count), flags.device.quiet)))
+            throw Interrupted();
+        save_atlas(flags, layout.atlas, solver.irradiance());
+        notice(flags.device.quiet,
+               fmt::format("saved with {} VPLs after {:.2f} s", few.count, watch.seconds()));
+    }
+}
+
 void run_bake(BakeFlags flags) {
-    if (flags.picture.exr.empty() && flags.picture.png.empty() && flags.gltf.empty())
-        throw Error("bake: no output; -o FILE.exr, --png FILE.png or --gltf FILE.glb needed");
+    check(flags);
     flags.picture.full = true;  // daylight, in lux, is beyond the range of half
     if (!flags.threshold.empty())
         flags.bake.threshold =
@@ -112,33 +149,29 @@ void run_bake(BakeFlags flags) {
     const Session session = open_session(flags.device);
     need_room("bake", session.device, flags.vpls);
 
-    auto start = Clock::now();
-    const Patches patches = make_patches(scene);
-    const VplLayout vpls = place_vpls(scene, patches, flags.vpls);
-    const AtlasLayout atlas = make_atlas(scene, patches.triangle_patch, flags.atlas);
-    const double layout_seconds = seconds_since(start);
-    for (const std::string& warning : atlas.warnings) {
-        notice(flags.device.quiet, "warning: " + warning);
-        scene.warnings.push_back(warning);
-    }
-    start = Clock::now();
+    const BakeLayout layout = lay_out(scene, flags.vpls, flags.atlas, flags.device.quiet);
+    const Stopwatch build;
     const DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
-    LightAtlasSolver solver(programs, session.queue, device_scene, vpls, atlas, flags.bake);
-    const double build_seconds = seconds_since(start);
-    start = Clock::now();
+    LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, layout.atlas,
+                            flags.bake);
+    const double build_seconds = build.seconds();
+    catch_interrupts();
+    if (flags.progressive)
+        bake_drafts(flags, session, programs, scene, device_scene, layout);
+    const Stopwatch bake;
     const std::string key = flags.resume.empty() ? "" : key_of(flags, scene, session.device);
     const std::uint32_t resumed_at = run_to_the_end(flags, key, solver);
-    const double bake_seconds = seconds_since(start);
+    const double bake_seconds = bake.seconds();
 
-    const std::string effects = flags.bake.direct ? "direct,indirect" : "indirect";
-    if (!flags.picture.exr.empty() || !flags.picture.png.empty())
-        save_picture(report::baked_image(atlas, solver.irradiance(), effects, flags.dilate),
-                     flags.picture);
-    if (!flags.gltf.empty()) io::save_glb(with_atlas_uvs(scene, atlas), flags.gltf);
+    std::vector<glm::vec3> irradiance = solver.irradiance();
+    if (flags.stitch) irradiance = stitched_seams(scene, layout.atlas, irradiance);
+    save_atlas(flags, layout.atlas, irradiance);
+    const std::optional<LitGltf> gltf =
+        save_bake_gltf(scene, layout.atlas, irradiance, flags.picture.exposure, flags.gltf);
     if (!flags.stats.empty())
-        save_bake_stats({scene, patches, vpls, atlas, solver, layout_seconds, build_seconds,
-                         bake_seconds, resumed_at},
+        save_bake_stats({scene, layout, solver, atlas_seams(scene, layout.atlas, irradiance), gltf,
+                         build_seconds, bake_seconds, resumed_at},
                         flags.stats);
     if (!flags.resume.empty()) {
         std::error_code ignored;
@@ -148,53 +181,36 @@ void run_bake(BakeFlags flags) {
         notice(false, fmt::format("warning: {} packets held numbers that are not finite", packets));
     if (flags.device.quiet) return;
     std::string files;
-    for (const std::string& file : {flags.picture.exr, flags.picture.png, flags.gltf})
+    for (const std::string& file :
+         {flags.picture.exr, flags.picture.png, flags.gltf.lit, flags.gltf.unwrapped})
         if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
-    fmt::print("{}: {} texels lit by {} VPLs, {:.2f} s\n", files, atlas.texels.size(),
-               vpls.vpls.size(), layout_seconds + bake_seconds);
+    fmt::print("{}: {} texels lit by {} VPLs, {:.2f} s\n", files, layout.atlas.texels.size(),
+               layout.vpls.vpls.size(), layout.seconds + bake_seconds);
 }
 
 void add_method_flags(CLI::App& command, BakeFlags& flags) {
-    command.add_option("--vpls", flags.vpls.count, "Virtual point lights (VPLs)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1 << 20));
-    command
-        .add_option("--samples-per-vpl", flags.vpls.samples_per_vpl,
-                    "Sample points of a VPL that receive direct light and send it on near by")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
-    command
-        .add_option("--exchange-samples", flags.bake.exchange_samples,
-                    "Those of them that tell how much of a VPL another one sees")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
-    command
-        .add_option("--bounces", flags.bake.bounces,
-                    "Reflections of light at most; 0: until --threshold")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1000));
+    add_count(command, "--vpls", flags.vpls.count, "Virtual point lights (VPLs)", 1, 1 << 20);
+    add_count(command, "--samples-per-vpl", flags.vpls.samples_per_vpl,
+              "Sample points of a VPL that receive direct light and send it on near by", 1, 4096);
+    add_count(command, "--exchange-samples", flags.bake.exchange_samples,
+              "Those of them that tell how much of a VPL another one sees", 1, 4096);
+    add_bake_flags(command, "", flags.bake, flags.atlas);
     command
         .add_option("--threshold", flags.threshold,
                     "With --bounces 0: largest unshot power of a VPL, of the mean direct power of VPLs")
         ->type_name("X")
         ->default_str("0.1%");
+    command.add_flag("--progressive", flags.progressive,
+                     "Save -o and --png with fewer VPLs first, then with four times as many, and so on");
     command.add_flag("--one-at-a-time", flags.bake.one_at_a_time,
                      "With --bounces 0: shoot the strongest VPL alone, as in the paper");
-    command
-        .add_option("--hemicube-size", flags.bake.hemicube_size,
-                    "Pixels of the face of a VPL's hemicube")
-        ->type_name("N")
-        ->check(CLI::Range(32, 1024));
     command
         .add_option("--filling", flags.filling,
                     "How texels get light: gather, or project as in the paper")
         ->type_name("HOW")
         ->check(CLI::IsMember({"gather", "project"}));
-    command
-        .add_option("--mesh", flags.bake.mesh,
-                    "With --filling project: triangles of the mesh over a hemicube's face")
-        ->type_name("N")
-        ->check(CLI::Range(8, 131072));
+    add_count(command, "--mesh", flags.bake.mesh,
+              "With --filling project: triangles of the mesh over a hemicube's face", 8, 131072);
     command
         .add_option("--kernel", flags.bake.kernel,
                     "With --filling project: pixels to each side for soft shadows; 0: hard ones")
@@ -203,33 +219,7 @@ void add_method_flags(CLI::App& command, BakeFlags& flags) {
     command.add_flag("--direct", flags.bake.direct, "Direct light in the atlas too");
 }
 
-void add_light_flags(CLI::App& command, EmitterOptions& emitters) {
-    command
-        .add_option("--shadow-size", emitters.shadow_size,
-                    "Pixels per side of the shadow map of a spot or directional light")
-        ->type_name("N")
-        ->check(CLI::Range(1, 8192));
-    command
-        .add_option("--face-size", emitters.face_size,
-                    "Pixels per side of a cube or hemicube face, for point and area lights")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
-    command
-        .add_option("--area-samples", emitters.area_samples,
-                    "Sample points on all emissive surfaces together")
-        ->type_name("N")
-        ->check(CLI::Range(0, 4096));
-    command
-        .add_option("--environment-lights", emitters.environment_lights,
-                    "Directional lights that approximate the environment")
-        ->type_name("N")
-        ->check(CLI::Range(0, 4096));
-}
-
 void add_atlas_flags(CLI::App& command, BakeFlags& flags) {
-    command.add_option("--atlas-size", flags.atlas.size, "Texels, side of a page of the atlas")
-        ->type_name("N")
-        ->check(CLI::Range(1, 8192));
     command.add_option("--uvs", flags.uvs, "Where texels are: auto, 0, 1 (UV sets) or charts")
         ->type_name("WHAT")
         ->check(CLI::IsMember({"auto", "0", "1", "charts"}));
@@ -238,14 +228,12 @@ void add_atlas_flags(CLI::App& command, BakeFlags& flags) {
                     "Density of charts; 0: what fills the pages")
         ->type_name("X")
         ->check(CLI::Range(0.0, 1e6));
-    command.add_option("--pages", flags.atlas.most_pages, "Pages at most, for charts")
-        ->type_name("N")
-        ->check(CLI::Range(1, 64));
-    command.add_option("--padding", flags.atlas.padding, "Empty texels around a chart")
-        ->type_name("N")
-        ->check(CLI::Range(1, 64));
+    add_count(command, "--pages", flags.atlas.most_pages, "Pages at most, for charts", 1, 64);
+    add_count(command, "--padding", flags.atlas.padding, "Empty texels around a chart", 1, 64);
     command.add_flag("--dilate", flags.dilate,
                      "Fill texels that are covered in part, and those around charts");
+    command.add_flag("--stitch", flags.stitch,
+                     "Make light agree where charts cut a smooth surface");
 }
 
 }  // namespace
@@ -262,12 +250,15 @@ void add_bake(CLI::App& app) {
     command->add_option("--png", flags->picture.png, "PNG preview of the atlas")
         ->type_name("FILE")
         ->default_str("none");
-    command->add_option("--gltf", flags->gltf, "GLB of the scene with the atlas's UVs as set 1")
-        ->type_name("FILE")
-        ->default_str("none");
+    command
+        ->add_option("--exposure", flags->picture.exposure,
+                     "Exposure of --png and --gltf; at 0, 1 is white")
+        ->type_name("STOPS")
+        ->default_str("from the light");
+    add_bake_gltf_flags(*command, flags->gltf);
     add_method_flags(*command, *flags);
     add_atlas_flags(*command, *flags);
-    add_light_flags(*command, flags->bake.emitters);
+    add_emitter_flags(*command, flags->bake.emitters);
     add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
     command->add_option("--scene", flags->scene_index, "Index of the glTF scene")

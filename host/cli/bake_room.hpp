@@ -1,28 +1,53 @@
-// Whether so many VPLs can be baked at all, before they are placed: that takes long, and memory of
-// its own.
+// What bakes have in common: flags, whether so many VPLs fit, patches, VPLs and texels of a scene.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <fmt/format.h>
-
-#include <clgi/error.hpp>
+#include <CLI/CLI.hpp>
+#include <chrono>
 #include <clgi/opencl.hpp>
+#include <clgi/patches.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 #include <string>
 
 namespace clgi::cli {
 
-// Throws DeviceError that begins with the command's name.
-inline void need_room(const std::string& command, const cl::Device& device,
-                      const VplOptions& options) {
-    const std::size_t samples = std::size_t{options.count} * options.samples_per_vpl;
-    const std::size_t needed = light_atlas_least_bytes(options.count, samples);
-    const std::size_t memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
-    if (needed <= memory) return;
-    throw DeviceError(fmt::format(
-        "{}: {} VPLs with {} samples each need {} MB at the least, the device has {} MB; lower "
-        "--vpls or --samples-per-vpl",
-        command, options.count, options.samples_per_vpl, needed / 1000000, memory / 1000000));
+// Seconds from its making.
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// --bounces, --hemicube-size and --atlas-size. prefix: of what each is for.
+void add_bake_flags(CLI::App& command, const std::string& prefix, LightAtlasOptions& bake,
+                    AtlasOptions& atlas);
+
+// --shadow-size, --face-size, --area-samples and --environment-lights.
+void add_emitter_flags(CLI::App& command, EmitterOptions& emitters);
+
+// An option that takes whole numbers from `least` to `most`.
+template <typename T>
+CLI::Option* add_count(CLI::App& command, const std::string& name, T& value,
+                       const std::string& text, int least, int most) {
+    return command.add_option(name, value, text)->type_name("N")->check(CLI::Range(least, most));
 }
+
+// Whether so many VPLs can be baked at all, before they are placed: that takes long, and memory of
+// its own. Throws DeviceError that begins with the command's name.
+void need_room(const std::string& command, const cl::Device& device, const VplOptions& options);
+
+struct BakeLayout {
+    Patches patches;
+    VplLayout vpls;
+    AtlasLayout atlas;
+    double seconds = 0.0;
+};
+
+// Adds the warnings of the atlas to the scene's, and prints them unless quiet.
+BakeLayout lay_out(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas, bool quiet);
 
 }  // namespace clgi::cli

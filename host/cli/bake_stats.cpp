@@ -24,19 +24,24 @@ ordered_json passes_json(const std::vector<PassEvent>& events) {
 
 void save_bake_stats(const BakeRecord& record, const std::filesystem::path& path) {
     const LightAtlasStatus status = record.solver.status();
-    const ordered_json json = {
+    const BakeLayout& layout = record.layout;
+    ordered_json json = {
         {"clgi", CLGI_VERSION},
         {"method", "atlas"},
         {"scene",
          {{"triangles", record.scene.triangles.size()}, {"lights", record.scene.lights.size()}}},
-        {"vpls", record.vpls.vpls.size()},
-        {"sample_points", record.vpls.samples.size()},
-        {"patches", record.patches.patches.size()},
-        {"skipped_area", record.patches.skipped_area},
-        {"texels", record.atlas.texels.size()},
-        {"texels_skipped_area", record.atlas.skipped_area},
-        {"pages", record.atlas.pages},
-        {"charts", record.atlas.charts.size()},
+        {"vpls", layout.vpls.vpls.size()},
+        {"sample_points", layout.vpls.samples.size()},
+        {"patches", layout.patches.patches.size()},
+        {"skipped_area", layout.patches.skipped_area},
+        {"texels", layout.atlas.texels.size()},
+        {"texels_skipped_area", layout.atlas.skipped_area},
+        {"pages", layout.atlas.pages},
+        {"charts", layout.atlas.charts.size()},
+        {"seams",
+         {{"length", record.seams.length},
+          {"difference", record.seams.difference},
+          {"worst", record.seams.worst}}},
         {"shots", status.shots},
         {"transport_kept", status.transport_kept},
         {"visibility_kept", status.visibility_kept},
@@ -48,13 +53,15 @@ void save_bake_stats(const BakeRecord& record, const std::filesystem::path& path
           {"lost", status.power_lost},
           {"left", status.power_left}}},
         {"seconds",
-         {{"layout", record.layout_seconds},
+         {{"layout", layout.seconds},
           {"build", record.build_seconds},
           {"bake", record.bake_seconds}}},
         {"passes", passes_json(record.solver.events())},
         {"memory_mb", static_cast<double>(record.solver.bytes()) / 1e6},
         {"non_finite", status.non_finite},
         {"warnings", record.scene.warnings}};
+    if (record.gltf)
+        json["gltf"] = {{"exposure", record.gltf->stops}, {"detail", record.gltf->detail}};
     io::AtomicFile file(path);
     const std::string text =
         json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

@@ -4,17 +4,19 @@
 
 #include <clgi/clgi.hpp>
 #include <filesystem>
-#include <vector>
+#include <optional>
+
+#include "cli/bake_gltf.hpp"
+#include "cli/bake_room.hpp"
 
 namespace clgi::cli {
 
 struct BakeRecord {
     const Scene& scene;
-    const Patches& patches;
-    const VplLayout& vpls;
-    const AtlasLayout& atlas;
+    const BakeLayout& layout;
     const LightAtlasSolver& solver;
-    double layout_seconds = 0.0;  // patches, VPLs, charts, texels; on the host
+    AtlasSeams seams;
+    std::optional<LitGltf> gltf;  // none: no such file
     double build_seconds = 0.0;   // kernels and buffers
     double bake_seconds = 0.0;
     std::uint32_t resumed_at = 0;  // VPLs that had lit the texels before

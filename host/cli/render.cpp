@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "cli/ask.hpp"
+#include "cli/bake_room.hpp"
 #include "cli/commands.hpp"
 #include "cli/gl_frames.hpp"
 #include "cli/render_flags.hpp"
@@ -228,28 +229,14 @@ void add_render(CLI::App& app) {
                      "Pixels between low-resolution points")
         ->type_name("N")
         ->check(CLI::IsMember({2, 4}));
-    command
-        ->add_option("--shadow-size", options.emitters.shadow_size,
-                     "Pixels per side of the shadow map of a spot or directional light")
-        ->type_name("N")
-        ->check(CLI::Range(1, 8192));
-    command
-        ->add_option("--face-size", options.emitters.face_size,
-                     "Pixels per side of a cube or hemicube face, for point and area lights")
-        ->type_name("N")
-        ->check(CLI::Range(1, 4096));
-    command
-        ->add_option("--area-samples", options.emitters.area_samples,
-                     "Sample points on all emissive surfaces together")
-        ->type_name("N")
-        ->check(CLI::Range(0, 4096));
+    add_emitter_flags(*command, options.emitters);
     add_environment_flags(*command, flags->environment);
-    add_atlas_method_flags(*command, flags->atlas);
+    add_bake_flags(*command, "atlas: ", flags->atlas.bake, flags->atlas.layout);
     command
-        ->add_option("--environment-lights", options.emitters.environment_lights,
-                     "Directional lights that approximate the environment")
-        ->type_name("N")
-        ->check(CLI::Range(0, 4096));
+        ->add_option("--least-change", flags->atlas.least_change,
+                     "atlas, with --spin-light: change of a VPL's power that lights texels anew, of "
+                     "the mean power of VPLs")
+        ->type_name("X");
     command->add_option("--gbuffer", flags->gbuffer, "What rasterises the camera's view")
         ->type_name("WHAT")
         ->check(CLI::IsMember({"cl", "gl"}));

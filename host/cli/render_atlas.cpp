@@ -15,12 +15,6 @@
 namespace clgi::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 std::vector<std::string> effects_of(const DeviceScene& scene, const LightAtlasView& view) {
     std::vector<std::string> out;
     const bool direct = view.options().direct;
@@ -53,28 +47,6 @@ void check(const RenderFlags& flags, const Scene& scene) {
 
 }  // namespace
 
-void add_atlas_method_flags(CLI::App& command, AtlasFlags& flags) {
-    command
-        .add_option("--bounces", flags.bake.bounces,
-                    "atlas: reflections of light at most; 0: all that matter")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1000));
-    command
-        .add_option("--atlas-size", flags.layout.size, "atlas: texels, side of a page of the atlas")
-        ->type_name("N")
-        ->check(CLI::Range(1, 8192));
-    command
-        .add_option("--hemicube-size", flags.bake.hemicube_size,
-                    "atlas: pixels of the face of a VPL's hemicube")
-        ->type_name("N")
-        ->check(CLI::Range(32, 1024));
-    command
-        .add_option("--least-change", flags.least_change,
-                    "atlas, with --spin-light: change of a VPL's power that lights texels anew, of "
-                    "the mean power of VPLs")
-        ->type_name("X");
-}
-
 void run_atlas(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     AtlasFlags& atlas_flags = flags.atlas;
@@ -87,36 +59,32 @@ void run_atlas(RenderFlags flags) {
     const Session session = open_session(flags.device);
     need_room("render", session.device, atlas_flags.vpls);
 
-    auto start = Clock::now();
-    const Patches patches = make_patches(scene);
-    const VplLayout vpls = place_vpls(scene, patches, atlas_flags.vpls);
-    const AtlasLayout atlas = make_atlas(scene, patches.triangle_patch, atlas_flags.layout);
-    BakeSummary bake{vpls.vpls.size(), atlas.texels.size(), atlas.pages, milliseconds_since(start)};
-    for (const std::string& warning : atlas.warnings) {
-        notice(quiet, "warning: " + warning);
-        scene.warnings.push_back(warning);
-    }
-    start = Clock::now();
+    const BakeLayout layout = lay_out(scene, atlas_flags.vpls, atlas_flags.layout, quiet);
+    const AtlasLayout& atlas = layout.atlas;
+    BakeSummary bake{layout.vpls.vpls.size(), atlas.texels.size(), atlas.pages,
+                     1e3 * layout.seconds};
+    const Stopwatch build;
     DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
     atlas_flags.bake.emitters = flags.options.emitters;
     atlas_flags.bake.build = build_of(flags.device);
-    LightAtlasSolver solver(programs, session.queue, device_scene, vpls, atlas, atlas_flags.bake);
+    LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, atlas,
+                            atlas_flags.bake);
     LightAtlasView view(programs, session.queue, device_scene, atlas, view_options(flags));
     RenderRecord record;
-    record.build_ms = milliseconds_since(start);
+    record.build_ms = 1e3 * build.seconds();
 
     catch_interrupts();
-    start = Clock::now();
+    const Stopwatch baking;
     if (!solver.run(progress_bar("bake", quiet))) throw Interrupted();
-    bake.bake_ms = milliseconds_since(start);
+    bake.bake_ms = 1e3 * baking.seconds();
     // The first picture warms up and is not timed.
     view.render(camera, solver.irradiance_planes(), solver.stride()).wait();
     const Bounds box = bounds(scene);
     for (int frame = 0; frame < flags.frames; ++frame) {
         const double angle = glm::two_pi<double>() * frame / flags.frames;
         const Camera at = flags.orbit ? orbited(camera, 0.5 * (box.low + box.high), angle) : camera;
-        start = Clock::now();
+        const Stopwatch frame_watch;
         if (flags.spin_light) {  // the frame's time has the change of the bake in it
             spin_lights(device_scene, scene, angle);
             solver.lights_changed();
@@ -126,7 +94,7 @@ void run_atlas(RenderFlags flags) {
         }
         view.render(at, solver.irradiance_planes(), solver.stride());
         session.queue.finish();
-        record.frame_ms.push_back(milliseconds_since(start));
+        record.frame_ms.push_back(1e3 * frame_watch.seconds());
         record.passes.push_back(report::pass_times(view.events()));
         if (interrupted()) throw Interrupted();
     }

@@ -20,7 +20,6 @@ struct AtlasFlags {
     LightAtlasOptions bake;
     std::string least_change = "0.1%";  // that a VPL sends on, of the mean power of VPLs
 };
-void add_atlas_method_flags(CLI::App& command, AtlasFlags& flags);
 
 struct RenderFlags {
     DeviceFlags device;

@@ -12,19 +12,6 @@ namespace {
 constexpr double samples_per_texel = 2.0;
 constexpr int fewest_samples = 8, most_samples = 128;
 
-glm::dvec2 uv_of(const Scene& scene, std::uint32_t vertex, const TextureSlot& slot) {
-    const glm::vec4& both = scene.uvs[vertex];
-    const glm::dvec3 uv =
-        slot.uv_set == 0 ? glm::dvec3(both.x, both.y, 1.0) : glm::dvec3(both.z, both.w, 1.0);
-    return glm::dvec2(glm::dmat3(slot.transform) * uv);
-}
-
-UvTriangle uvs_of(const Scene& scene, const SceneTriangle& triangle, const TextureSlot& slot) {
-    UvTriangle out;
-    for (std::size_t k = 0; k < 3; ++k) out[k] = uv_of(scene, triangle.vertex[k], slot);
-    return out;
-}
-
 bool shines(const Material& material) { return luminance(material.emission) > 0.0f; }
 
 }  // namespace
@@ -51,11 +38,11 @@ glm::dvec3 EmissionMeans::masked(const SceneTriangle& triangle) const {
     UvTriangle emission_uv{}, base_uv{};
     double texels = 0.0;
     if (emission.texture >= 0) {
-        emission_uv = uvs_of(scene_, triangle, emission);
+        emission_uv = slot_uvs(scene_, triangle, emission);
         texels = textures_[emission.texture].extent(emission_uv);
     }
     if (base.texture >= 0) {
-        base_uv = uvs_of(scene_, triangle, base);
+        base_uv = slot_uvs(scene_, triangle, base);
         texels = std::max(texels, textures_[base.texture].extent(base_uv));
     }
     const int side = static_cast<int>(
@@ -84,7 +71,7 @@ glm::dvec3 EmissionMeans::operator()(const SceneTriangle& triangle) const {
     if (material.alpha_mode == AlphaMode::mask) return factor * masked(triangle);
     const TextureSlot& slot = material.emission_texture;
     if (slot.texture < 0) return factor;
-    return factor * textures_[slot.texture].over(uvs_of(scene_, triangle, slot));
+    return factor * textures_[slot.texture].over(slot_uvs(scene_, triangle, slot));
 }
 
 }  // namespace clgi

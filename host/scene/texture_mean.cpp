@@ -53,6 +53,17 @@ private:
 
 }  // namespace
 
+UvTriangle slot_uvs(const Scene& scene, const SceneTriangle& triangle, const TextureSlot& slot) {
+    UvTriangle out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec4& both = scene.uvs[triangle.vertex[k]];
+        const glm::dvec2 uv(slot.uv_set == 0 ? glm::vec2(both.x, both.y)
+                                             : glm::vec2(both.z, both.w));
+        out[k] = glm::dvec2(glm::dmat3(slot.transform) * glm::dvec3(uv, 1.0));
+    }
+    return out;
+}
+
 TextureMean::TextureMean(const Texture& texture) : texture_(&texture) {
     const std::vector<float> srgb = srgb_decode_table();
     for (std::size_t i = 0; i < 256; ++i)

@@ -21,6 +21,9 @@ inline glm::dvec2 between(const UvTriangle& uv, const glm::dvec3& weight) {
     return weight.x * uv[0] + weight.y * uv[1] + weight.z * uv[2];
 }
 
+// Where the corners of a triangle lie in a material's texture.
+UvTriangle slot_uvs(const Scene& scene, const SceneTriangle& triangle, const TextureSlot& slot);
+
 // Calls visit with the weights of the corners at the centres of side^2 equal parts of a triangle.
 template <typename Visit>
 void for_lattice(int side, Visit&& visit) {

@@ -11,17 +11,11 @@ double decode_srgb(double s) {
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-std::uint32_t encode_srgb(double linear) {
-    const double s =
-        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint32_t>(std::clamp(s * 255.0 + 0.5, 0.0, 255.0));
-}
-
 // Encoding by table: nearest of 4096 steps is well within half a byte's width.
 class Encoder {
 public:
     Encoder() : bytes_(4097) {
-        for (int i = 0; i <= 4096; ++i) bytes_[i] = encode_srgb(i / 4096.0);
+        for (int i = 0; i <= 4096; ++i) bytes_[i] = srgb_byte(i / 4096.0);
     }
     std::uint32_t operator()(float linear) const {
         return bytes_[static_cast<int>(std::clamp(linear, 0.0f, 1.0f) * 4096.0f + 0.5f)];
@@ -98,7 +92,35 @@ Level first_level(const Texture& texture, const Encoder& encode) {
     return level;
 }
 
+std::vector<Level> levels_of(const Texture& texture, const std::vector<float>& decode,
+                             const Encoder& encode) {
+    std::vector<Level> out{first_level(texture, encode)};
+    while (out.back().width > 1 || out.back().height > 1)
+        out.push_back(halve(out.back(), decode, encode));
+    return out;
+}
+
 }  // namespace
+
+std::vector<Texture> texture_levels(const Texture& texture) {
+    std::vector<Texture> out;
+    for (const Level& level : levels_of(texture, srgb_decode_table(), Encoder())) {
+        Texture as{texture.name,   level.width,    level.height,    {},
+                   texture.wrap_s, texture.wrap_t, texture.nearest, true};
+        as.rgba.reserve(4 * level.texels.size());
+        for (const std::uint32_t texel : level.texels)
+            for (int c = 0; c < 4; ++c)
+                as.rgba.push_back(static_cast<std::uint8_t>(texel >> (8 * c) & 255));
+        out.push_back(std::move(as));
+    }
+    return out;
+}
+
+std::uint8_t srgb_byte(double linear) {
+    const double v = linear > 0.0 ? std::min(linear, 1.0) : 0.0;  // not a number is black
+    const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(s * 255.0 + 0.5);
+}
 
 std::vector<float> srgb_decode_table() {
     std::vector<float> table(256);
@@ -116,17 +138,12 @@ TexturePool make_texture_pool(const std::vector<Texture>& textures) {
         record.first_texel = static_cast<std::uint32_t>(pool.texels.size());
         record.width = texture.width;
         record.height = texture.height;
-        std::uint32_t levels = 0;
-        Level level = first_level(texture, encode);
-        while (true) {
+        const std::vector<Level> levels = levels_of(texture, decode, encode);
+        for (const Level& level : levels)
             pool.texels.insert(pool.texels.end(), level.texels.begin(), level.texels.end());
-            ++levels;
-            if (level.width == 1 && level.height == 1) break;
-            level = halve(level, decode, encode);
-        }
         record.flags = wrap_bits(texture.wrap_s) | wrap_bits(texture.wrap_t) << 2 |
                        (texture.nearest ? std::uint32_t{TEXTURE_NEAREST} : 0u) |
-                       levels << TEXTURE_LEVELS_SHIFT;
+                       static_cast<std::uint32_t>(levels.size()) << TEXTURE_LEVELS_SHIFT;
         pool.records.push_back(record);
     }
     return pool;

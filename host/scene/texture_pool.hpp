@@ -16,7 +16,13 @@ struct TexturePool {
 // Mip levels are averaged in linear light.
 TexturePool make_texture_pool(const std::vector<Texture>& textures);
 
+// The mip levels of one, as sRGB, from all of its size to 1x1.
+std::vector<Texture> texture_levels(const Texture& texture);
+
 // Linear value of every sRGB byte, IEC 61966-2-1. [256]
 std::vector<float> srgb_decode_table();
+
+// The nearest byte, by the same curve. Below 0 and not a number: 0; above 1: 255.
+std::uint8_t srgb_byte(double linear);
 
 }  // namespace clgi

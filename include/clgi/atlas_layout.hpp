@@ -87,9 +87,14 @@ struct AtlasLayout {
 CLGI_API AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& region_of,
                                 const AtlasOptions& options = {});
 
-// The scene with the atlas's coordinates as UV set 1: a vertex for every corner. Pages lie below each
-// other. Materials that read UV set 1 read the atlas's then. Throws Error for a layout of another
-// scene.
-CLGI_API Scene with_atlas_uvs(const Scene& scene, const AtlasLayout& atlas);
+enum class AtlasPages {
+    stacked,  // one unit square with the pages below each other
+    each,     // a unit square each
+};
+
+// The scene with the atlas's coordinates as UV set 1. Vertices are those that differ in anything.
+// Materials that read UV set 1 read the atlas's then. Throws Error for a layout of another scene.
+CLGI_API Scene with_atlas_uvs(const Scene& scene, const AtlasLayout& atlas,
+                              AtlasPages pages = AtlasPages::stacked);
 
 }  // namespace clgi

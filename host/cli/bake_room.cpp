@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "cli/bake_room.hpp"
+
+#include <fmt/format.h>
+
+#include <clgi/error.hpp>
+
+#include "cli/session.hpp"
+
+namespace clgi::cli {
+
+void add_bake_flags(CLI::App& command, const std::string& prefix, LightAtlasOptions& bake,
+                    AtlasOptions& atlas) {
+    add_count(command, "--bounces", bake.bounces,
+              prefix + "Reflections of light at most before it reaches a texel; 0: all that matter",
+              0, 1000);
+    add_count(command, "--hemicube-size", bake.hemicube_size,
+              prefix + "Pixels of the face of a VPL's hemicube", 32, 1024);
+    add_count(command, "--atlas-size", atlas.size, prefix + "Texels, side of a page of the atlas",
+              1, 8192);
+}
+
+void add_emitter_flags(CLI::App& command, EmitterOptions& emitters) {
+    add_count(command, "--shadow-size", emitters.shadow_size,
+              "Pixels per side of the shadow map of a spot or directional light", 1, 8192);
+    add_count(command, "--face-size", emitters.face_size,
+              "Pixels per side of a cube or hemicube face, for point and area lights", 1, 4096);
+    add_count(command, "--area-samples", emitters.area_samples,
+              "Sample points on all emissive surfaces together", 0, 4096);
+    add_count(command, "--environment-lights", emitters.environment_lights,
+              "Directional lights that approximate the environment", 0, 4096);
+}
+
+void need_room(const std::string& command, const cl::Device& device, const VplOptions& options) {
+    const std::size_t samples = std::size_t{options.count} * options.samples_per_vpl;
+    const std::size_t needed = light_atlas_least_bytes(options.count, samples);
+    const std::size_t memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    if (needed <= memory) return;
+    throw DeviceError(fmt::format(
+        "{}: {} VPLs with {} samples each need {} MB at the least, the device has {} MB; lower "
+        "--vpls or --samples-per-vpl",
+        command, options.count, options.samples_per_vpl, needed / 1000000, memory / 1000000));
+}
+
+BakeLayout lay_out(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas, bool quiet) {
+    const Stopwatch watch;
+    BakeLayout out;
+    out.patches = make_patches(scene);
+    out.vpls = place_vpls(scene, out.patches, vpls);
+    out.atlas = make_atlas(scene, out.patches.triangle_patch, atlas);
+    out.seconds = watch.seconds();
+    for (const std::string& warning : out.atlas.warnings) {
+        notice(quiet, "warning: " + warning);
+        scene.warnings.push_back(warning);
+    }
+    return out;
+}
+
+}  // namespace clgi::cli
