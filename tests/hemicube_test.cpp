@@ -4,74 +4,17 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "math_modes.hpp"
-#include "vpl_tools.hpp"
+#include "hemicube_eye.hpp"
 
 namespace clgi {
 namespace {
 
+using test::add_square;
+using test::Eye;
+using test::place;
 using test::Random;
+using test::specks;
 using test::SurfacePlace;
-
-// A VPL with its five faces.
-struct Eye {
-    Eye(const DeviceScene& scene, const glm::vec3& position, const glm::vec3& normal,
-        std::uint32_t size = 128, Pixels kind = Pixels::depth)
-        : site({{position, normal, 1e-9f, glm::vec3(1.0f), {{position, normal, normal}}}}, {},
-               {glm::vec3(1.0f)}),
-          cubes(test::hemicubes(site, &scene, {0, 1, size, kind})) {
-        for (const View& view : test::download<View>(cubes.views, 5)) faces.push_back(view);
-        at = glm::dvec3(position);
-        a = glm::dvec3(glm::vec3(faces[0].right));
-        b = glm::dvec3(glm::vec3(faces[0].up));
-        c = glm::dvec3(glm::vec3(faces[0].forward));
-    }
-    // Whether each point is seen. Normals are the geometric ones.
-    std::vector<bool> sees(const std::vector<SurfacePlace>& points,
-                           const AtlasPasses& passes = test::atlas_passes()) const {
-        const auto count = static_cast<std::uint32_t>(points.size());
-        const std::uint32_t stride = test::padded(count);
-        const cl::Buffer irradiance = test::upload(std::vector<float>(3 * stride));
-        const cl::Buffer filled = test::upload(std::vector<float>(stride));
-        const SiteBuffers& s = site.buffers;
-        passes.gather(
-            test::device().queue, {0, 1, s.stride, s.sample_stride, count, stride, 0, cubes.words},
-            s, cubes.views, cubes.pixels,
-            test::upload_points(points, stride, GBUFFER_GEOMETRIC + 3), irradiance, filled);
-        std::vector<bool> out;
-        for (const float value : test::download<float>(filled, count)) out.push_back(value > 0.0f);
-        return out;
-    }
-    glm::dvec3 along(double x, double y, double z) const {
-        return glm::normalize(x * a + y * b + z * c);
-    }
-    test::Sites site;
-    test::Hemicubes cubes;
-    std::vector<View> faces;
-    glm::dvec3 at, a, b, c;
-};
-
-// A square of side 2 * half about a point.
-void add_square(Scene& world, const glm::dvec3& center, const glm::dvec3& normal, double half) {
-    const glm::dvec3 helper = std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 u = half * glm::normalize(glm::cross(helper, normal));
-    const glm::dvec3 v = glm::cross(normal, u);
-    test::add_quad(world, {center - u - v, center + u - v, center + u + v, center - u + v});
-}
-
-// Something far behind every plane that faces this way, so that a scene's size is about 1.
-Scene specks(const glm::dvec3& facing) {
-    Scene world = test::plain_scene();
-    const glm::dvec3 at = -1.2 * facing;
-    for (const double s : {-0.3, 0.3})
-        test::add_triangle(world, at + glm::dvec3(s), at + glm::dvec3(s, s, 0.99 * s),
-                           at + glm::dvec3(s, 0.99 * s, s));
-    return world;
-}
-
-SurfacePlace place(const DeviceScene& scene, const glm::dvec3& world, const glm::dvec3& normal) {
-    return {scene.frame().to_local(world), glm::vec3(normal), glm::vec3(normal)};
-}
 
 // Directions about a hemicube: at random, and on and beside the edges of its faces.
 std::vector<glm::dvec3> directions(const Eye& eye, Random& random) {

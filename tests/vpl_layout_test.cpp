@@ -17,9 +17,38 @@
 namespace clgi {
 namespace {
 
+using test::corner;
 using test::least_distance;
 using test::position;
 using test::positions;
+
+// Does a triangle of another region meet the way between two points, a 64th of its length above the
+// surface? Along the surface only: not where that bends away from under it.
+bool divided(const Scene& scene, const Patches& patches, const VplLayout& layout,
+             const SamplePoint& a, const SamplePoint& b, double side) {
+    const glm::dvec3 from = position(scene, a), way = position(scene, b) - from;
+    const glm::dvec3 n = side * glm::normalize(test::normal_of(scene, a.triangle));
+    const glm::dvec3 m = side * glm::normalize(test::normal_of(scene, b.triangle));
+    const double lift = glm::length(way) / 64.0;
+    if (glm::dot(way, n) < -lift || glm::dot(way, m) > lift) return false;
+    const glm::dvec3 start = from + lift * n, end = from + way + lift * m;
+    const auto region = [&](std::uint32_t t) {
+        const std::uint32_t patch = patches.triangle_patch[t];
+        return patch == no_index ? no_index : layout.patch_region[patch];
+    };
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        if (region(t) == region(a.triangle)) continue;
+        // Both ends on different sides of its plane, and it around the line: signs of volumes.
+        const glm::dvec3 p = corner(scene, t, 0) - start, q = corner(scene, t, 1) - start,
+                         r = corner(scene, t, 2) - start, d = end - start;
+        const glm::dvec3 across = glm::cross(q - p, r - p);
+        if (glm::dot(p, across) * glm::dot(p - d, across) > 0.0) continue;
+        const double u = glm::dot(d, glm::cross(p, q)), v = glm::dot(d, glm::cross(q, r)),
+                     w = glm::dot(d, glm::cross(r, p));
+        if ((u > 0.0 && v > 0.0 && w > 0.0) || (u < 0.0 && v < 0.0 && w < 0.0)) return true;
+    }
+    return false;
+}
 
 // What must hold for any layout. Every stride-th sample is checked against all VPLs.
 void expect_consistent(const Scene& scene, const Patches& patches, const VplLayout& layout,
@@ -64,9 +93,16 @@ void expect_consistent(const Scene& scene, const Patches& patches, const VplLayo
             if ((vpl.first_sample + i) % stride != 0) continue;
             const glm::dvec3 p = position(scene, sample);
             const double mine = glm::length(p - at[v]);
-            for (std::size_t other = 0; other < layout.vpls.size(); ++other)
-                if (layout.vpls[other].region == vpl.region && layout.vpls[other].back == vpl.back)
-                    not_nearest += glm::length(p - at[other]) < mine * (1 - 1e-9) - 1e-12;
+            for (std::size_t other = 0; other < layout.vpls.size(); ++other) {
+                const VplSite& site = layout.vpls[other];
+                if (site.region != vpl.region || site.back != vpl.back) continue;
+                if (!(glm::length(p - at[other]) < mine * (1 - 1e-9) - 1e-12)) continue;
+                const SamplePoint there{site.triangle, site.b1, site.b2};
+                const bool both =
+                    scene.materials[scene.triangles[vpl.triangle].material].double_sided;
+                not_nearest += !divided(scene, patches, layout, sample, there, 1.0) &&
+                               !(both && divided(scene, patches, layout, sample, there, -1.0));
+            }
         }
     }
     EXPECT_EQ(outside, 0u);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "vpl/sites.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "vpl/nearest.hpp"
 
 namespace clgi {
@@ -23,16 +26,40 @@ std::uint32_t spare_point(const std::vector<glm::dvec3>& points, const glm::dvec
     return best;
 }
 
+using Divided = std::function<bool(std::uint32_t point, std::uint32_t site)>;
+
+// The nearest site on the point's side, or else `nearest`, of which it is known that it is not.
+std::uint32_t undivided_site(std::uint32_t point, const glm::dvec3& at,
+                             const std::vector<glm::dvec3>& sites, std::uint32_t nearest,
+                             const Divided& divided) {
+    constexpr std::size_t most = 16;
+    thread_local std::vector<std::pair<double, std::uint32_t>> near;
+    near.clear();
+    for (std::uint32_t s = 0; s < sites.size(); ++s) {
+        const glm::dvec3 d = sites[s] - at;
+        near.emplace_back(glm::dot(d, d), s);
+    }
+    const auto last = near.begin() + static_cast<std::ptrdiff_t>(std::min(most, near.size()));
+    std::partial_sort(near.begin(), last, near.end());
+    for (auto s = near.begin(); s != last; ++s)
+        if (s->second != nearest && !divided(point, s->second)) return s->second;
+    return nearest;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> nearest_sites(const std::vector<glm::dvec3>& points,
-                                         const std::vector<glm::dvec3>& sites) {
+                                         const std::vector<glm::dvec3>& sites,
+                                         const Divided& divided) {
     const Nearest nearest(sites);
     std::vector<std::uint32_t> owner(points.size()), members(sites.size());
     std::uint32_t last = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         owner[i] = last = nearest(points[i], last);
-        ++members[last];
+        const auto point = static_cast<std::uint32_t>(i);
+        if (divided && divided(point, last))
+            owner[i] = undivided_site(point, points[i], sites, last, divided);
+        ++members[owner[i]];
     }
     for (std::uint32_t s = 0; s < sites.size(); ++s) {
         if (members[s] > 0) continue;

@@ -11,6 +11,7 @@
 #include "vpl/even_points.hpp"
 #include "vpl/regions.hpp"
 #include "vpl/sites.hpp"
+#include "vpl/walls.hpp"
 
 namespace clgi {
 namespace {
@@ -22,6 +23,9 @@ constexpr double most_samples = 1u << 28;
 // little remains. Samples count what is hidden behind straight edges, and rows may be parallel to
 // these.
 constexpr double site_jitter = 0.25, sample_jitter = 0.5;
+
+// Height above the surface, as a share of the way, at which what stands on it divides two points.
+constexpr double walk_lift = 1.0 / 64.0;
 
 [[noreturn]] void fail(const char* name, const std::string& got, const std::string& needs) {
     throw Error(std::string("place_vpls: ") + name + " is " + got + ", needs " + needs);
@@ -96,7 +100,7 @@ SamplePoint sample_of(std::uint32_t triangle, const glm::dvec2& b) {
 class Placement {
 public:
     Placement(const Scene& scene, const Patches& patches, VplLayout& out)
-        : scene_(scene), patches_(patches), out_(out) {}
+        : scene_(scene), patches_(patches), out_(out), walls_(scene) {}
 
     void place(const Region& region, std::uint32_t number, std::uint32_t sample_count) {
         std::vector<std::uint32_t> triangles;
@@ -115,7 +119,11 @@ public:
         std::iota(owner.begin(), owner.end(), 0u);
         if (sample_count > region.vpls) {
             samples = spread(pieces, triangles, sample_count, sample_jitter);
-            owner = nearest_sites(samples.positions, sites.positions);
+            owner = nearest_sites(samples.positions, sites.positions,
+                                  [&](std::uint32_t i, std::uint32_t s) {
+                                      return divided(region, number, samples.points[i],
+                                                     sites.points[s]);
+                                  });
         }
         append(region, number, sites.points, samples.points, owner);
     }
@@ -160,6 +168,43 @@ private:
         return out;
     }
 
+    // Does another surface stand between two points, on a side that counts? The way from one to the
+    // other runs a little above the surface; across a convex one it would run inside, which says
+    // nothing.
+    bool divided(const Region& region, std::uint32_t number, const SamplePoint& a,
+                 const SamplePoint& b) const {
+        const SurfacePoint from = surface_point(a), to = surface_point(b);
+        const glm::dvec3 way = to.position - from.position;
+        const double lift = walk_lift * glm::length(way);
+        const auto counts = [&](std::uint32_t triangle) {
+            const std::uint32_t patch = patches_.triangle_patch[triangle];
+            return patch == no_index || out_.patch_region[patch] != number;
+        };
+        for (const double side : {lift, -lift}) {
+            if (side < 0.0 && !region.double_sided) continue;
+            const double sign = side < 0.0 ? -1.0 : 1.0;
+            if (sign * glm::dot(way, from.normal) < -lift) continue;
+            if (sign * glm::dot(way, to.normal) > lift) continue;
+            if (walls_.between(from.position + side * from.normal, to.position + side * to.normal,
+                               counts))
+                return true;
+        }
+        return false;
+    }
+
+    struct SurfacePoint {
+        glm::dvec3 position, normal;
+    };
+
+    SurfacePoint surface_point(const SamplePoint& point) const {
+        const auto& vertex = scene_.triangles[point.triangle].vertex;
+        const glm::dvec3 first = scene_.positions[vertex[0]];
+        const glm::dvec3 edge1 = scene_.positions[vertex[1]] - first;
+        const glm::dvec3 edge2 = scene_.positions[vertex[2]] - first;
+        return {first + double{point.b1} * edge1 + double{point.b2} * edge2,
+                glm::normalize(glm::cross(edge1, edge2))};
+    }
+
     void append(const Region& region, std::uint32_t number, const std::vector<SamplePoint>& sites,
                 const std::vector<SamplePoint>& samples, const std::vector<std::uint32_t>& owner) {
         std::vector<std::vector<std::uint32_t>> members(sites.size());
@@ -179,6 +224,7 @@ private:
     const Scene& scene_;
     const Patches& patches_;
     VplLayout& out_;
+    const Walls walls_;
 };
 
 }  // namespace

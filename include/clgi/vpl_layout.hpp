@@ -28,7 +28,8 @@ struct VplSite {
     float b1, b2;                // b1, b2, 1 - b1 - b2: all at least 0
     std::uint32_t first_sample;  // in VplLayout::samples
     std::uint32_t sample_count;  // m_j, at least 1
-    std::uint32_t region;        // samples belong to the nearest site of their region and side
+    std::uint32_t region;        // samples belong to the nearest site of their region and side from
+                                 // which no other surface divides them, if one is near
     float area;                  // m^2, A_j: its share of the region's area by samples
     bool back;                   // lies on the side that the triangle is not wound for
 };
