@@ -10,7 +10,8 @@
 //
 // Unlike paper  visibility by depth test at the texel; form factor as vpl/exchange.clh
 // Work size     1D, one work-item for every CLGI_WIDTH texels; any local size; tail guarded
-// Writes        its own texels; beside the light, the share of the hemisphere that the VPLs fill
+// Writes        its own texels; beside the light, the share of the hemisphere that the VPLs fill,
+//               however bright their parts are
 // Cost          some 90 flops and one look-up a pair that faces each other; 15 for others
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/atlas.h"
@@ -61,12 +62,13 @@ kernel void atlas_gather(
         if (!packet_any(wanted)) continue;
         intp seen = hemicube_sees(&cube, depth, dx, dy, dz, gx, gy, gz, wanted);
         if (!packet_any(seen)) continue;
+        floatp even;
         floatp kernel_value = exchange_kernel(&shooter, samples, weights, params.sample_stride, px, py, pz, nx,
                                               ny, nz, px - packet_splat(shooter.position.x),
                                               py - packet_splat(shooter.position.y),
-                                              pz - packet_splat(shooter.position.z));
+                                              pz - packet_splat(shooter.position.z), &even);
         kernel_value = packet_select(zero, kernel_value, seen);
-        form_factors = fma(kernel_value, packet_splat(factor), form_factors);
+        form_factors = fma(packet_select(zero, even, seen), packet_splat(factor), form_factors);
         for (int c = 0; c < 3; ++c)
             sum[c] = fma(kernel_value, packet_splat(power[c]), sum[c]);
     }

@@ -84,19 +84,22 @@ kernel void atlas_project(
         uint site = chosen[params.first_shooter + s];
         Shooter shooter = exchange_shooter(sites, site_planes, params.site_stride, site);
         float3 to = p - shooter.position.xyz;
-        float kernel_value[CLGI_WIDTH];  // all lanes alike; there is one
+        floatp even;
+        float kernel_value[CLGI_WIDTH], form[CLGI_WIDTH];  // all lanes alike; there is one
         packet_store(exchange_kernel(&shooter, samples, weights, params.sample_stride,
                                      packet_splat(p.x), packet_splat(p.y), packet_splat(p.z),
                                      packet_splat(n.x), packet_splat(n.y), packet_splat(n.z),
-                                     packet_splat(to.x), packet_splat(to.y), packet_splat(to.z)),
+                                     packet_splat(to.x), packet_splat(to.y), packet_splat(to.z),
+                                     &even),
                      kernel_value);
+        packet_store(even, form);
         float value = lit * kernel_value[0];
         float factor = sites[site].area * (1.0f / CLGI_PI);
         float3 albedo = project_row(site_planes + SITE_ALBEDO * params.site_stride + site,
                                     params.site_stride);
         float3 received = project_row(light + SITE_RECEIVED * params.site_stride + site,
                                       params.site_stride);
-        form_factors = fma(value, factor, form_factors);
+        form_factors = fma(lit * form[0], factor, form_factors);
         sum = fma((float3)(value), factor * albedo * received, sum);
     }
     irradiance[texel] += sum.x;

@@ -55,7 +55,7 @@ kernel void vpl_transport(
         floatp factor = exchange_kernel(&shooter, samples, 0, stride, px, py, pz, nx, ny, nz,
                                         px - packet_splat(shooter.position.x),
                                         py - packet_splat(shooter.position.y),
-                                        pz - packet_splat(shooter.position.z));
+                                        pz - packet_splat(shooter.position.z), 0);
         float lane[CLGI_WIDTH];
         packet_store(packet_select(zero, factor, seen), lane);
         for (int k = 0; k < CLGI_WIDTH; ++k) sum += lane[k];
