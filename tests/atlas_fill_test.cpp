@@ -111,8 +111,8 @@ TEST_P(Gather, AddsWhatEveryVplSendsInEveryChannel) {
                     test::exchange(site, glm::dvec3(texel.position), glm::dvec3(texel.normal));
                 doubtful |= e.doubtful;
                 const double share = site.area / test::pi;
-                filled += share * e.factor;
-                filled_condition += share * e.condition;
+                filled += share * e.even;
+                filled_condition += share * e.even_condition;
                 const glm::dvec3 radiosity =
                     glm::dvec3(site.albedo) * glm::dvec3(crowd.received[i]);
                 sum += share * e.factor * radiosity;

@@ -300,6 +300,21 @@ TEST(Corridor, IsClosedWhateverItsNumberOfRooms) {
     }
 }
 
+// However far its doors are open, a corridor has the same walls, and none stands before a doorway.
+TEST(Corridor, HasTheSameSurfaceForEveryAngleOfItsDoors) {
+    for (const double length : {3.0, 4.0, 9.0}) {
+        clgi::CorridorOptions options;
+        options.room_length = length;
+        const double wanted = area(clgi::corridor(options));
+        for (const float angle : {0.1f, 1.5f, 2.59f, 2.61f, 2.96f}) {
+            options.door_angle = angle;
+            const Scene scene = clgi::corridor(options);
+            EXPECT_NEAR(area(scene), wanted, 1e-7 * wanted) << length << " " << angle;
+            EXPECT_TRUE(open_edges(scene, any_part).empty()) << length << " " << angle;
+        }
+    }
+}
+
 TEST(Corridor, HoldsTheAirOfItsRooms) {
     const Scene scene = clgi::corridor();
     double air = 0.0;

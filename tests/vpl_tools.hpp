@@ -181,7 +181,9 @@ inline double disc_kernel(double cosines, double square, double radius2) {
 
 struct Exchanged {
     double factor = 0.0;     // pi F / A
+    double even = 0.0;       // the same if all samples weighed alike
     double condition = 0.0;  // the same if all cosines were 1: what rounding is relative to
+    double even_condition = 0.0;
     bool near_by = false;
     bool doubtful = false;  // at the border of near by
 };
@@ -199,14 +201,20 @@ inline Exchanged exchange(const SitePlace& shooter, const glm::dvec3& p, const g
     if (!out.near_by) {
         out.factor = disc_kernel(cosines(d), square, radius2);
         out.condition = disc_kernel(square, square, radius2);
+        out.even = out.factor;
+        out.even_condition = out.condition;
         return out;
     }
     const double count = static_cast<double>(shooter.samples.size());
     for (std::size_t k = 0; k < shooter.samples.size(); ++k) {
         const glm::dvec3 v = p - glm::dvec3(shooter.samples[k].position);
         const double share = (shooter.weights.empty() ? 1.0 : double{shooter.weights[k]}) / count;
-        out.factor += share * disc_kernel(cosines(v), glm::dot(v, v), radius2 / count);
-        out.condition += share * disc_kernel(glm::dot(v, v), glm::dot(v, v), radius2 / count);
+        const double part = disc_kernel(cosines(v), glm::dot(v, v), radius2 / count);
+        const double most = disc_kernel(glm::dot(v, v), glm::dot(v, v), radius2 / count);
+        out.factor += share * part;
+        out.condition += share * most;
+        out.even += part / count;
+        out.even_condition += most / count;
     }
     return out;
 }

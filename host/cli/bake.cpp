@@ -53,14 +53,15 @@ AtlasUvs uvs_of(const std::string& text) {
 std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device& device) {
     const LightAtlasOptions& bake = flags.bake;
     const EmitterOptions& emitters = bake.emitters;
-    return fmt::format("{} {} {} | {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} {} {} | {} {} {} {}",
-                       CLGI_VERSION, report::scene_key(scene), describe(device), flags.vpls.count,
-                       flags.vpls.samples_per_vpl, flags.atlas.size, flags.uvs, flags.atlas.padding,
-                       flags.atlas.texels_per_metre, flags.atlas.most_pages, bake.bounces,
-                       bake.threshold, bake.one_at_a_time, bake.exchange_samples,
-                       bake.hemicube_size, flags.filling, bake.mesh, bake.kernel,
-                       bake.direct, emitters.shadow_size,
-                       emitters.face_size, emitters.area_samples, emitters.environment_lights) +
+    return fmt::format(
+               "{} {} {} | {} {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} {} {} | {} {} {} {}",
+               CLGI_VERSION, report::scene_key(scene), describe(device), flags.vpls.count,
+               flags.vpls.samples_per_vpl, flags.vpls.gap_density, flags.atlas.size, flags.uvs,
+               flags.atlas.padding, flags.atlas.texels_per_metre, flags.atlas.most_pages,
+               bake.bounces, bake.threshold, bake.one_at_a_time, bake.exchange_samples,
+               bake.exchange_size, bake.filling_size, flags.filling, bake.mesh, bake.kernel,
+               bake.direct, emitters.shadow_size, emitters.face_size, emitters.area_samples,
+               emitters.environment_lights) +
            build_flags(flags.device);
 }
 
@@ -192,6 +193,12 @@ void add_method_flags(CLI::App& command, BakeFlags& flags) {
     add_count(command, "--vpls", flags.vpls.count, "Virtual point lights (VPLs)", 1, 1 << 20);
     add_count(command, "--samples-per-vpl", flags.vpls.samples_per_vpl,
               "Sample points of a VPL that receive direct light and send it on near by", 1, 4096);
+    command
+        .add_option("--gap-density", flags.vpls.gap_density,
+                    "VPLs on narrow surfaces, between which light passes through gaps: so many "
+                    "times as dense at most; 1: as elsewhere")
+        ->type_name("X")
+        ->check(CLI::Range(1.0, 1000.0));
     add_count(command, "--exchange-samples", flags.bake.exchange_samples,
               "Those of them that tell how much of a VPL another one sees", 1, 4096);
     add_bake_flags(command, "", flags.bake, flags.atlas);

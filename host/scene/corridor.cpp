@@ -36,9 +36,11 @@ std::vector<Room> plan_rooms(const CorridorOptions& options) {
         const double near = -options.room_length * i, far = near - options.room_length;
         for (const int side : {-1, 1}) {
             // Doors do not face each other: through one is seen a wall, not the next room.
-            // A door that opens further than the wall beyond it is long moves to the middle.
-            const double right = options.door_angle > 2.6f ? 0.5 : 0.7;
-            const double door = near - options.room_length * (side < 0 ? 0.3 : right);
+            // A door that opens further than the wall beyond it is long moves to the middle, and
+            // the one on the left nearer to the end, or both doorways would overlap.
+            const bool wide = options.door_angle > 2.6f;
+            const double left = wide ? 0.19 : 0.3, right = wide ? 0.5 : 0.7;
+            const double door = near - options.room_length * (side < 0 ? left : right);
             rooms.push_back({side, near - 0.5 * wall, far + 0.5 * wall, door + 0.5 * door_width,
                              door - 0.5 * door_width});
         }

@@ -175,6 +175,8 @@ private:
     std::int64_t fewest_ = 0;
 };
 
+}  // namespace
+
 // One VPL each, then always to the region that has the least for its area.
 void share_out(std::vector<Region>& regions, std::uint32_t count) {
     struct Claim {
@@ -187,9 +189,10 @@ void share_out(std::vector<Region>& regions, std::uint32_t count) {
     std::int64_t left = count;
     std::priority_queue<Claim> claims;
     const auto claim = [&](std::uint32_t r) {
-        claims.push({regions[r].area / (2.0 * regions[r].vpls + 1.0), r});
+        claims.push({regions[r].density * regions[r].area / (2.0 * regions[r].vpls + 1.0), r});
     };
     for (std::uint32_t r = 0; r < regions.size(); ++r) {
+        regions[r].vpls = 1;
         left -= regions[r].double_sided ? 2 : 1;
         claim(r);
     }
@@ -203,8 +206,6 @@ void share_out(std::vector<Region>& regions, std::uint32_t count) {
         claim(r);
     }
 }
-
-}  // namespace
 
 std::vector<Region> make_regions(const Patches& patches, std::uint32_t count) {
     if (patches.patches.empty()) return {};

@@ -13,6 +13,7 @@ struct Region {
     double area = 0.0;                   // m^2, one side
     glm::dvec3 normal{};                 // unit, mean weighted by area
     bool double_sided = false;
+    double density = 1.0;    // of VPLs, relative to other regions
     std::uint32_t vpls = 1;  // on either side
 };
 
@@ -27,5 +28,8 @@ struct Region {
 //
 // VPLs are then shared out by area (Sainte-Lague), at least one a region.
 std::vector<Region> make_regions(const Patches& patches, std::uint32_t count);
+
+// The last step alone, by area times density.
+void share_out(std::vector<Region>& regions, std::uint32_t count);
 
 }  // namespace clgi

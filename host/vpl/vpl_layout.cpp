@@ -5,12 +5,14 @@
 #include <clgi/adjacency.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
 #include "vpl/even_points.hpp"
 #include "vpl/regions.hpp"
 #include "vpl/sites.hpp"
+#include "vpl/strips.hpp"
 #include "vpl/walls.hpp"
 
 namespace clgi {
@@ -18,6 +20,7 @@ namespace {
 
 constexpr std::uint32_t most_samples_per_vpl = 4096;
 constexpr double most_samples = 1u << 28;
+constexpr double most_gap_density = 1000.0;
 
 // Shares of a cell. VPLs keep off each other and off borders; what they leave is in rows, so a
 // little remains. Samples count what is hidden behind straight edges, and rows may be parallel to
@@ -42,6 +45,9 @@ std::uint32_t check(const Scene& scene, const Patches& patches, const VplOptions
              "1 to " + std::to_string(most_samples_per_vpl));
     if (!(options.density >= 0.0 && std::isfinite(options.density)))
         fail("density", std::to_string(options.density), "a number of at least 0");
+    if (!(options.gap_density >= 1.0 && options.gap_density <= most_gap_density))
+        fail("gap_density", std::to_string(options.gap_density),
+             "1 to " + std::to_string(most_gap_density));
     const bool by_density = options.density > 0.0;
     const double count =
         by_density ? std::max(1.0, std::round(options.density * area)) : double(options.count);
@@ -102,16 +108,27 @@ public:
     Placement(const Scene& scene, const Patches& patches, VplLayout& out)
         : scene_(scene), patches_(patches), out_(out), walls_(scene) {}
 
-    void place(const Region& region, std::uint32_t number, std::uint32_t sample_count) {
-        std::vector<std::uint32_t> triangles;
-        for (const std::uint32_t p : region.patches) {
-            const auto first = patches_.triangles.begin() + patches_.patches[p].first;
-            triangles.insert(triangles.end(), first, first + patches_.patches[p].count);
+    // Metres along the axes of its frame.
+    glm::dvec3 size_of(const Region& region, std::uint32_t number) const {
+        const std::vector<std::uint32_t> triangles = triangles_of(region);
+        glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+        for (const PieceTriangle& t : pieces_of(triangles, frame(region, number, triangles)))
+            for (const glm::dvec3& p : {t.first, t.first + t.edge1, t.first + t.edge2}) {
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+            }
+        return high - low;
+    }
+
+    void place(const Region& region, std::uint32_t number, std::uint32_t sample_count,
+               const glm::dvec3& stretch) {
+        const std::vector<std::uint32_t> triangles = triangles_of(region);
+        std::vector<PieceTriangle> pieces = pieces_of(triangles, frame(region, number, triangles));
+        for (PieceTriangle& t : pieces) {  // areas only count relative to each other
+            t.first *= stretch;
+            t.edge1 *= stretch;
+            t.edge2 *= stretch;
         }
-        std::sort(triangles.begin(), triangles.end());
-        const Frame frame =
-            frame_of(scene_, patches_, out_.patch_region, triangles, number, region.normal);
-        const std::vector<PieceTriangle> pieces = pieces_of(triangles, frame);
 
         const Points sites = spread(pieces, triangles, region.vpls, site_jitter);
         Points samples = sites;
@@ -129,6 +146,21 @@ public:
     }
 
 private:
+    std::vector<std::uint32_t> triangles_of(const Region& region) const {
+        std::vector<std::uint32_t> out;
+        for (const std::uint32_t p : region.patches) {
+            const auto first = patches_.triangles.begin() + patches_.patches[p].first;
+            out.insert(out.end(), first, first + patches_.patches[p].count);
+        }
+        std::sort(out.begin(), out.end());
+        return out;
+    }
+
+    Frame frame(const Region& region, std::uint32_t number,
+                const std::vector<std::uint32_t>& triangles) const {
+        return frame_of(scene_, patches_, out_.patch_region, triangles, number, region.normal);
+    }
+
     std::vector<PieceTriangle> pieces_of(const std::vector<std::uint32_t>& triangles,
                                          const Frame& frame) const {
         const auto corner = [&](std::uint32_t t, int k) {
@@ -234,18 +266,32 @@ VplLayout place_vpls(const Scene& scene, const Patches& patches, const VplOption
     for (const Patch& patch : patches.patches)
         out.area += (patch.double_sided ? 2.0 : 1.0) * patch.area;
     const std::uint32_t count = check(scene, patches, options, out.area);
-    const std::vector<Region> regions = make_regions(patches, count);
+    std::vector<Region> regions = make_regions(patches, count);
     out.region_count = static_cast<std::uint32_t>(regions.size());
     out.patch_region.assign(patches.patches.size(), no_index);
     for (std::uint32_t r = 0; r < regions.size(); ++r)
         for (const std::uint32_t p : regions[r].patches) out.patch_region[p] = r;
 
     Placement placement(scene, patches, out);
+    std::vector<glm::dvec3> sizes;
+    std::vector<double> extents;
+    for (std::uint32_t r = 0; r < regions.size(); ++r) {
+        sizes.push_back(placement.size_of(regions[r], r));
+        extents.push_back(std::max(sizes[r].x, sizes[r].y));
+    }
+    raise_density(regions, extents, out.area / count, options.gap_density);
+    share_out(regions, count);
+
+    double weight = 0.0;
+    for (const Region& region : regions)
+        weight += (region.double_sided ? 2.0 : 1.0) * region.density * region.area;
     const double wanted = double(count) * options.samples_per_vpl;
     for (std::uint32_t r = 0; r < regions.size(); ++r) {
-        const double share = regions[r].area / out.area * wanted;
-        placement.place(regions[r], r,
-                        std::max(regions[r].vpls, static_cast<std::uint32_t>(std::lround(share))));
+        const Region& region = regions[r];
+        const double share = region.density * region.area / weight * wanted;
+        placement.place(region, r,
+                        std::max(region.vpls, static_cast<std::uint32_t>(std::lround(share))),
+                        region.density > 1.0 ? stretch_of(sizes[r]) : glm::dvec3(1.0));
     }
     if (!out.samples.empty()) out.sample_area = out.area / double(out.samples.size());
     return out;
