@@ -1,5 +1,4 @@
-// What a VPL's hemicube says is seen, against geometry. Through atlas.gather: a texel that is seen
-// is filled.
+// What a VPL's hemicube says is seen, against geometry. Through atlas.see.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <cmath>
@@ -16,10 +15,9 @@ using test::SurfacePlace;
 // A VPL with its five faces.
 struct Eye {
     Eye(const DeviceScene& scene, const glm::vec3& position, const glm::vec3& normal,
-        std::uint32_t size = 128, Pixels kind = Pixels::depth)
-        : site({{position, normal, 1e-9f, glm::vec3(1.0f), {{position, normal, normal}}}}, {},
-               {glm::vec3(1.0f)}),
-          cubes(test::hemicubes(site, &scene, {0, 1, size, kind})) {
+        std::uint32_t size = 128)
+        : site({{position, normal, 1e-9f, glm::vec3(1.0f), {{position, normal, normal}}}}),
+          cubes(test::hemicubes(site, &scene, {0, 1, size})) {
         for (const View& view : test::download<View>(cubes.views, 5)) faces.push_back(view);
         at = glm::dvec3(position);
         a = glm::dvec3(glm::vec3(faces[0].right));
@@ -31,15 +29,14 @@ struct Eye {
                            const AtlasPasses& passes = test::atlas_passes()) const {
         const auto count = static_cast<std::uint32_t>(points.size());
         const std::uint32_t stride = test::padded(count);
-        const cl::Buffer irradiance = test::upload(std::vector<float>(3 * stride));
-        const cl::Buffer filled = test::upload(std::vector<float>(stride));
-        const SiteBuffers& s = site.buffers;
-        passes.gather(
-            test::device().queue, {0, 1, s.stride, s.sample_stride, count, stride, 0, cubes.words},
-            s, cubes.views, cubes.pixels,
-            test::upload_points(points, stride, GBUFFER_GEOMETRIC + 3), irradiance, filled);
+        const cl::Buffer seen = test::upload(std::vector<cl_uchar>(stride));
+        test::see(cubes, count, test::upload_points(points, stride, GBUFFER_GEOMETRIC + 3), seen, 0,
+                  passes);
         std::vector<bool> out;
-        for (const float value : test::download<float>(filled, count)) out.push_back(value > 0.0f);
+        for (const cl_uchar byte : test::download<cl_uchar>(seen, count)) {
+            EXPECT_LE(byte, 1);  // one VPL, one bit
+            out.push_back(byte == 1);
+        }
         return out;
     }
     glm::dvec3 along(double x, double y, double z) const {
@@ -114,7 +111,7 @@ TEST_P(Hemicube, SeesAPlaneAtEveryDistanceAndAngle) {
             add_square(world, eye_at - distance * facing, facing, 40.0 * distance);
             const DeviceScene scene = test::on_device(world);
             const Eye eye(scene, scene.frame().to_local(eye_at), glm::vec3(normal),
-                          turn % 2 ? 64 : 128, turn % 3 ? Pixels::depth : Pixels::visibility);
+                          turn % 2 ? 64 : 128);
             std::vector<SurfacePlace> points;
             std::vector<glm::dvec3> ways = directions(eye, random), used;
             for (const glm::dvec3& way : ways) {
@@ -218,8 +215,7 @@ TEST_P(Hemicube, SeesWhatRaysSee) {
         }
         const DeviceScene scene = test::on_device(world);
         const glm::dvec3 at = 0.1 * glm::dvec3(test::direction(random));
-        const Eye eye(scene, scene.frame().to_local(at), test::direction(random), 256,
-                      turn % 2 ? Pixels::depth : Pixels::visibility);
+        const Eye eye(scene, scene.frame().to_local(at), test::direction(random), 256);
         std::vector<SurfacePlace> points;
         std::vector<bool> wanted;
         for (int i = 0; i < 2000; ++i) {
