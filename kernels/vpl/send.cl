@@ -6,8 +6,9 @@
 // reflection is taken for even over the site; direct light has edges, which show near by.
 //                                                        [derived: refined near field, exchange.clh]
 //
-// Sent is the difference to what was sent before. A site whose power changed by no more than
-// `least` sends nothing, and its change stays for another time.            [Schaerfig16, section 6.2]
+// Sent is the difference to what was sent before. A site whose samples' powers changed by no more
+// than `least` together sends nothing, and its change stays for another time. Light that moves
+// within a site is a change too.                                           [Schaerfig16, section 6.2]
 //
 // Work size    1D, one work-item a site; any local size; tail guarded
 // Writes       its own flag and powers, those of its samples, and what they sent in all
@@ -51,12 +52,10 @@ kernel void vpl_send(
         }
         // Light too dark or too bright to divide by, or no number at all, is shared evenly.
         int usable = sum > 1e-30f && sum < 1e30f;
-        float old = 0.0f;
         for (uint k = own.first_sample; k < last; ++k) {
             powers[k] = usable ? powers[k] * (power / sum) : power / count;
-            old += before[k];
+            change += fabs(powers[k] - before[k]);
         }
-        change += fabs(power - old);
     }
     int worth = !(change <= params.least);  // also what is no number
     sends[site] = (uchar)worth;
