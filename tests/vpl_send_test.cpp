@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math_modes.hpp"
 #include "vpl_heap.hpp"
 
 namespace clgi {
@@ -16,7 +17,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A heap of VPLs in random light, of which some was sent before.
 struct Sender {
-    explicit Sender(int count, std::uint64_t seed = 9) : heap(count) {
+    Sender(Math in, int count, std::uint64_t seed = 9) : math(in), heap(count) {
         const SiteBuffers& b = heap.buffers;
         test::Random random(seed);
         planes.resize(SITE_PLANES * b.stride);
@@ -85,7 +86,7 @@ struct Sender {
         b.planes = test::upload(planes);
         b.light = test::upload(light);
         b.sent = test::upload(sent);
-        test::vpl_passes().send(test::device().queue, b, test::upload(irradiance), least);
+        test::vpl_passes(math).send(test::device().queue, b, test::upload(irradiance), least);
         return {test::download<float>(b.sent, sent.size()),
                 test::download<float>(b.sample_power, sent.size()),
                 test::download<float>(b.site_power, 3 * b.stride),
@@ -122,13 +123,16 @@ struct Sender {
             }
         }
     }
+    Math math;
     Heap heap;
     std::vector<float> planes, irradiance, light, sent;
 };
 
+CLGI_IN_BOTH_MATHS(Send);
+
 // rho_k (E_k + I - E) over its sum, of each channel, less what was sent.
-TEST(Send, SharesPowerByLightAndColourOfTheSamples) {
-    Sender all(60);
+TEST_P(Send, SharesPowerByLightAndColourOfTheSamples) {
+    Sender all(GetParam(), 60);
     for (int c = 0; c < 3; ++c) {
         for (std::uint32_t k = 0; k < all.heap.sites[6].sample_count; ++k)
             all.direct(6, c, k) = 2.0f;                                     // even light
@@ -157,8 +161,8 @@ TEST(Send, SharesPowerByLightAndColourOfTheSamples) {
     EXPECT_GT(none, 3);
 }
 
-TEST(Send, LeavesSmallChangesToAnotherTime) {
-    Sender all(60);
+TEST_P(Send, LeavesSmallChangesToAnotherTime) {
+    Sender all(GetParam(), 60);
     all.sent = all.run(-1.0f).sent;
     // The same again: nothing.
     const Sender::Sent again = all.run(0.0f);
@@ -184,7 +188,7 @@ TEST(Send, LeavesSmallChangesToAnotherTime) {
         }
     // Every channel alone counts.
     for (int c = 0; c < 3; ++c) {
-        Sender one(20);
+        Sender one(GetParam(), 20);
         one.sent = one.run(-1.0f).sent;
         one.received(11, c) *= 1.25f;
         const Sender::Sent found = one.run(static_cast<float>(0.9 * one.change(11)));
@@ -195,8 +199,8 @@ TEST(Send, LeavesSmallChangesToAnotherTime) {
 
 // Direct light that moves from one half of a site to the other changes what texels near by receive,
 // though not the power of the site.
-TEST(Send, CountsLightThatMovesWithinASite) {
-    Sender all(20);
+TEST_P(Send, CountsLightThatMovesWithinASite) {
+    Sender all(GetParam(), 20);
     all.sent = all.run(-1.0f).sent;
     std::size_t site = 0;
     while (all.heap.sites[site].sample_count < 8) ++site;
@@ -213,10 +217,10 @@ TEST(Send, CountsLightThatMovesWithinASite) {
 }
 
 // Numbers that are not finite are sent whatever else is too little, and spoil no other site.
-TEST(Send, LosesNoNumberThatIsNotFinite) {
+TEST_P(Send, LosesNoNumberThatIsNotFinite) {
     for (int c = 0; c < 3; ++c)
         for (const float value : {nan, infinity}) {
-            Sender all(12);
+            Sender all(GetParam(), 12);
             all.sent = all.run(-1.0f).sent;
             all.received(4, c) = value;
             all.sent[c * all.heap.buffers.sample_stride + all.heap.sites[9].first_sample] = value;
@@ -240,9 +244,10 @@ TEST(Send, LosesNoNumberThatIsNotFinite) {
 }
 
 // Powers add up to that of the site whatever the light is: too dark or too bright to be summed.
-TEST(Send, SharesAnyLight) {
-    for (const float value : {1e-39f, 1e-30f, 1e-15f, 1e15f, 1e30f, 3e37f}) {
-        Sender all(6);
+TEST_P(Send, SharesAnyLight) {
+    for (const float value :
+         {1e-39f, 1e-30f, 1e-20f, 2e-13f, 1e-11f, 1e11f, 2e12f, 1e20f, 1e30f, 3e37f}) {
+        Sender all(GetParam(), 6);
         std::fill(all.irradiance.begin(), all.irradiance.end(), value);
         std::fill(all.light.begin(), all.light.end(), value);
         std::fill(all.sent.begin(), all.sent.end(), 0.0f);

@@ -15,6 +15,7 @@
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/vpl.h"
+#include "packet.clh"
 
 kernel void vpl_send(
     const SendParams     params,
@@ -50,14 +51,16 @@ kernel void vpl_send(
             powers[k] = value;
             sum += value;
         }
-        // Light too dark or too bright to divide by, or no number at all, is shared evenly.
-        int usable = sum > 1e-30f && sum < 1e30f;
+        // Light too dark or too bright to divide by, or no number at all, is shared evenly. The product
+        // of two such numbers has to be one too: fast math may multiply before it divides.
+        int usable = sum > 1e-12f && sum < 1e12f;
         for (uint k = own.first_sample; k < last; ++k) {
             powers[k] = usable ? powers[k] * (power / sum) : power / count;
             change += fabs(powers[k] - before[k]);
         }
     }
-    int worth = !(change <= params.least);  // also what is no number
+    // What is no number is worth it too: by bits, since fast math takes every number for finite.
+    int worth = change > params.least || (int)(as_uint(change) & 0x7fffffffu) >= NOT_FINITE;
     sends[site] = (uchar)worth;
     for (uint c = 0; c < 3; ++c) {
         float sum = 0.0f;
