@@ -87,7 +87,8 @@ void LightAtlasSolver::State::put_back_measurement() {
     write(record, b.rows, restored->rows);
     write(record, b.seen, restored->seen);
     measured_vpls = restored->measured_vpls;
-    measured = false;
+    // Balancing changes what it starts from, so it is done once.
+    measured = measured_vpls == b.sites.site_count;
     restored.reset();
 }
 
