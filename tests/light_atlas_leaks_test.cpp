@@ -47,7 +47,7 @@ Leak leak_of(const Bakery& bakery, const Baked& baked, const Dark& dark) {
 Leak leak_of(const Scene& scene, const Dark& dark, std::uint32_t vpls = 400, int size = 0) {
     const Bakery bakery(scene, {.vpls = vpls});
     LightAtlasOptions options = test::bake_options();
-    if (size > 0) options.exchange_size = options.filling_size = size;
+    if (size > 0) options.hemicube_size = size;
     return leak_of(bakery, test::bake(bakery, options), dark);
 }
 

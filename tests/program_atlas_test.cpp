@@ -81,8 +81,8 @@ TEST_F(AtlasProgram, BadInputEndsWithOneLineAndNoFile) {
     };
     expect_one_error_line(run("bake " + scene + " --quiet"), 1);
     for (const char* flags :
-         {"--vpls 0", "--bounces -1", "--atlas-size 9000", "--atlas-size 0", "--exchange-size 33",
-          "--filling-size 2048", "--threshold none", "--uvs 2", "--pages 0", "--padding 0",
+         {"--vpls 0", "--bounces -1", "--atlas-size 9000", "--atlas-size 0", "--hemicube-size 33",
+          "--hemicube-size 2048", "--threshold none", "--uvs 2", "--pages 0", "--padding 0",
           "--samples-per-vpl 0", "--texels-per-metre -1", "--size 64x64"})
         refused(scene + " " + flags, 1);
     refused(file("absent.glb").string(), 2);
