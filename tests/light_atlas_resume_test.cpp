@@ -109,8 +109,13 @@ TEST(LightAtlasState, GoesOnToTheSameBits) {
                 EXPECT_EQ(second.launches("atlas.see"), left);
                 EXPECT_EQ(second.launches("vpl.balance_receivers") > 0, left > 0);
             }
-            // Whoever went on can start anew, and so can who gave it away.
-            for (Baker* baker : {&second, &first}) {
+            // Whoever went on can start anew, and so can who gave it away, and who had begun.
+            Baker third(keeps);
+            ASSERT_FALSE(third.run_until(0.02));
+            third.solver->restore(*state);
+            ASSERT_TRUE(third.solver->run());
+            EXPECT_TRUE(test::same_bits(third.solver->irradiance(), wanted(keeps))) << share;
+            for (Baker* baker : {&second, &first, &third}) {
                 ASSERT_TRUE(baker->solver->run());
                 EXPECT_TRUE(test::same_bits(baker->solver->irradiance(), wanted(keeps))) << share;
             }

@@ -99,6 +99,7 @@ void LightAtlasSolver::State::put_back_light() {
     write(record, b.gathered, restored->irradiance);
     write(record, b.filled, restored->filled);
     filled_vpls = restored->filled_vpls;
+    if (!measured) measured_vpls = 0;  // their reach is overwritten
     shots = restored->shots;
     restored.reset();
 }
