@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using clgi::test::Outcome;
 using Program = clgi::test::Program;
 
-const char* few = " --vpls 60 --atlas-size 32 --exchange-size 32 --filling-size 32 ";
+const char* few = " --vpls 60 --atlas-size 32 --hemicube-size 32 ";
 
 class AtlasProgram : public Program {
 protected:
@@ -163,7 +163,7 @@ TEST_F(AtlasProgram, FlagsOfOneMethodAreNotTheOthers) {
           "--method atlas --low-res-step 2", "--method atlas --replicates 3",
           "--method atlas --time-budget 33ms", "--method atlas --target-error 2%",
           "--method atlas --gbuffer gl", "--method atlas --vpls 0", "--bounces 3",
-          "--method direct --atlas-size 64", "--exchange-size 64", "--filling-size 64"}) {
+          "--method direct --atlas-size 64", "--hemicube-size 64"}) {
         SCOPED_TRACE(flags);
         expect_one_error_line(run(render + flags), 1);
         EXPECT_FALSE(fs::exists(file("x.exr")));
