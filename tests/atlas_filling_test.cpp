@@ -29,8 +29,7 @@ struct Room {
 
     Baked bake(LightAtlasOptions options) const {
         options.bounces = 2;
-        options.exchange_size = 64;
-        options.filling_size = 128;
+        options.hemicube_size = 128;
         LightAtlasSolver solver(test::programs(), test::device().queue, device_scene, vpls, atlas,
                                 options);
         EXPECT_TRUE(solver.run());
@@ -88,7 +87,7 @@ TEST(LightAtlas, RefusesMeshesThatDoNotFitTheFaces) {
     const Room room;
     const auto refuses = [&](const char* text, LightAtlasOptions options) {
         try {
-            options.filling_size = 64;
+            options.hemicube_size = 64;
             LightAtlasSolver(test::programs(), test::device().queue, room.device_scene, room.vpls,
                              room.atlas, options);
             ADD_FAILURE() << text << ": taken";
@@ -105,7 +104,7 @@ TEST(LightAtlas, RefusesMeshesThatDoNotFitTheFaces) {
     refuses("mesh is 2.000000, 8", with(2, 5));
     refuses("mesh is 500, twice the square of an even number needed", with(500, 5));
     refuses("mesh is 18, twice the square", with(18, 5));
-    refuses("at most 2 filling_size^2 = 8192 needed", with(2 * 66 * 66, 5));
+    refuses("at most 2 hemicube_size^2 = 8192 needed", with(2 * 66 * 66, 5));
     refuses("kernel is -1.000000", with(512, -1));
     refuses("kernel is 65.000000", with(512, 65));
 }

@@ -70,8 +70,8 @@ TEST(AtlasProject, LightsAFloorByTheClosedForm) {
     const Scene scene = floor_scene();
     const AtlasLayout atlas = charts_of_quads(scene, 48);
     const HandVpl tilted{{0.2, 0.3, 0.1}, glm::normalize(glm::dvec3(0.3, -1.0, -0.2))};
-    const HandVpl upright{{-0.4, 0.5, 0.3}, {0.0, -1.0, 0.0}, 0.02,
-                          {0.1, 0.9, 0.4},  {1, 2, 3},        1.125};
+    const HandVpl upright{
+        {-0.4, 0.5, 0.3}, {0.0, -1.0, 0.0}, 0.02, {0.1, 0.9, 0.4}, {1, 2, 3}};
     for (const int reach : {0, 5}) {
         OneBatch batch(scene, atlas, {tilted, upright}, 64);
         const auto light = batch.project(16, reach);

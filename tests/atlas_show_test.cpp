@@ -278,6 +278,29 @@ TEST(AtlasShow, LetsNothingBleedFromOneChartIntoTheNext) {
         ASSERT_FLOAT_EQ(found[i].x, points[i].triangle < 2 ? 1.0f : 2.0f) << i;
 }
 
+// Where the point's own chart has no texel, those of others are taken, weighted alike.
+TEST(AtlasShow, TakesOtherChartsWhereItsOwnHasNoTexel) {
+    const Shown usual(tilted_quad(), 32);
+    Shown strange = usual;
+    strange.map.chart_of =
+        test::upload(std::vector<std::uint32_t>(usual.layout.texels.size(), 1000u));
+    const std::vector<Point> points = random_points(usual.world, 300);
+    const std::vector<float> light = usual.light(slanted);
+    EXPECT_EQ(strange(points, light), usual(points, light));
+}
+
+// A point beside its triangle has the light of the triangle's border.
+TEST(AtlasShow, StaysOnTheTriangle) {
+    const Shown shown(tilted_quad(), 48);
+    const std::vector<Point> beside = {
+        {0, -0.2, 0.3}, {1, 0.4, -0.1}, {0, 0.7, 0.6}, {1, 1.3, 0.0}};
+    const std::vector<Point> on = {{0, 0.0, 0.3}, {1, 0.4, 0.0}, {0, 0.7, 0.3}, {1, 1.0, 0.0}};
+    const std::vector<float> light = shown.light(slanted);
+    const auto found = shown(beside, light), wanted = shown(on, light);
+    for (std::size_t i = 0; i < on.size(); ++i)
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[i][c], wanted[i][c], 2e-5) << i;
+}
+
 TEST(AtlasShow, HasNoLightWhereNothingIs) {
     Scene scene = tilted_quad();
     test::add_triangle(scene, {0, 0, 0}, {1, 1, 1}, {2, 2, 2});  // without area: in no chart
@@ -297,8 +320,12 @@ TEST(AtlasShow, KeepsWhatIsNotFinite) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::vector<float> light(shown.layout.texels.size(), 1.0f);
     const std::vector<Point> points = random_points(shown.world, 50);
-    for (const glm::vec3& value : shown(points, light, Storage::full, glm::vec3(0, nan, 0)))
-        EXPECT_TRUE(std::isnan(value.x) && std::isnan(value.z));
+    for (int c = 0; c < 3; ++c) {
+        glm::vec3 moved(0.0f);
+        moved[c] = nan;
+        for (const glm::vec3& value : shown(points, light, Storage::full, moved))
+            EXPECT_TRUE(std::isnan(value.x) && std::isnan(value.z));
+    }
     const std::uint32_t bad = shown.taps(points[7]).front().first;
     light[bad] = nan;
     const auto found = shown(points, light);

@@ -7,6 +7,7 @@
 #include <clgi/procedural.hpp>
 #include <limits>
 
+#include "depth_words.hpp"
 #include "patchwork.hpp"
 
 namespace clgi {
@@ -87,9 +88,8 @@ TEST(ClusterViews, LoseNothing) {
             const auto wanted = words<std::uint64_t>(open, views[v], false);
             seen += std::count_if(wanted.begin(), wanted.end(),
                                   [](std::uint64_t word) { return word != ~std::uint64_t{0}; });
-            std::vector<std::uint32_t> depth;
-            for (const std::uint64_t word : wanted)
-                depth.push_back(static_cast<std::uint32_t>(word >> 32));
+            const auto depth = words<std::uint32_t>(open, views[v], false);
+            test::expect_closeness(depth, wanted, "depth alone");
             for (const bool whole : {false, true}) {
                 const char* form = whole ? "raster_views" : "lists";
                 EXPECT_TRUE(words<std::uint64_t>(scene, views[v], whole) == wanted)

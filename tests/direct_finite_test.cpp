@@ -1,5 +1,5 @@
 // Direct light at given points: what is not finite is counted and shown, and its neighbours keep
-// their light.
+// their light; what is there is added to, or not.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -35,15 +35,18 @@ struct Surface {
             }
     }
 
-    Lit lit() const {
+    // add: to `before`, which is there.
+    Lit lit(bool add = false, float before = 0.0f) const {
         const test::Device& on = test::device();
-        const cl::Buffer irradiance = test::empty<float>(IRRADIANCE_PLANES * stride);
+        const cl::Buffer irradiance =
+            test::upload(std::vector<float>(IRRADIANCE_PLANES * stride, before));
         const cl::Buffer non_finite = test::upload(std::vector<cl_uint>(1));
         const EmitterBuffers sources{test::upload(set.emitters), test::upload(set.views),
                                      test::upload(visibility)};
         const auto emitters = static_cast<std::uint32_t>(set.emitters.size());
-        test::light_passes().direct(on.queue, {stride, points, emitters, 1.0f, 2, 0, 0, 0}, sources,
-                                    test::upload(planes), irradiance, non_finite);
+        test::light_passes().direct(on.queue,
+                                    {stride, points, emitters, 1.0f, 2, add ? 1u : 0u, 0, 0},
+                                    sources, test::upload(planes), irradiance, non_finite);
         const auto found = test::download<float>(irradiance, IRRADIANCE_PLANES * stride);
         Lit out;
         out.non_finite = test::download<cl_uint>(non_finite, 1)[0];
@@ -80,6 +83,16 @@ TEST(DirectLight, CountsAndShowsWhatIsNotFinite) {
                         EXPECT_EQ(found.irradiance[i], usual.irradiance[i]) << i;
                 }
             }
+}
+
+TEST(DirectLight, TakesThePlaceOfWhatIsThereOrIsAddedToIt) {
+    const Surface surface;
+    const Lit usual = surface.lit(), over = surface.lit(false, 3.5f), sum = surface.lit(true, 3.5f);
+    for (std::uint32_t i = 0; i < points; ++i) {
+        EXPECT_GT(usual.irradiance[i].x, 0.0f);
+        EXPECT_EQ(over.irradiance[i], usual.irradiance[i]) << i;
+        EXPECT_EQ(sum.irradiance[i], usual.irradiance[i] + 3.5f) << i;
+    }
 }
 
 // A source of too much light breaks every point that it reaches, in its channel at least.

@@ -51,8 +51,7 @@ TEST_P(HemicubeEdges, SeesNoFloorBehindTheWallThatStandsOnIt) {
         const DeviceScene scene = test::on_device(world);
         const glm::dvec3 normal =
             glm::normalize(glm::normalize(foot) + 0.9 * glm::dvec3(test::direction(random)));
-        const Eye eye(scene, scene.frame().to_local(glm::dvec3(0)), glm::vec3(normal), 128,
-                      turn % 2 ? Pixels::depth : Pixels::visibility);
+        const Eye eye(scene, scene.frame().to_local(glm::dvec3(0)), glm::vec3(normal), 128);
         std::vector<SurfacePlace> points;
         std::vector<double> behind;  // pixels
         for (int i = 0; i < 400; ++i) {

@@ -12,10 +12,9 @@ namespace clgi::test {
 // A VPL with its five faces.
 struct Eye {
     Eye(const DeviceScene& scene, const glm::vec3& position, const glm::vec3& normal,
-        std::uint32_t size = 128, Pixels kind = Pixels::depth)
-        : site({{position, normal, 1e-9f, glm::vec3(1.0f), {{position, normal, normal}}}}, {},
-               {glm::vec3(1.0f)}),
-          cubes(hemicubes(site, &scene, {0, 1, size, kind})) {
+        std::uint32_t size = 128)
+        : site({{position, normal, 1e-9f, glm::vec3(1.0f), {{position, normal, normal}}}}),
+          cubes(hemicubes(site, &scene, {0, 1, size})) {
         for (const View& view : download<View>(cubes.views, 5)) faces.push_back(view);
         at = glm::dvec3(position);
         a = glm::dvec3(glm::vec3(faces[0].right));
@@ -27,15 +26,13 @@ struct Eye {
                            const AtlasPasses& passes = atlas_passes()) const {
         const auto count = static_cast<std::uint32_t>(points.size());
         const std::uint32_t stride = padded(count);
-        const cl::Buffer irradiance = upload(std::vector<float>(3 * stride));
-        const cl::Buffer filled = upload(std::vector<float>(stride));
-        const SiteBuffers& s = site.buffers;
-        passes.gather(device().queue,
-                      {0, 1, s.stride, s.sample_stride, count, stride, 0, cubes.words}, s,
-                      cubes.views, cubes.pixels,
-                      upload_points(points, stride, GBUFFER_GEOMETRIC + 3), irradiance, filled);
+        const cl::Buffer seen = upload(std::vector<cl_uchar>(stride));
+        see(cubes, count, upload_points(points, stride, GBUFFER_GEOMETRIC + 3), seen, 0, passes);
         std::vector<bool> out;
-        for (const float value : download<float>(filled, count)) out.push_back(value > 0.0f);
+        for (const cl_uchar byte : download<cl_uchar>(seen, count)) {
+            EXPECT_LE(byte, 1);  // one VPL, one bit
+            out.push_back(byte == 1);
+        }
         return out;
     }
     glm::dvec3 along(double x, double y, double z) const {

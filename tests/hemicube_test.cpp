@@ -1,5 +1,4 @@
-// What a VPL's hemicube says is seen, against geometry. Through atlas.gather: a texel that is seen
-// is filled.
+// What a VPL's hemicube says is seen, against geometry. Through atlas.see.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <cmath>
@@ -57,7 +56,7 @@ TEST_P(Hemicube, SeesAPlaneAtEveryDistanceAndAngle) {
             add_square(world, eye_at - distance * facing, facing, 40.0 * distance);
             const DeviceScene scene = test::on_device(world);
             const Eye eye(scene, scene.frame().to_local(eye_at), glm::vec3(normal),
-                          turn % 2 ? 64 : 128, turn % 3 ? Pixels::depth : Pixels::visibility);
+                          turn % 2 ? 64 : 128);
             std::vector<SurfacePlace> points;
             std::vector<glm::dvec3> ways = directions(eye, random), used;
             for (const glm::dvec3& way : ways) {
@@ -161,8 +160,7 @@ TEST_P(Hemicube, SeesWhatRaysSee) {
         }
         const DeviceScene scene = test::on_device(world);
         const glm::dvec3 at = 0.1 * glm::dvec3(test::direction(random));
-        const Eye eye(scene, scene.frame().to_local(at), test::direction(random), 256,
-                      turn % 2 ? Pixels::depth : Pixels::visibility);
+        const Eye eye(scene, scene.frame().to_local(at), test::direction(random), 256);
         std::vector<SurfacePlace> points;
         std::vector<bool> wanted;
         for (int i = 0; i < 2000; ++i) {

@@ -54,11 +54,18 @@ void expect_same(const Baked& found, const Baked& wanted, const std::string& wha
     EXPECT_EQ(found.status.power_lost, wanted.status.power_lost) << what;
 }
 
-// Buffers for the transport of one batch, but not of all VPLs.
-std::size_t too_little_to_keep(const Bakery& bakery, const LightAtlasOptions& options) {
-    const LightAtlasSolver solver = bakery.solver(options);
-    EXPECT_TRUE(solver.status().transport_kept);
-    return solver.bytes() - 1;
+// Buffers for the transport of one batch, but not of all VPLs; visibility: for that of all VPLs, but
+// not for what all texels see.
+std::size_t too_little_to_keep(const Bakery& bakery, LightAtlasOptions options,
+                               bool visibility = false) {
+    const auto bytes = [&](bool seen) {
+        const LightAtlasSolver solver = bakery.solver(options);
+        EXPECT_TRUE(solver.status().transport_kept);
+        EXPECT_EQ(solver.status().visibility_kept, seen);
+        return solver.bytes();
+    };
+    options.memory_budget = bytes(true) - 1;
+    return visibility ? options.memory_budget : bytes(false) - 1;
 }
 
 const Bakery& small_room() {
@@ -66,9 +73,9 @@ const Bakery& small_room() {
     return bakery;
 }
 
-// The four kinds of work: kept and all VPLs at a time, and what departs from it.
+// The kinds of work: kept and all VPLs at a time, and what departs from it.
 std::vector<LightAtlasOptions> ways() {
-    LightAtlasOptions all = test::bake_options(), alone = all, poor = all, direct = all;
+    LightAtlasOptions all = test::bake_options(), alone = all, poor = all, direct = all, drawn = all;
     all.bounces = 3;
     alone.bounces = 0;
     alone.threshold = 0.01f;
@@ -77,7 +84,8 @@ std::vector<LightAtlasOptions> ways() {
     poor.memory_budget = too_little_to_keep(small_room(), poor);
     direct.bounces = 1;
     direct.direct = true;
-    return {all, alone, poor, direct};
+    drawn.memory_budget = too_little_to_keep(small_room(), drawn, true);
+    return {all, alone, poor, direct, drawn};
 }
 
 // Both end when no VPL has more than a millionth of the power left, 200 of them 2e-4.
@@ -115,6 +123,20 @@ TEST_P(LightAtlasMode, KeepsTransportOrNotForAboutTheSameLight) {
         EXPECT_NEAR(made.status.power_shot, kept.status.power_shot, 0.01 * kept.status.power_shot);
         EXPECT_NEAR(made.status.power_received + made.status.power_lost, made.status.power_shot,
                     1e-5 * made.status.power_shot);
+    }
+}
+
+// What texels see is the same, looked up again or kept.
+TEST(LightAtlasModes, KeepVisibilityOrNotForTheSameBits) {
+    for (const std::uint32_t bounces : {0u, 1u, 3u}) {
+        LightAtlasOptions options = test::bake_options();
+        options.bounces = bounces;
+        const Baked kept = test::bake(small_room(), options);
+        options.memory_budget = too_little_to_keep(small_room(), options, true);
+        const Baked drawn = test::bake(small_room(), options);
+        EXPECT_TRUE(kept.status.visibility_kept);
+        EXPECT_FALSE(drawn.status.visibility_kept);
+        expect_same(drawn, kept, std::to_string(bounces) + " bounces");
     }
 }
 
@@ -253,9 +275,9 @@ TEST_P(LightAtlasMode, CountsWhatIsNotFinite) {
         }
     LightAtlasSolver solver = bakery.solver(test::bake_options(GetParam()));
     const SiteBuffers& sites = solver.sites();
-    ASSERT_TRUE(solver.run([&](double done) {
+    ASSERT_TRUE(solver.run([&](double) {
         const std::uint32_t all_bits = 0xffffffff;
-        if (done > 0.0 && done < 0.06)
+        if (test::direct_is_known(solver))
             test::device().queue.enqueueWriteBuffer(sites.light, CL_TRUE, 0, 4, &all_bits);
         return true;
     }));
@@ -287,8 +309,8 @@ TEST(LightAtlasModes, RefuseWhatCannotWork) {
     EXPECT_NE(refused([](Options& o) { o.bounces = 1001; }).find("bounces"), std::string::npos);
     EXPECT_NE(refused([](Options& o) { o.threshold = 0.0f; }).find("threshold"), std::string::npos);
     EXPECT_NE(refused([&](Options& o) { o.threshold = nan; }).find("threshold"), std::string::npos);
-    EXPECT_NE(refused([](Options& o) { o.exchange_size = 65; }).find("even"), std::string::npos);
-    EXPECT_NE(refused([](Options& o) { o.filling_size = 2048; }).find("filling_size"),
+    EXPECT_NE(refused([](Options& o) { o.hemicube_size = 65; }).find("even"), std::string::npos);
+    EXPECT_NE(refused([](Options& o) { o.hemicube_size = 2048; }).find("hemicube_size"),
               std::string::npos);
 
     Options poor = test::bake_options();

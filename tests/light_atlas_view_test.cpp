@@ -41,7 +41,7 @@ struct Baked {
         layout = make_atlas(world, patches.triangle_patch, atlas_options);
         LightAtlasOptions options;
         options.bounces = bounces;
-        options.filling_size = 128;
+        options.hemicube_size = 128;
         solver = std::make_unique<LightAtlasSolver>(
             test::programs(), test::device().queue, on_device,
             place_vpls(world, patches, vpl_options), layout, options);

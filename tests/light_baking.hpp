@@ -56,8 +56,14 @@ inline Baked bake(const Bakery& bakery, const LightAtlasOptions& options) {
     return Baked(solver);
 }
 
+// Asked in a report: whether direct light was the last thing to be computed.
+inline bool direct_is_known(const LightAtlasSolver& solver) {
+    const std::vector<PassEvent>& events = solver.events();
+    return !events.empty() && std::string(events.back().name) == "vpl.receive";
+}
+
 // Bakes with this direct irradiance at the VPLs, [VplLayout::vpls], instead of that of lights. It
-// is put in its place between two parts of the work, which needs transport that is kept.
+// is put in its place as soon as that is known, which needs transport that is kept.
 inline Baked bake_from(const Bakery& bakery, const LightAtlasOptions& options,
                        const std::vector<glm::vec3>& direct) {
     LightAtlasSolver solver = bakery.solver(options);
@@ -69,13 +75,14 @@ inline Baked bake_from(const Bakery& bakery, const LightAtlasOptions& options,
             planes[(SITE_UNSHOT + c) * sites.stride + i] =
                 planes[(SITE_RECEIVED + c) * sites.stride + i] = direct[i][c] / exposure;
     bool written = false;
-    EXPECT_TRUE(solver.run([&](double done) {
-        if (done > 0.0 && !written)
-            device().queue.enqueueWriteBuffer(sites.light, CL_TRUE, 0,
-                                              planes.size() * sizeof(float), planes.data());
-        written = written || done > 0.0;
+    EXPECT_TRUE(solver.run([&](double) {
+        if (!direct_is_known(solver)) return true;
+        device().queue.enqueueWriteBuffer(sites.light, CL_TRUE, 0, planes.size() * sizeof(float),
+                                          planes.data());
+        written = true;
         return true;
     }));
+    EXPECT_TRUE(written);
     const Baked out(solver);
     EXPECT_TRUE(out.status.transport_kept);
     return out;

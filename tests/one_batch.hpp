@@ -15,7 +15,6 @@ struct HandVpl {
     double area = 0.01;           // m^2
     glm::dvec3 albedo = {0.5, 0.7, 0.3};
     glm::dvec3 received = {3.0, 2.0, 5.0};  // lux
-    double balance = 0.875;  // which has no part in filling
 };
 
 inline const AtlasPasses& atlas_passes() { return shared_passes<AtlasPasses>(Math::strict); }
@@ -57,31 +56,29 @@ struct OneBatch {
     void upload_sites() {
         const SceneFrame& frame = device_scene.frame();
         std::vector<Site> list(count);
-        std::vector<float> place(SITE_PLANES * site_stride), light(SITE_LIGHT_PLANES * site_stride),
-            balance(BALANCE_PLANES * site_stride, 1.0f), samples(GBUFFER_PLANES * site_stride);
+        std::vector<float> place(SITE_PLANES * site_stride), power(3 * site_stride),
+            samples(GBUFFER_PLANES * site_stride);
         std::vector<std::uint32_t> chosen(count);
         for (std::uint32_t i = 0; i < count; ++i) {
             const HandVpl& vpl = vpls[i];
             const glm::vec3 at = frame.to_local(vpl.position);
             list[i] = {i, 1, static_cast<float>(vpl.area * frame.scale * frame.scale), 0};
             chosen[i] = i;
-            balance[BALANCE_SHOOTER * site_stride + i] = static_cast<float>(vpl.balance);
             for (int c = 0; c < 3; ++c) {
                 const auto row = [&](int plane) { return (plane + c) * site_stride + i; };
                 place[row(SITE_POSITION)] = samples[row(GBUFFER_POSITION)] = at[c];
                 place[row(SITE_NORMAL)] = static_cast<float>(vpl.normal[c]);
-                place[row(SITE_ALBEDO)] = static_cast<float>(vpl.albedo[c]);
-                light[row(SITE_RECEIVED)] = static_cast<float>(vpl.received[c]);
-                light[row(SITE_UNSHOT)] = 77.0f;
+                place[row(SITE_ALBEDO)] = 77.0f;  // has no part in filling
+                power[row(0)] =
+                    static_cast<float>(double{list[i].area} * vpl.albedo[c] * vpl.received[c]);
             }
         }
         sites.sites = upload(list);
         sites.planes = upload(place);
-        sites.light = upload(light);
-        sites.balance = upload(balance);
         sites.samples = upload(samples);
-        sites.weights = upload(std::vector<float>(site_stride, 1.0f));
-        sites.chosen = upload(chosen);
+        sites.site_power = sites.sample_power = upload(power);
+        sites.chosen = sites.list = upload(chosen);
+        sites.listed = upload(std::vector<cl_uint>{count});
         sites.site_count = sites.sample_count = count;
         sites.stride = sites.sample_stride = site_stride;
     }
@@ -136,15 +133,18 @@ struct OneBatch {
     }
 
     FillParams fill_params(std::uint32_t first, std::uint32_t shooters) const {
-        return {first, shooters, site_stride, site_stride, texels, stride, 0, 1};
+        return {first, shooters, site_stride, site_stride, texels, stride, 0, FILL_FORM_FACTORS};
     }
 
     // Light of each texel by channel, and its form factors: [4][stride].
     std::vector<float> gather() const {
         const cl::Buffer light = upload(std::vector<float>(3 * stride));
         const cl::Buffer filled = upload(std::vector<float>(stride));
-        atlas_passes().gather(device().queue, fill_params(0, count), sites, views, depth, planes,
-                              light, filled);
+        const cl::Buffer seen = upload(std::vector<cl_uchar>(seen_rows(count) * stride));
+        atlas_passes().see(device().queue, {count, size, texels, stride, 0, 0, 0, 0}, views, depth,
+                           planes, seen);
+        atlas_passes().gather(device().queue, fill_params(0, count), sites, planes, seen, light,
+                              filled);
         return joined(light, filled);
     }
 

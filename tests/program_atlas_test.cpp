@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using clgi::test::Outcome;
 using Program = clgi::test::Program;
 
-const char* few = " --vpls 60 --atlas-size 32 --exchange-size 32 --filling-size 32 ";
+const char* few = " --vpls 60 --atlas-size 32 --hemicube-size 32 ";
 
 class AtlasProgram : public Program {
 protected:
@@ -119,8 +119,8 @@ TEST_F(AtlasProgram, BadInputEndsWithOneLineAndNoFile) {
     };
     expect_one_error_line(run("bake " + scene + " --quiet"), 1);
     for (const char* flags :
-         {"--vpls 0", "--bounces -1", "--atlas-size 9000", "--atlas-size 0", "--exchange-size 33",
-          "--filling-size 2048", "--threshold none", "--uvs 2", "--pages 0", "--padding 0",
+         {"--vpls 0", "--bounces -1", "--atlas-size 9000", "--atlas-size 0", "--hemicube-size 33",
+          "--hemicube-size 2048", "--threshold none", "--uvs 2", "--pages 0", "--padding 0",
           "--samples-per-vpl 0", "--texels-per-metre -1", "--size 64x64", "--gltf-lights",
           "--gltf-detail 2", "--direct --gltf-lights --gltf y.glb", "--gltf-detail 0 --gltf y.glb"})
         refused(scene + " " + flags, 1);
@@ -202,7 +202,7 @@ TEST_F(AtlasProgram, FlagsOfOneMethodAreNotTheOthers) {
           "--method atlas --low-res-step 2", "--method atlas --replicates 3",
           "--method atlas --time-budget 33ms", "--method atlas --target-error 2%",
           "--method atlas --gbuffer gl", "--method atlas --vpls 0", "--bounces 3",
-          "--method direct --atlas-size 64", "--exchange-size 64", "--filling-size 64"}) {
+          "--method direct --atlas-size 64", "--hemicube-size 64"}) {
         SCOPED_TRACE(flags);
         expect_one_error_line(run(render + flags), 1);
         EXPECT_FALSE(fs::exists(file("x.exr")));

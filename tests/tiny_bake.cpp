@@ -19,7 +19,7 @@ using namespace clgi;
 void bake(const DeviceScene& scene, const Scene& world, bool one_at_a_time) {
     LightAtlasOptions options;
     options.emitters.shadow_size = options.emitters.face_size = 16;
-    options.exchange_size = options.filling_size = 32;
+    options.hemicube_size = 32;
     options.bounces = one_at_a_time ? 0 : 2;
     options.threshold = 0.3f;
     options.one_at_a_time = one_at_a_time;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <clgi/procedural.hpp>
 
-#include "drawing.hpp"
+#include "depth_words.hpp"
 #include "frames.hpp"
 #include "patchwork.hpp"
 
@@ -73,8 +73,8 @@ void expect_same_words(const Scene& world) {
     for (std::size_t p = 5; p < wanted.size(); ++p) seen += wanted[p] != ~std::uint64_t{0};
     EXPECT_GT(seen, wanted.size() / 10);
     for (int p = 0; p < 5; ++p) EXPECT_EQ(wanted[p], 0x5a5a5a5a5a5a5a5aull) << "before the views";
-    std::vector<std::uint32_t> depth;
-    for (const std::uint64_t word : wanted) depth.push_back(static_cast<std::uint32_t>(word >> 32));
+    const auto depth = drawn<std::uint32_t>(scene, views, ways[0]);
+    test::expect_closeness(depth, wanted, "depth alone");
     for (const Way& way : ways) {
         EXPECT_TRUE(same_bits(drawn<std::uint64_t>(scene, views, way), wanted)) << way.name;
         EXPECT_TRUE(same_bits(drawn<std::uint32_t>(scene, views, way), depth)) << way.name;
@@ -90,6 +90,55 @@ void expect_same_words(const Scene& world) {
                 << way.name << ", width " << build.packet_width;
         }
     }
+}
+
+// Small and large triangles, clipped ones and masked ones, seen from both sides.
+TEST(Views, OfDepthAloneSayWhichSideIsSeen) {
+    Scene world = test::patchwork(200, 72);
+    for (std::size_t m = 0; m < world.materials.size(); ++m) {
+        world.materials[m].double_sided = m % 3 == 2;
+        if (m % 2) world.materials[m].alpha_mode = AlphaMode::mask;
+    }
+    Scene fine = bumpy_mesh();
+    for (std::size_t t = 0; t < fine.triangles.size(); t += 3)
+        std::swap(fine.triangles[t].vertex[1], fine.triangles[t].vertex[2]);
+    for (const Scene& shown : {world, fine}) {
+        const DeviceScene scene = test::on_device(shown);
+        std::vector<View> views = many_views(scene);
+        for (View& view : views) view.flags = 0;
+        test::Sides sides;
+        const auto depth = drawn<std::uint32_t>(scene, views, ways[0]);
+        const auto words = drawn<std::uint64_t>(scene, views, ways[0]);
+        for (const View& view : views) test::count_sides(scene, view, depth, words, sides);
+        EXPECT_GT(sides.fronts, 1000u);
+        EXPECT_GT(sides.backs, 1000u);
+        // Of two triangles at one closeness, but for the lowest bit, either may be seen.
+        EXPECT_LE(1000 * sides.wrong, sides.fronts + sides.backs);
+    }
+}
+
+// Two triangles at one place, wound each way: the front is seen, whichever comes first.
+TEST(Views, OfDepthAloneShowFrontsBeforeBacksAtOnePlace) {
+    for (const double half : {0.01, 1.0})  // of a few pixels, and of many
+        for (const bool back_first : {false, true})
+            for (const int shown : {1, 2, 3}) {  // front, back, both
+                Scene world = test::plain_scene();
+                for (const bool back : {back_first, !back_first}) {
+                    if (!(shown & (back ? 2 : 1))) continue;
+                    const glm::dvec3 a(-half, -half, 0), b(half, -half, 0), c(0, half, 0);
+                    test::add_triangle(world, a, back ? c : b, back ? b : c);
+                }
+                test::add_triangle(world, {-2, -2, -1}, {2, -2, -1}, {0, 2, -1});
+                const DeviceScene scene = test::on_device(world);
+                View view = make_view(test::camera_at({0, 0, 2}, {0, 0, 0}), scene.frame(), 99, 99);
+                view.flags = 0;
+                for (const Way& way : ways) {
+                    const auto depth = drawn<std::uint32_t>(scene, {view}, way);
+                    EXPECT_EQ(depth[49 * 99 + 49] & 1u, shown == 2 ? 1u : 0u)
+                        << way.name << ", half " << half << ", shown " << shown;
+                    EXPECT_EQ(depth[0], ~0u);
+                }
+            }
 }
 
 TEST(Views, AreTheSameWordsInEveryWayOfDrawing) { expect_same_words(test::patchwork(200, 71)); }

@@ -20,12 +20,11 @@ float reach(Scene world, std::uint32_t size = 64, const glm::vec3& normal = glm:
     const test::Sites sites(
         {site(far, normal), site(p, normal), site(far, normal), site(far, normal)}, {3, 2, 1, 0});
     sites.balance(BALANCE_REACH, {-1, -1, -1, -1});
-    const auto cubes =
-        test::hemicubes(sites, &scene, {1, 3, size, Pixels::visibility, 0.0f, 1e-6f});
+    const auto cubes = test::hemicubes(sites, &scene, {1, 3, size, 0.0f, 1e-6f});
     test::vpl_passes().reach(
         test::device().queue,
-        {1, 3, 0, 4, sites.buffers.stride, sites.buffers.sample_stride, size, 1.0f, 2, 0, 0, 0},
-        scene, sites.buffers, cubes.views, cubes.pixels);
+        {1, 3, 0, 4, sites.buffers.stride, sites.buffers.sample_stride, size, 1.0f, 1, 0, 0, 0},
+        sites.buffers, cubes.views, cubes.depth);
     const auto found =
         test::download<float>(sites.buffers.balance, BALANCE_PLANES * sites.buffers.stride);
     const float* shares = found.data() + BALANCE_REACH * sites.buffers.stride;

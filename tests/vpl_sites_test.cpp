@@ -1,46 +1,16 @@
-// What VPLs are made from and what they send: place, receive, weigh and emit in double precision.
+// What VPLs are made from and what they send: place, receive and emit in double precision.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "vpl_tools.hpp"
+#include "vpl_heap.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::Heap;
 
-// Sites of 1 to 30 samples with random planes of everything.
-struct Heap {
-    std::vector<Site> sites;
-    std::vector<float> samples;  // [GBUFFER_PLANES][sample_stride]
-    SiteBuffers buffers;
-    explicit Heap(int count, std::uint64_t seed = 5) {
-        test::Random random(seed);
-        cl_uint first = 0;
-        for (int i = 0; i < count; ++i) {
-            const auto many = static_cast<cl_uint>(i == 3 ? 1 : random.integer(1, 30));
-            sites.push_back({first, many, static_cast<float>(random(0.01, 2.0)),
-                             i % 3 == 1 ? cl_uint{SITE_BACK} : 0});
-            first += many;
-        }
-        SiteBuffers& b = buffers;
-        b.site_count = static_cast<std::uint32_t>(count);
-        b.stride = test::padded(sites.size());
-        b.sample_count = first;
-        b.sample_stride = test::padded(first + sites.size()) + 16;
-        samples.resize(GBUFFER_PLANES * b.sample_stride);
-        for (float& value : samples) value = static_cast<float>(random(0.01, 1.0));
-        b.sites = test::upload(sites);
-        b.samples = test::upload(samples);
-        b.planes = test::upload(std::vector<float>(SITE_PLANES * b.stride, nan));
-        b.light = test::upload(std::vector<float>(SITE_LIGHT_PLANES * b.stride, nan));
-        b.weights = test::upload(std::vector<float>(b.sample_stride, nan));
-        b.power = test::upload(std::vector<float>(b.stride, 3.0f));
-        b.shot = test::upload(std::vector<float>(3 * b.stride, nan));
-        b.chosen = test::upload(std::vector<cl_uint>(sites.size() + 1, 77));
-    }
-};
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Place, TakesMeansOfReflectanceAndTurnsBacks) {
     Heap heap(50);
@@ -122,81 +92,6 @@ TEST(Receive, TakesTheMeanOfEachChannel) {
             EXPECT_EQ(light[(SITE_RECEIVED + c) * b.stride + i],
                       light[(SITE_UNSHOT + c) * b.stride + i]);
         }
-}
-
-// L(rho_k (E_k + I - E)) over its mean. The mean itself comes to 1.
-TEST(Weigh, SharesPowerByLightAndColourOfTheSamples) {
-    const Heap heap(60);
-    const SiteBuffers& b = heap.buffers;
-    test::Random random(9);
-    std::vector<float> irradiance(3 * b.sample_stride), light(SITE_LIGHT_PLANES * b.stride, nan);
-    for (float& value : irradiance) value = static_cast<float>(random(0, 9));
-    for (std::size_t i = 0; i < heap.sites.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            double mean = 0.0;
-            const Site& site = heap.sites[i];
-            for (std::uint32_t k = site.first_sample; k < site.first_sample + site.sample_count;
-                 ++k) {
-                float& value = irradiance[c * b.sample_stride + k];
-                if (i == 5) value = 0.0f;  // no light at all
-                if (i == 6) value = 2.0f;  // even light
-                mean += double{value} / site.sample_count;
-            }
-            // Reflected light between none and twice the direct.
-            light[(SITE_RECEIVED + c) * b.stride + i] =
-                i == 5 ? 0.0f : static_cast<float>(mean * random(1.0, 3.0));
-        }
-    SiteBuffers with = b;
-    with.light = test::upload(light);
-    test::vpl_passes().weigh(test::device().queue, with, test::upload(irradiance));
-    const auto weights = test::download<float>(b.weights, b.sample_stride);
-    const double luminance[3] = {0.2126, 0.7152, 0.0722};
-    for (std::size_t i = 0; i < heap.sites.size(); ++i) {
-        const Site& site = heap.sites[i];
-        const std::uint32_t last = site.first_sample + site.sample_count;
-        double mean[3] = {0, 0, 0}, sum = 0.0, sum_found = 0.0;
-        for (int c = 0; c < 3; ++c)
-            for (std::uint32_t k = site.first_sample; k < last; ++k)
-                mean[c] += double{irradiance[c * b.sample_stride + k]} / site.sample_count;
-        std::vector<double> wanted;
-        for (std::uint32_t k = site.first_sample; k < last; ++k) {
-            double value = 0.0;
-            for (int c = 0; c < 3; ++c)
-                value += luminance[c] * heap.samples[(GBUFFER_BASE + c) * b.sample_stride + k] *
-                         (double{irradiance[c * b.sample_stride + k]} +
-                          light[(SITE_RECEIVED + c) * b.stride + i] - mean[c]);
-            wanted.push_back(value);
-            sum += value;
-        }
-        for (std::uint32_t k = 0; k < site.sample_count; ++k) {
-            const double found = weights[site.first_sample + k];
-            sum_found += found;
-            const double share = sum > 0.0 ? wanted[k] * site.sample_count / sum : 1.0;
-            EXPECT_NEAR(found, share, 2e-5 * std::max(share, 1.0)) << "site " << i;
-            EXPECT_TRUE(i != 5 || found == 1.0);
-        }
-        EXPECT_NEAR(sum_found / site.sample_count, 1.0, 1e-5);
-    }
-}
-
-// Weights stay numbers whatever the light is: too dark or too bright to be summed.
-TEST(Weigh, StaysFinite) {
-    for (const float value :
-         {1e-42f, 1e-39f, 1e-30f, 1e30f, 3e38f, nan, std::numeric_limits<float>::infinity()}) {
-        const Heap heap(4);
-        const SiteBuffers& b = heap.buffers;
-        SiteBuffers with = b;
-        with.light = test::upload(std::vector<float>(SITE_LIGHT_PLANES * b.stride, value));
-        test::vpl_passes().weigh(test::device().queue, with,
-                                 test::upload(std::vector<float>(3 * b.sample_stride, value)));
-        const auto weights = test::download<float>(b.weights, b.sample_stride);
-        for (const Site& site : heap.sites) {
-            double sum = 0.0;
-            for (std::uint32_t k = 0; k < site.sample_count; ++k)
-                sum += weights[site.first_sample + k];
-            EXPECT_NEAR(sum, site.sample_count, 1e-5 * site.sample_count) << value;
-        }
-    }
 }
 
 // ---- emit

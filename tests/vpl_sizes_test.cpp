@@ -27,7 +27,8 @@ struct Enough {
         b.sample_count = samples;
         b.sample_stride = sample_stride;
         for (cl::Buffer S::*which : {&S::sites, &S::planes, &S::light, &S::balance, &S::power,
-                                     &S::shot, &S::samples, &S::weights, &S::chosen})
+                                     &S::shot, &S::samples, &S::chosen, &S::sent, &S::sample_power,
+                                     &S::site_power, &S::sends, &S::list, &S::listed})
             b.*which = test::upload(std::vector<float>(1 << 10));
     }
     S with(cl::Buffer S::*which, B other) const {
@@ -67,7 +68,7 @@ TEST(Sizes, OfVplPasses) {
     const Enough e;
     const VplPasses& passes = test::vpl_passes();
     const cl::CommandQueue& queue = test::device().queue;
-    const TransportParams shooters{1, 2, 0, n, stride, sample_stride, size, 1.0f, 1, 4, 0, 0};
+    const TransportParams shooters{1, 2, 0, n, stride, sample_stride, size, 1.0f, 4, 0, 0, 0};
     const ShootParams shoot{1, 2, 0, n, stride, 1.0f, SHOOT_ALL, 0.0f};
     const auto& z = e.zeros;
     const std::tuple<const char*, cl::Buffer S::*, std::size_t> sites{"sites", &S::sites,
@@ -76,7 +77,6 @@ TEST(Sizes, OfVplPasses) {
         points{"samples", &S::samples, GBUFFER_PLANES * sample_stride * word},
         light{"light", &S::light, SITE_LIGHT_PLANES * plane}, power{"power", &S::power, plane},
         shot{"shot", &S::shot, 3 * plane}, balance{"balance", &S::balance, BALANCE_PLANES * plane},
-        weights{"weights", &S::weights, sample_stride * word},
         chosen{"chosen", &S::chosen, 3 * word};
     std::vector<test::Argument> all;
     const auto place = [&](const S& b, B ids) { passes.place(queue, e.scene, b, ids); };
@@ -89,29 +89,33 @@ TEST(Sizes, OfVplPasses) {
     add(all, "vpl.receive", "irradiance", 3 * sample_stride * word,
         [&](B b) { passes.receive(queue, e.buffers, b); });
 
-    add(all, e, "vpl.weigh", [&](const S& b) { passes.weigh(queue, b, z); },
-        {sites, planes, points, light, weights});
-    add(all, "vpl.weigh", "irradiance", 3 * sample_stride * word,
-        [&](B b) { passes.weigh(queue, e.buffers, b); });
+    add(all, e, "vpl.send", [&](const S& b) { passes.send(queue, b, z, -1.0f); },
+        {sites,
+         planes,
+         points,
+         light,
+         {"sent", &S::sent, 3 * sample_stride * word},
+         {"sample_power", &S::sample_power, 3 * sample_stride * word},
+         {"site_power", &S::site_power, 3 * plane},
+         {"sends", &S::sends, n}});
+    add(all, "vpl.send", "irradiance", 3 * sample_stride * word,
+        [&](B b) { passes.send(queue, e.buffers, b, -1.0f); });
 
-    // Two words a pixel take twice the room; kept rows that of all sites.
-    for (const cl_uint words : {1u, 2u})
-        for (const cl_uint kept : {0u, 1u}) {
-            TransportParams params = shooters;
-            params.words = words;
-            params.kept = kept;
-            const auto call = [&passes, &queue, params](const S& b, B views, B depth, B rows) {
-                passes.transport(queue, params, b, views, depth, rows);
-            };
-            add(all, e, "vpl.transport", [=](const S& b) { call(b, z, z, z); },
-                {sites, planes, points, chosen});
-            add(all, "vpl.transport", "views", 10 * sizeof(View),
-                [=, &e](B b) { call(e.buffers, b, z, z); });
-            add(all, "vpl.transport", "depth", words * word * 2 * 3 * size * size,
-                [=, &e](B b) { call(e.buffers, z, b, z); });
-            add(all, "vpl.transport", "rows", (kept ? n : 2) * stride * sizeof(cl_half),
-                [=, &e](B b) { call(e.buffers, z, z, b); });
-        }
+    for (const cl_uint kept : {0u, 1u}) {  // kept rows: of all sites
+        TransportParams params = shooters;
+        params.kept = kept;
+        const auto call = [&passes, &queue, params](const S& b, B views, B depth, B rows) {
+            passes.transport(queue, params, b, views, depth, rows);
+        };
+        add(all, e, "vpl.transport", [=](const S& b) { call(b, z, z, z); },
+            {sites, planes, points, chosen});
+        add(all, "vpl.transport", "views", 10 * sizeof(View),
+            [=, &e](B b) { call(e.buffers, b, z, z); });
+        add(all, "vpl.transport", "depth", word * 2 * 3 * size * size,
+            [=, &e](B b) { call(e.buffers, z, b, z); });
+        add(all, "vpl.transport", "rows", (kept ? n : 2) * stride * sizeof(cl_half),
+            [=, &e](B b) { call(e.buffers, z, z, b); });
+    }
 
     // Views of one pixel each, the first one, where nothing is.
     const cl::Buffer views = test::upload([] {
@@ -119,18 +123,14 @@ TEST(Sizes, OfVplPasses) {
         view.width = view.height = 1;
         return std::vector<View>(10, view);
     }());
-    const auto reach = [&](const S& b, B v, B visibility) {
-        if (visibility()) queue.enqueueFillBuffer(visibility, cl_uchar{255}, 0, 8);
-        passes.reach(queue, shooters, e.scene, b, v, visibility);
-    };
-    const cl::Buffer nothing = test::upload(std::vector<std::uint64_t>(2 * 3 * size * size, ~0ull));
-    add(all, e, "vpl.reach", [&](const S& b) { reach(b, views, nothing); },
+    const auto reach = [&](const S& b, B v, B depth) { passes.reach(queue, shooters, b, v, depth); };
+    add(all, e, "vpl.reach", [&](const S& b) { reach(b, views, z); },
         {sites, planes, points, chosen, balance});
     all.push_back({"vpl.reach", "views", 10 * sizeof(View), [&](B b) {
                        if (b()) queue.enqueueCopyBuffer(views, b, 0, 0, 10 * sizeof(View) - 1);
-                       reach(e.buffers, b, nothing);
+                       reach(e.buffers, b, z);
                    }});
-    all.push_back({"vpl.reach", "visibility", 2 * 3 * size * size * 8,
+    all.push_back({"vpl.reach", "depth", 2 * 3 * size * size * word,
                    [&](B b) { reach(e.buffers, views, b); }});
 
     add(all, e, "vpl.balance_receivers",
@@ -180,26 +180,50 @@ TEST(Sizes, OfAtlasPasses) {
     const cl::CommandQueue& queue = test::device().queue;
     constexpr std::uint32_t texels = 7, texel_stride = 32;
     constexpr std::size_t texel_plane = texel_stride * word;
-    const FillParams params{1, 2, stride, sample_stride, texels, texel_stride, 0, 1};
+    const FillParams params{1, 2, stride, sample_stride, texels, texel_stride, 0, FILL_FORM_FACTORS};
     const cl::Buffer z = e.zeros, out = test::upload(std::vector<float>(1 << 10));
     std::vector<test::Argument> all;
-    const auto gather = [&](const S& b, B views, B places, B irradiance, B filled) {
-        passes.gather(queue, params, b, views, z, places, irradiance, filled);
+    // Nine shooters have two rows, which are put after three others.
+    const cl::Buffer views = test::empty<View>(45);
+    Enough::clear(views);
+    const auto see = [&](B v, B depth, B places, B seen) {
+        passes.see(queue, {9, size, texels, texel_stride, 0, 3, 0, 0}, v, depth, places, seen);
     };
-    add(all, e, "atlas.gather", [&](const S& b) { gather(b, z, z, out, out); },
-        {{"chosen", &S::chosen, 3 * word},
-         {"sites", &S::sites, n * sizeof(Site)},
-         {"planes", &S::planes, SITE_PLANES * plane},
-         {"light", &S::light, SITE_LIGHT_PLANES * plane},
-         {"samples", &S::samples, GBUFFER_PLANES * sample_stride * word},
-         {"weights", &S::weights, sample_stride * word}});
-    add(all, "atlas.gather", "views", 10 * sizeof(View),
-        [&](B b) { gather(e.buffers, b, z, out, out); });
-    add(all, "atlas.gather", "texels", (GBUFFER_GEOMETRIC + 3) * texel_plane,
-        [&](B b) { gather(e.buffers, z, b, out, out); });
-    add(all, "atlas.gather", "irradiance", 3 * texel_plane,
-        [&](B b) { gather(e.buffers, z, z, b, out); });
-    add(all, "atlas.gather", "filled", texel_plane, [&](B b) { gather(e.buffers, z, z, out, b); });
+    const cl::Buffer depths = test::upload(std::vector<cl_uint>(9 * 3 * size * size));
+    add(all, "atlas.see", "views", 45 * sizeof(View), [&](B b) { see(b, depths, z, out); });
+    add(all, "atlas.see", "depth", 9 * 3 * size * size * word, [&](B b) { see(views, b, z, out); });
+    add(all, "atlas.see", "texels", (GBUFFER_GEOMETRIC + 3) * texel_plane,
+        [&](B b) { see(views, depths, b, out); });
+    add(all, "atlas.see", "seen", 5 * texel_stride, [&](B b) { see(views, depths, z, b); });
+
+    // Not kept, two shooters have one row; kept, all sites have.
+    for (const cl_uint kept : {0u, 1u}) {
+        FillParams how = params;
+        if (kept) how.flags |= FILL_KEPT;
+        const auto gather = [&passes, &queue, how](const S& b, B places, B seen, B gathered,
+                                                   B filled) {
+            S sites = b;
+            if (how.flags & FILL_KEPT) sites.site_count = 9;
+            passes.gather(queue, how, sites, places, seen, gathered, filled);
+        };
+        const std::size_t count = kept ? 9 : n;
+        add(all, e, "atlas.gather", [=](const S& b) { gather(b, z, z, out, out); },
+            {{"list", &S::list, 3 * word},
+             {"listed", &S::listed, word},
+             {"sites", &S::sites, count * sizeof(Site)},
+             {"planes", &S::planes, SITE_PLANES * plane},
+             {"site_power", &S::site_power, 3 * plane},
+             {"samples", &S::samples, GBUFFER_PLANES * sample_stride * word},
+             {"sample_power", &S::sample_power, 3 * sample_stride * word}});
+        add(all, "atlas.gather", "texels", (GBUFFER_NORMAL + 3) * texel_plane,
+            [=, &e](B b) { gather(e.buffers, b, z, out, out); });
+        add(all, "atlas.gather", "seen", (kept ? 2 : 1) * texel_stride,
+            [=, &e](B b) { gather(e.buffers, z, b, out, out); });
+        add(all, "atlas.gather", "gathered", 3 * texel_plane,
+            [=, &e](B b) { gather(e.buffers, z, z, b, out); });
+        add(all, "atlas.gather", "filled", texel_plane,
+            [=, &e](B b) { gather(e.buffers, z, z, out, b); });
+    }
 
     const auto nearest = [&](const S& b, B places, B reach) {
         passes.nearest(queue, params, b, places, reach);
@@ -211,20 +235,25 @@ TEST(Sizes, OfAtlasPasses) {
         [&](B b) { nearest(e.buffers, b, out); });
     add(all, "atlas.nearest", "reach", texel_plane, [&](B b) { nearest(e.buffers, z, b); });
 
-    const auto complete = [&](B reach, B filled, B irradiance, B bad) {
-        passes.complete(queue, params, reach, filled, irradiance, bad);
+    const auto complete = [&](B reach, B filled, B gathered, B irradiance, B bad) {
+        passes.complete(queue, params, reach, filled, gathered, irradiance, bad);
     };
-    add(all, "atlas.complete", "reach", texel_plane, [&](B b) { complete(b, z, out, out); });
-    add(all, "atlas.complete", "filled", texel_plane, [&](B b) { complete(z, b, out, out); });
-    add(all, "atlas.complete", "irradiance", 3 * texel_plane, [&](B b) { complete(z, z, b, out); });
-    add(all, "atlas.complete", "non_finite", word, [&](B b) { complete(z, z, out, b); });
+    add(all, "atlas.complete", "reach", texel_plane, [&](B b) { complete(b, z, z, out, out); });
+    add(all, "atlas.complete", "filled", texel_plane, [&](B b) { complete(z, b, z, out, out); });
+    add(all, "atlas.complete", "gathered", 3 * texel_plane,
+        [&](B b) { complete(z, z, b, out, out); });
+    add(all, "atlas.complete", "irradiance", 3 * texel_plane,
+        [&](B b) { complete(z, z, z, b, out); });
+    add(all, "atlas.complete", "non_finite", word, [&](B b) { complete(z, z, z, out, b); });
     test::expect_refusals(all);
 
     FillParams wrong = params;
     wrong.stride = 24;
-    EXPECT_THROW(passes.gather(queue, wrong, e.buffers, z, z, z, out, out), Error);
+    EXPECT_THROW(passes.gather(queue, wrong, e.buffers, z, z, out, out), Error);
+    EXPECT_THROW(passes.see(queue, {1, size, texels, 24, 0, 0, 0, 0}, z, z, z, out), Error);
+    EXPECT_THROW(passes.see(queue, {1, size, texels, texel_stride, 8, 0, 0, 0}, z, z, z, out), Error);
     EXPECT_THROW(passes.nearest(queue, wrong, e.buffers, z, out), Error);
-    EXPECT_THROW(passes.complete(queue, wrong, z, z, out, out), Error);
+    EXPECT_THROW(passes.complete(queue, wrong, z, z, z, out, out), Error);
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ struct SitePlace {
     float area = 0.0f;
     glm::vec3 albedo = glm::vec3(1.0f);
     std::vector<SurfacePlace> samples;
-    std::vector<float> weights = {};  // of the samples; none: all 1
+    glm::vec3 power = glm::vec3(std::numeric_limits<float>::quiet_NaN());  // that it sends to texels
+    std::vector<glm::vec3> powers = {};  // of its samples; need not add up to that
 };
 
 // Planes of floats, NaN where nothing is put: what no kernel may take for a value.
@@ -50,43 +51,42 @@ inline cl::Buffer upload_points(const std::vector<SurfacePlace>& points, std::ui
     for (std::size_t i = 0; i < points.size(); ++i) {
         out.put(GBUFFER_POSITION, i, points[i].position);
         out.put(GBUFFER_NORMAL, i, points[i].normal);
-        out.put(GBUFFER_GEOMETRIC, i, points[i].geometric);
+        if (planes >= GBUFFER_GEOMETRIC + 3) out.put(GBUFFER_GEOMETRIC, i, points[i].geometric);
         if (planes >= GBUFFER_BASE + 3) out.put(GBUFFER_BASE, i, points[i].base);
     }
     return upload(out.values);
 }
 
-// Sites on the device. They shoot in their order unless `order` says otherwise; they have
-// `received`, none of it unshot; balance factors are 1, the reach is 1.
+// Sites on the device. They shoot, and send to texels, in their order unless `order` says otherwise;
+// they hold no light; balance factors are 1, the reach is 1.
 struct Sites {
-    explicit Sites(std::vector<SitePlace> list, std::vector<cl_uint> order = {},
-                   const std::vector<glm::vec3>& received = {})
+    explicit Sites(std::vector<SitePlace> list, std::vector<cl_uint> order = {})
         : places(std::move(list)) {
         SiteBuffers& b = buffers;
         b.site_count = static_cast<std::uint32_t>(places.size());
         b.stride = padded(places.size());
         std::vector<Site> sites;
         std::vector<SurfacePlace> points;
-        std::vector<float> weights;
         for (const SitePlace& place : places) {
             sites.push_back({static_cast<cl_uint>(points.size()),
                              static_cast<cl_uint>(place.samples.size()), place.area, 0});
             points.insert(points.end(), place.samples.begin(), place.samples.end());
-            for (std::size_t k = 0; k < place.samples.size(); ++k)
-                weights.push_back(place.weights.empty() ? 1.0f : place.weights[k]);
             if (order.size() < places.size()) order.push_back(static_cast<cl_uint>(order.size()));
         }
         b.sample_count = static_cast<std::uint32_t>(points.size());
         b.sample_stride = padded(points.size() + places.size());
         Planes planes(SITE_PLANES, b.stride), light(SITE_LIGHT_PLANES, b.stride);
+        Planes power(3, b.stride), powers(3, b.sample_stride);
         for (std::size_t i = 0; i < places.size(); ++i) {
             planes.put(SITE_POSITION, i, places[i].position);
             planes.put(SITE_NORMAL, i, places[i].normal);
             planes.put(SITE_ALBEDO, i, places[i].albedo);
             light.put(SITE_UNSHOT, i, glm::vec3(0.0f));
-            light.put(SITE_RECEIVED, i, received.empty() ? glm::vec3(0.0f) : received[i]);
+            light.put(SITE_RECEIVED, i, glm::vec3(0.0f));
+            power.put(0, i, places[i].power);
+            for (std::size_t k = 0; k < places[i].powers.size(); ++k)
+                powers.put(0, sites[i].first_sample + k, places[i].powers[k]);
         }
-        weights.resize(b.sample_stride, std::numeric_limits<float>::quiet_NaN());
         b.sites = upload(sites);
         b.planes = upload(planes.values);
         b.light = upload(light.values);
@@ -94,8 +94,10 @@ struct Sites {
         b.power = upload(std::vector<float>(b.stride));
         b.shot = upload(std::vector<float>(3 * b.stride));
         b.samples = upload_points(points, b.sample_stride);
-        b.weights = upload(weights);
-        b.chosen = upload(order);
+        b.site_power = upload(power.values);
+        b.sample_power = upload(powers.values);
+        b.chosen = b.list = upload(order);
+        b.listed = upload(std::vector<cl_uint>{b.site_count});
     }
     // The factors of a plane of the balance.
     void balance(int plane, const std::vector<float>& values) const {
@@ -109,15 +111,14 @@ struct Sites {
 
 // The pictures of a batch of shooters.
 struct Hemicubes {
-    std::uint32_t first, count, size, words;
-    cl::Buffer views, pixels;
+    std::uint32_t first, count, size;
+    cl::Buffer views, depth;
 };
 
 struct HemicubeOptions {
     std::uint32_t first = 0;
     std::uint32_t count = 0;  // 0: all sites from the first on
     std::uint32_t size = 64;
-    Pixels kind = Pixels::depth;
     float lift = 0.0f;
     float near = 1e-5f;
 };
@@ -130,20 +131,15 @@ inline Hemicubes hemicubes(const Sites& sites, const DeviceScene* scene,
     const std::uint32_t size = options.size;
     const std::uint32_t count = options.count > 0 ? options.count : b.site_count - options.first;
     const std::size_t pixels = std::size_t{3} * count * size * size;
-    Hemicubes out{options.first,
-                  count,
-                  size,
-                  options.kind == Pixels::depth ? 1u : 2u,
-                  empty<View>(5 * count),
-                  empty<cl_uint>((options.kind == Pixels::depth ? 1 : 2) * pixels)};
+    Hemicubes out{options.first, count, size, empty<View>(5 * count), empty<cl_uint>(pixels)};
     gbuffer_passes().cubes(
         queue, {count, 5, size, 0, 0, b.stride, options.lift, options.near, options.first, 0, 0, 0},
         b.planes, b.chosen, out.views);
     if (scene)
         gbuffer_passes().raster_views(queue, {0, 5 * count, size, size, pixels}, out.views, *scene,
-                                      out.pixels, options.kind);
+                                      out.depth, Pixels::depth);
     else
-        queue.enqueueFillBuffer(out.pixels, ~cl_uint{0}, 0, out.words * pixels * sizeof(cl_uint));
+        queue.enqueueFillBuffer(out.depth, ~cl_uint{0}, 0, pixels * sizeof(cl_uint));
     return out;
 }
 
@@ -165,9 +161,18 @@ inline std::vector<std::uint16_t> transport_rows(const Sites& sites, const Hemic
     const cl::Buffer rows = upload(std::vector<std::uint16_t>(halves, 0x7e00));  // NaN
     passes.transport(device().queue,
                      {cubes.first, cubes.count, kept ? 1u : 0u, b.site_count, b.stride,
-                      b.sample_stride, cubes.size, row_scale, cubes.words, most_samples, 0, 0},
-                     b, cubes.views, cubes.pixels, rows);
+                      b.sample_stride, cubes.size, row_scale, most_samples, 0, 0, 0},
+                     b, cubes.views, cubes.depth, rows);
     return download<std::uint16_t>(rows, halves);
+}
+
+// What texels see of a batch -> seen, rows of params.stride bytes from first_row on.
+inline void see(const Hemicubes& cubes, std::uint32_t texels, const cl::Buffer& planes,
+                const cl::Buffer& seen, std::uint32_t first_row = 0,
+                const AtlasPasses& passes = atlas_passes(), std::uint32_t first_texel = 0) {
+    passes.see(device().queue,
+               {cubes.count, cubes.size, texels, padded(texels), first_texel, first_row, 0, 0},
+               cubes.views, cubes.depth, planes, seen);
 }
 
 // ---- in double precision -------------------------------------------------------------------
@@ -181,9 +186,7 @@ inline double disc_kernel(double cosines, double square, double radius2) {
 
 struct Exchanged {
     double factor = 0.0;     // pi F / A
-    double even = 0.0;       // the same if all samples weighed alike
     double condition = 0.0;  // the same if all cosines were 1: what rounding is relative to
-    double even_condition = 0.0;
     bool near_by = false;
     bool doubtful = false;  // at the border of near by
 };
@@ -201,20 +204,13 @@ inline Exchanged exchange(const SitePlace& shooter, const glm::dvec3& p, const g
     if (!out.near_by) {
         out.factor = disc_kernel(cosines(d), square, radius2);
         out.condition = disc_kernel(square, square, radius2);
-        out.even = out.factor;
-        out.even_condition = out.condition;
         return out;
     }
     const double count = static_cast<double>(shooter.samples.size());
     for (std::size_t k = 0; k < shooter.samples.size(); ++k) {
         const glm::dvec3 v = p - glm::dvec3(shooter.samples[k].position);
-        const double share = (shooter.weights.empty() ? 1.0 : double{shooter.weights[k]}) / count;
-        const double part = disc_kernel(cosines(v), glm::dot(v, v), radius2 / count);
-        const double most = disc_kernel(glm::dot(v, v), glm::dot(v, v), radius2 / count);
-        out.factor += share * part;
-        out.condition += share * most;
-        out.even += part / count;
-        out.even_condition += most / count;
+        out.factor += disc_kernel(cosines(v), glm::dot(v, v), radius2 / count) / count;
+        out.condition += disc_kernel(glm::dot(v, v), glm::dot(v, v), radius2 / count) / count;
     }
     return out;
 }

@@ -59,7 +59,7 @@ std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device&
                flags.vpls.samples_per_vpl, flags.vpls.gap_density, flags.atlas.size, flags.uvs,
                flags.atlas.padding, flags.atlas.texels_per_metre, flags.atlas.most_pages,
                bake.bounces, bake.threshold, bake.one_at_a_time, bake.exchange_samples,
-               bake.exchange_size, bake.filling_size, flags.filling, bake.mesh, bake.kernel,
+               bake.hemicube_size, flags.filling, bake.mesh, bake.kernel,
                bake.direct, emitters.shadow_size, emitters.face_size, emitters.area_samples,
                emitters.environment_lights) +
            build_flags(flags.device);

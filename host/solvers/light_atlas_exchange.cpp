@@ -76,7 +76,7 @@ float LightAtlasSolver::State::strongest_power() {
 void LightAtlasSolver::State::bounce_to_threshold() {
     for (std::uint32_t k = 0; k < most_bounces && !record.cancelled(); ++k) {
         bounce();
-        record.report(0.82);
+        record.report(b.seen_kept ? 0.82 : 0.4);
         if (!(strongest_power() > threshold)) return;
     }
 }
@@ -99,7 +99,7 @@ void LightAtlasSolver::State::shoot_strongest() {
             });
             shoot(n, 1);
         }
-        record.report(0.82);
+        record.report(b.seen_kept ? 0.82 : 0.4);
         if (!(strongest_power() > threshold)) return;
     }
 }

@@ -63,7 +63,8 @@ void LightAtlasSolver::State::measure() {
         if (b.seen_kept) see(first, count);
         if (!b.kept) balance_shooters(first, count);
         measured_vpls += count;
-        if (batch % batches_a_report == 0)
+        // Who stops after the last batch stops after the factors: they are part of the state then.
+        if (batch % batches_a_report == 0 && measured_vpls < n)
             record.report(0.02 + (b.seen_kept ? 0.78 : 0.33) * measured_vpls / n);
     }
     if (b.kept) balance();

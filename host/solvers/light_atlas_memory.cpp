@@ -122,13 +122,16 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
           3 * b.batch * side * side * pixel_bytes(filling_pixels(options)));
     add_mesh(t, b, scene, atlas.charts.size(), options);
     t.add_word(b.non_finite, "counters", 0);
-    const auto fits = [&](std::size_t all) { return all <= largest && t.bytes() + all <= budget; };
+    const auto fits = [&](std::size_t all, std::size_t others) {
+        return all <= largest && t.bytes() + all + others <= budget;
+    };
     const std::size_t row = s.stride * sizeof(cl_half);
-    b.kept = fits(sites * row);
+    // What a batch sees has to fit beside the rows.
+    b.kept = fits(sites * row, options.filling == Filling::project ? 0 : b.texel_stride);
     t.add(b.rows, "rows of transport", vpls, (b.kept ? sites : b.batch) * row);
     if (options.filling == Filling::project) return t;
     const std::size_t seen = seen_rows(sites) * b.texel_stride;
-    b.seen_kept = b.kept && fits(seen);
+    b.seen_kept = b.kept && fits(seen, 0);
     t.add(b.seen, "texels that VPLs see", "the number of VPLs or the size of the atlas",
           b.seen_kept ? seen : b.texel_stride);
     return t;

@@ -87,7 +87,8 @@ void LightAtlasSolver::State::put_back_measurement() {
     write(record, b.rows, restored->rows);
     write(record, b.seen, restored->seen);
     measured_vpls = restored->measured_vpls;
-    measured = false;
+    // Balancing changes what it starts from, so it is done once.
+    measured = measured_vpls == b.sites.site_count;
     restored.reset();
 }
 
@@ -98,6 +99,7 @@ void LightAtlasSolver::State::put_back_light() {
     write(record, b.gathered, restored->irradiance);
     write(record, b.filled, restored->filled);
     filled_vpls = restored->filled_vpls;
+    if (!measured) measured_vpls = 0;  // their reach is overwritten
     shots = restored->shots;
     restored.reset();
 }

@@ -6,6 +6,8 @@
 // mean something, and a texel has none.
 //
 // Unlike paper  visibility is known before (see.cl); form factor as vpl/exchange.clh
+// Terms are added one after the other to what is there, so batches of any size give the same bits.
+//
 // Work size     1D, one work-item for every CLGI_WIDTH texels; any local size; tail guarded
 // Writes        its own texels; beside the light, the share of the hemisphere that the VPLs fill
 // Cost          some 40 flops a pair that sees each other, 2 a pair that does not; 1 bit read
@@ -36,7 +38,8 @@ kernel void atlas_gather(
     from += GBUFFER_NORMAL * stride;
     to.nx = packet_load(from), to.ny = packet_load(from + stride), to.nz = packet_load(from + 2 * stride);
     floatp zero = packet_zero;
-    Exchanged sum = {zero, zero, zero, zero};
+    Exchanged sum = {packet_load(gathered + at), packet_load(gathered + stride + at),
+                     packet_load(gathered + 2 * stride + at), packet_load(filled + at)};
     uint last = min(params.first_shooter + params.shooter_count, listed[0]);
     for (uint s = params.first_shooter; s < last; ++s) {
         uint site = list[s];
@@ -49,9 +52,8 @@ kernel void atlas_gather(
                        params.sample_stride, &to,
                        packet_select(zero, packet_splat(1.0f), sees), &sum);
     }
-    packet_store(packet_load(gathered + at) + sum.r, gathered + at);
-    packet_store(packet_load(gathered + stride + at) + sum.g, gathered + stride + at);
-    packet_store(packet_load(gathered + 2 * stride + at) + sum.b, gathered + 2 * stride + at);
-    if (params.flags & FILL_FORM_FACTORS)
-        packet_store(packet_load(filled + at) + sum.form_factor, filled + at);
+    packet_store(sum.r, gathered + at);
+    packet_store(sum.g, gathered + stride + at);
+    packet_store(sum.b, gathered + 2 * stride + at);
+    if (params.flags & FILL_FORM_FACTORS) packet_store(sum.form_factor, filled + at);
 }

@@ -39,7 +39,7 @@ kernel void atlas_see(
                                       packet_splat(cube.c.z)) > 0.0f);
             if (!packet_any(wanted)) continue;
             intp sees = hemicube_sees(&cube, depth, dx, dy, dz, gx, gy, gz, wanted);
-            bits |= sees & (intp)(1 << (s - first));
+            bits |= packet_select((intp)(0), (intp)(1 << (s - first)), sees);
         }
         packet_store_flags(bits, row);
     }

@@ -6,14 +6,16 @@
 // reflection is taken for even over the site; direct light has edges, which show near by.
 //                                                        [derived: refined near field, exchange.clh]
 //
-// Sent is the difference to what was sent before. A site whose power changed by no more than
-// `least` sends nothing, and its change stays for another time.            [Schaerfig16, section 6.2]
+// Sent is the difference to what was sent before. A site whose samples' powers changed by no more
+// than `least` together sends nothing, and its change stays for another time. Light that moves
+// within a site is a change too.                                           [Schaerfig16, section 6.2]
 //
 // Work size    1D, one work-item a site; any local size; tail guarded
 // Writes       its own flag and powers, those of its samples, and what they sent in all
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/vpl.h"
+#include "packet.clh"
 
 kernel void vpl_send(
     const SendParams     params,
@@ -49,16 +51,16 @@ kernel void vpl_send(
             powers[k] = value;
             sum += value;
         }
-        // Light too dark or too bright to divide by, or no number at all, is shared evenly.
-        int usable = sum > 1e-30f && sum < 1e30f;
-        float old = 0.0f;
+        // Light too dark or too bright to divide by, or no number at all, is shared evenly. The product
+        // of two such numbers has to be one too: fast math may multiply before it divides.
+        int usable = sum > 1e-12f && sum < 1e12f;
         for (uint k = own.first_sample; k < last; ++k) {
             powers[k] = usable ? powers[k] * (power / sum) : power / count;
-            old += before[k];
+            change += fabs(powers[k] - before[k]);
         }
-        change += fabs(power - old);
     }
-    int worth = !(change <= params.least);  // also what is no number
+    // What is no number is worth it too: by bits, since fast math takes every number for finite.
+    int worth = change > params.least || (int)(as_uint(change) & 0x7fffffffu) >= NOT_FINITE;
     sends[site] = (uchar)worth;
     for (uint c = 0; c < 3; ++c) {
         float sum = 0.0f;

@@ -77,7 +77,7 @@ typedef struct {
     uint site_count;
     uint stride;
     uint sample_stride;
-    float least;  // change of a site's power that is worth sending, exposed lumen; below 0: all are
+    float least;  // change of a site's samples that is worth sending, exposed lumen; below 0: any is
 } SendParams;
 
 // Factors of the transport, planes of [stride] each: of the shooter, of the receiver, and the share
