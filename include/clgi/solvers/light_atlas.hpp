@@ -106,9 +106,9 @@ public:
     // run again.
     bool run(const Progress& progress = nullptr);
 
-    // Bakes for lights that changed since the last run. Light is exchanged anew; then only VPLs
-    // whose power changed by more than `least`, in mean powers of direct light that VPLs reflect,
-    // send the difference to the texels [section 6.2]. What is not sent is not lost: it counts in
+    // Bakes for lights that changed since the last run. Light is exchanged anew; then only VPLs whose
+    // sample points' powers changed by more than `least` together, in mean powers of direct light
+    // that VPLs reflect, send the difference to the texels [section 6.2]. What is not sent is not lost: it counts in
     // the next update. Bakes as run() does where no run has ended before, or where what texels see
     // is not kept. Throws Error for a `least` that is negative or no number.
     bool update(double least = 1e-3, const Progress& progress = nullptr);
