@@ -64,11 +64,24 @@ TEST_F(AtlasProgram, BakesToFilesThatAgree) {
                 0.01 * stats.at("texels").get<double>());
 }
 
+// Drafts come first; the last bake is the one without them.
+TEST_F(AtlasProgram, SavesDraftsWithFewerVpls) {
+    const std::string bake = "bake " + make("cornell --light spot") +
+                             " --vpls 900 --atlas-size 48 --hemicube-size 32 -o ";
+    ASSERT_EQ(run(bake + file("plain.exr").string() + " --quiet").code, 0);
+    const Outcome outcome = run(bake + file("drafts.exr").string() + " --progressive");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("saved with 56 VPLs"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("saved with 225 VPLs"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("saved with 14 VPLs"), std::string::npos) << outcome.err;
+    EXPECT_EQ(read("plain.exr"), read("drafts.exr"));
+}
+
 // A viewer of the GLB, here clgi itself, shows what the atlas shows: each pixel within the rounding
 // of the texture's bytes, which is 4 % of dim light. On several pages too.
 TEST_F(AtlasProgram, BakesAFileThatShowsTheLight) {
     const std::string scene = make("cornell --light spot");
-    const std::string options = " --vpls 60 --atlas-size 64 --exchange-size 32 --filling-size 32 ";
+    const std::string options = " --vpls 60 --atlas-size 64 --hemicube-size 32 ";
     ASSERT_EQ(run("bake " + scene + options + "--exposure 2 --quiet --pages 1 --gltf " +
                   file("lit.glb").string())
                   .code,
@@ -118,6 +131,8 @@ TEST_F(AtlasProgram, BadInputEndsWithOneLineAndNoFile) {
         EXPECT_FALSE(fs::exists(file("x.exr")));
     };
     expect_one_error_line(run("bake " + scene + " --quiet"), 1);
+    expect_one_error_line(run("bake " + scene + " --quiet --progressive --unwrapped " +
+                              file("y.glb").string()), 1);
     for (const char* flags :
          {"--vpls 0", "--bounces -1", "--atlas-size 9000", "--atlas-size 0", "--hemicube-size 33",
           "--hemicube-size 2048", "--threshold none", "--uvs 2", "--pages 0", "--padding 0",
@@ -215,11 +230,12 @@ TEST_F(AtlasProgram, RepeatsTheTableOfThePaper) {
     const auto table = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(table.at("table"), "schaerfig1");
     EXPECT_GT(table.at("peak_gflops"), 0.0);
-    ASSERT_EQ(table.at("rows").size(), 2u);
-    const double paper[] = {0.705, 0.495};
-    for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(table.at("rows").size(), 4u);
+    const double paper[] = {0.705, 0.705, 0.495, 0.495};
+    for (std::size_t i = 0; i < 4; ++i) {
         const auto& row = table.at("rows")[i];
         EXPECT_EQ(row.at("paper"), paper[i]);
+        EXPECT_EQ(row.at("filling"), i % 2 == 0 ? "gather" : "project");
         EXPECT_EQ(row.at("unit"), "s");
         EXPECT_TRUE(row.at("error").is_null());
         EXPECT_GT(row.at("clgi"), row.at("layout"));
