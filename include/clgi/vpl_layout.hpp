@@ -17,7 +17,7 @@ namespace clgi {
 struct VplOptions {
     std::uint32_t count = 1600;          // VPLs on all sides together
     double density = 0.0;                // VPLs per m^2 of a side, in place of count; 0: count
-    std::uint32_t samples_per_vpl = 48;  // on average, 1 to 4096
+    std::uint32_t samples_per_vpl = 64;  // on average, 1 to 4096
     std::uint32_t most = 1u << 20;       // more VPLs than this are an error
     // Narrow regions, such as edges of doors and window reveals, between which light passes through
     // gaps, have VPLs so many times as dense at most; 1 to 1000, 1: all alike.

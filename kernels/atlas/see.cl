@@ -1,11 +1,12 @@
 // Which texels the VPLs of a batch see: a bit for every pair, which stays true whatever the light.
 //
 // Every texel looks up the VPL's depth maps: no seams, no extrapolation, and no two writers of a
-// texel. The paper projects the picture of each VPL into the atlas.   [Schaerfig16, section 4; derived]
+// texel. The paper projects each VPL's picture into the atlas.  [derived: Schaerfig16, section 4]
 //
 // Work size     1D, one work-item for every CLGI_WIDTH texels; any local size; tail guarded
 // Writes        its own texels' bytes, one for every SEEN_VPLS shooters
-// Cost          some 60 flops and one look-up a pair that faces each other; 15 for others; 1 bit written
+// Cost          15 flops a pair; 60 more and a look-up if it faces each other; 60 more and two look-ups
+//               if the pixel does not hide it; 1 bit written
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/atlas.h"
 #include "clgi/shared/vpl.h"
@@ -22,9 +23,11 @@ kernel void atlas_see(
     if (at >= params.texel_count) return;
     uint stride = params.stride;
     global const float* from = texels + at;
-    floatp px = packet_load(from), py = packet_load(from + stride), pz = packet_load(from + 2 * stride);
+    floatp px = packet_load(from), py = packet_load(from + stride),
+           pz = packet_load(from + 2 * stride);
     from += GBUFFER_GEOMETRIC * stride;
-    floatp gx = packet_load(from), gy = packet_load(from + stride), gz = packet_load(from + 2 * stride);
+    floatp gx = packet_load(from), gy = packet_load(from + stride),
+           gz = packet_load(from + 2 * stride);
     global uchar* row = seen + (ulong)params.first_row * stride + at;
     for (uint first = 0; first < params.shooter_count; first += SEEN_VPLS, row += stride) {
         intp bits = (intp)(0);

@@ -4,11 +4,11 @@
 //
 // E_k: direct irradiance of the sample, E: its mean, I: all irradiance of the site. What arrives by
 // reflection is taken for even over the site; direct light has edges, which show near by.
-//                                                        [derived: refined near field, exchange.clh]
+//                                                       [derived: refined near field, exchange.clh]
 //
 // Sent is the difference to what was sent before. A site whose samples' powers changed by no more
 // than `least` together sends nothing, and its change stays for another time. Light that moves
-// within a site is a change too.                                           [Schaerfig16, section 6.2]
+// within a site is a change too.                                          [Schaerfig16, section 6.2]
 //
 // Work size    1D, one work-item a site; any local size; tail guarded
 // Writes       its own flag and powers, those of its samples, and what they sent in all
