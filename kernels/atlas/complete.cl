@@ -32,7 +32,6 @@ kernel void atlas_complete(
     floatp per_sum = one / packet_select(one, sum, sum > 0.0f);
     floatp factor = packet_load(reach + at) * per_sum;
     factor = packet_min(packet_max(factor, packet_min(one, per_sum)), packet_splat(COMPLETE_MOST));
-    factor = packet_select(one, factor, sum > 0.0f);
     uintp worst = (uintp)(0);
     for (int c = 0; c < 3; ++c) {
         uint place = c * params.stride + at;
