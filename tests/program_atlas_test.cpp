@@ -131,6 +131,9 @@ TEST_F(AtlasProgram, BadInputEndsWithOneLineAndNoFile) {
         EXPECT_FALSE(fs::exists(file("x.exr")));
     };
     expect_one_error_line(run("bake " + scene + " --quiet"), 1);
+    for (const char* command : {"bake ", "render ", "reference "})
+        for (const char* wrong : {" --quiet -o wrong.png", " --quiet --png wrong.exr"})
+            expect_one_error_line(run(command + scene + wrong), 1);
     expect_one_error_line(run("bake " + scene + " --quiet --progressive --unwrapped " +
                               file("y.glb").string()), 1);
     for (const char* flags :

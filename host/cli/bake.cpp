@@ -94,6 +94,7 @@ std::uint32_t run_to_the_end(const BakeFlags& flags, const std::string& key,
 }
 
 void check(const BakeFlags& flags) {
+    check_formats("bake", flags.picture);
     if (flags.picture.exr.empty() && flags.picture.png.empty() && flags.gltf.lit.empty() &&
         flags.gltf.unwrapped.empty())
         throw Error(

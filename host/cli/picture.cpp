@@ -6,6 +6,7 @@
 #include <clgi/error.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "report/preview.hpp"
 
@@ -38,7 +39,18 @@ void parse_size(const std::string& command, const std::string& text, int most, i
                                 command, text, most, most));
 }
 
+void check_formats(const std::string& command, const PictureFlags& flags) {
+    const std::filesystem::path exr = flags.exr, png = flags.png;
+    if (exr.extension() == ".png" || exr.extension() == ".PNG")
+        throw Error(fmt::format("{}: -o is '{}', an EXR needed; --png writes PNG", command,
+                                flags.exr));
+    if (png.extension() == ".exr" || png.extension() == ".EXR")
+        throw Error(fmt::format("{}: --png is '{}', a PNG needed; -o writes EXR", command,
+                                flags.png));
+}
+
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height) {
+    check_formats(command, flags);
     if (flags.exr.empty() && flags.png.empty())
         throw Error(command + ": no output is given, -o FILE.exr or --png FILE.png needed");
     parse_size(command, flags.size, 16384, width, height);

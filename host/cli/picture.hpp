@@ -24,7 +24,11 @@ void add_picture_flags(CLI::App& command, PictureFlags& flags, int width, int he
 void parse_size(const std::string& command, const std::string& text, int most, int& width,
                 int& height);
 
-// Throws Error that begins with the command's name if there is no output or the size is invalid.
+// Throws Error for a file name that says another format than the one that is written.
+void check_formats(const std::string& command, const PictureFlags& flags);
+
+// Throws Error that begins with the command's name if there is no output, if a file's name says
+// another format, or if the size is invalid.
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height);
 
 // Writes the files that the flags name.
