@@ -34,11 +34,9 @@ kernel void atlas_gather(
     uint stride = params.stride;
     global const float* from = texels + at;
     Receiver to;
-    to.x = packet_load(from), to.y = packet_load(from + stride),
-    to.z = packet_load(from + 2 * stride);
+    packet_load3(from, stride, &to.x, &to.y, &to.z);
     from += GBUFFER_NORMAL * stride;
-    to.nx = packet_load(from), to.ny = packet_load(from + stride),
-    to.nz = packet_load(from + 2 * stride);
+    packet_load3(from, stride, &to.nx, &to.ny, &to.nz);
     floatp zero = packet_zero;
     Exchanged sum = {packet_load(gathered + at), packet_load(gathered + stride + at),
                      packet_load(gathered + 2 * stride + at), packet_load(filled + at)};

@@ -21,11 +21,11 @@ kernel void atlas_nearest(
     if (at >= params.texel_count) return;
     uint stride = params.stride;
     global const float* from = texels + at;
-    floatp px = packet_load(from), py = packet_load(from + stride),
-           pz = packet_load(from + 2 * stride);
+    floatp px, py, pz;
+    packet_load3(from, stride, &px, &py, &pz);
     from += GBUFFER_GEOMETRIC * stride;
-    floatp gx = packet_load(from), gy = packet_load(from + stride),
-           gz = packet_load(from + 2 * stride);
+    floatp gx, gy, gz;
+    packet_load3(from, stride, &gx, &gy, &gz);
     floatp least = packet_splat(INFINITY);
     floatp found = packet_zero;
     for (uint s = 0; s < params.shooter_count; ++s) {

@@ -23,11 +23,11 @@ kernel void atlas_see(
     if (at >= params.texel_count) return;
     uint stride = params.stride;
     global const float* from = texels + at;
-    floatp px = packet_load(from), py = packet_load(from + stride),
-           pz = packet_load(from + 2 * stride);
+    floatp px, py, pz;
+    packet_load3(from, stride, &px, &py, &pz);
     from += GBUFFER_GEOMETRIC * stride;
-    floatp gx = packet_load(from), gy = packet_load(from + stride),
-           gz = packet_load(from + 2 * stride);
+    floatp gx, gy, gz;
+    packet_load3(from, stride, &gx, &gy, &gz);
     global uchar* row = seen + (ulong)params.first_row * stride + at;
     for (uint first = 0; first < params.shooter_count; first += SEEN_VPLS, row += stride) {
         intp bits = (intp)(0);

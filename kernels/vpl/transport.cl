@@ -37,14 +37,14 @@ kernel void vpl_transport(
     float facing = dot(shooter.normal.xyz, shooter.normal.xyz);
     for (uint first = 0; first < count && facing > 0.0f; first += CLGI_WIDTH) {
         global const float* at = samples + own.first_sample + first;
-        floatp px = packet_load(at), py = packet_load(at + stride),
-               pz = packet_load(at + 2 * stride);
+        floatp px, py, pz;
+        packet_load3(at, stride, &px, &py, &pz);
         at += GBUFFER_NORMAL * stride;
-        floatp nx = packet_load(at), ny = packet_load(at + stride),
-               nz = packet_load(at + 2 * stride);
+        floatp nx, ny, nz;
+        packet_load3(at, stride, &nx, &ny, &nz);
         at += (GBUFFER_GEOMETRIC - GBUFFER_NORMAL) * stride;
-        floatp gx = packet_load(at), gy = packet_load(at + stride),
-               gz = packet_load(at + 2 * stride);
+        floatp gx, gy, gz;
+        packet_load3(at, stride, &gx, &gy, &gz);
         floatp dx = px - packet_splat(cube.eye.x);
         floatp dy = py - packet_splat(cube.eye.y);
         floatp dz = pz - packet_splat(cube.eye.z);
