@@ -233,9 +233,10 @@ void add_render(CLI::App& app) {
     add_environment_flags(*command, flags->environment);
     add_bake_flags(*command, "atlas: ", flags->atlas.bake, flags->atlas.layout);
     command
-        ->add_option("--least-change", flags->atlas.least_change,
-                     "atlas, with --spin-light: change of a VPL's power that lights texels anew, of "
-                     "the mean power of VPLs")
+        ->add_option(
+            "--least-change", flags->atlas.least_change,
+            "atlas, with --spin-light: change of a VPL's power that lights texels anew, of "
+            "the mean power of VPLs")
         ->type_name("X");
     command->add_option("--gbuffer", flags->gbuffer, "What rasterises the camera's view")
         ->type_name("WHAT")
@@ -259,15 +260,11 @@ void add_render(CLI::App& app) {
         ->default_str("none");
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {
-        const auto given = [&](std::initializer_list<const char*> names) {
-            std::vector<std::string> out;
-            for (const char* name : names)
-                if (command->count(name) > 0) out.emplace_back(name);
-            return out;
-        };
-        flags->second_order_only = given({"--negative-vpls", "--low-res", "--low-res-step",
-                                          "--replicates", "--target-error", "--time-budget"});
-        flags->atlas_only = given({"--bounces", "--atlas-size", "--hemicube-size", "--least-change"});
+        flags->second_order_only =
+            given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates",
+                             "--target-error", "--time-budget"});
+        flags->atlas_only =
+            given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--least-change"});
         if (command->count("--vpls") > 0)
             flags->atlas.vpls.count = static_cast<std::uint32_t>(flags->options.emitters.vpls);
         run_render(*flags);

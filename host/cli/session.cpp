@@ -123,6 +123,13 @@ std::string time_left(double from, double done, double seconds) {
     return fmt::format("{} h {:02} min left", minutes / 60, minutes % 60);
 }
 
+std::vector<std::string> given(const CLI::App& command, std::initializer_list<const char*> names) {
+    std::vector<std::string> out;
+    for (const char* name : names)
+        if (command.count(name) > 0) out.emplace_back(name);
+    return out;
+}
+
 std::function<bool(double)> progress_bar(const std::string& what, bool quiet) {
     using Clock = std::chrono::steady_clock;
     struct Begin {

@@ -7,6 +7,7 @@
 #include <clgi/pass.hpp>
 #include <clgi/scene.hpp>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ void add_quiet_flag(CLI::App& command, bool& quiet);             // --quiet alon
 
 // --scene and --camera of commands that read a glTF file.
 void add_place_options(CLI::App& command, int& scene, int& camera);
+
+// Those of the flags that the user gave.
+std::vector<std::string> given(const CLI::App& command, std::initializer_list<const char*> names);
 
 struct Session {
     cl::Device device;

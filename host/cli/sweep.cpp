@@ -153,14 +153,8 @@ void add_sweep(CLI::App& app) {
     add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {
-        const auto given = [&](std::initializer_list<const char*> names) {
-            std::vector<std::string> out;
-            for (const char* name : names)
-                if (command->count(name) > 0) out.emplace_back(name);
-            return out;
-        };
-        flags->pictures_only = given({"--size", "--camera"});
-        flags->atlas_only = given({"--atlas-size", "--reference"});
+        flags->pictures_only = given(*command, {"--size", "--camera"});
+        flags->atlas_only = given(*command, {"--atlas-size", "--reference"});
         flags->command = fmt::format(
             "clgi sweep {} -o {}{}{}", std::filesystem::path(flags->scene).filename().string(),
             std::filesystem::path(flags->output).filename().string(),
