@@ -6,6 +6,7 @@
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "frames.hpp"
 #include "light_baking.hpp"
@@ -86,6 +87,24 @@ std::vector<LightAtlasOptions> ways() {
     direct.direct = true;
     drawn.memory_budget = too_little_to_keep(small_room(), drawn, true);
     return {all, alone, poor, direct, drawn};
+}
+
+// 25,600 points for all VPLs together, from 4 to 16 of each.
+TEST(LightAtlasExchange, LooksAtFewerPointsOfMoreVpls) {
+    for (const auto& [vpls, usual, other] :
+         {std::tuple{300u, 16u, 17u}, {2000u, 12u, 13u}, {7000u, 4u, 3u}}) {
+        const Bakery bakery(room(), {.vpls = vpls, .atlas = 16, .samples_per_vpl = 24});
+        LightAtlasOptions options;
+        options.bounces = 2;
+        options.hemicube_size = 32;
+        const auto received = [&](std::uint32_t samples) {
+            options.exchange_samples = samples;
+            return test::bake(bakery, options).vpls;
+        };
+        const auto found = received(0);
+        EXPECT_TRUE(test::same_bits(found, received(usual))) << vpls << " VPLs";
+        EXPECT_FALSE(test::same_bits(found, received(other))) << vpls << " VPLs";
+    }
 }
 
 // Both end when no VPL has more than a millionth of the power left, 200 of them 2e-4.

@@ -9,7 +9,8 @@ namespace {
 using S = SiteBuffers;
 using B = const cl::Buffer&;
 
-constexpr std::uint32_t n = 3, samples = 5, stride = 16, sample_stride = 16, size = 8, word = 4;
+constexpr std::uint32_t n = 3, samples = 5, stride = 16, sample_stride = 16, size = 8, word = 4,
+                        point_stride = 16;
 
 // Every buffer exactly as large as it has to be, zeros all: sites of no sample.
 struct Enough {
@@ -26,9 +27,13 @@ struct Enough {
         b.stride = stride;
         b.sample_count = samples;
         b.sample_stride = sample_stride;
-        for (cl::Buffer S::*which : {&S::sites, &S::planes, &S::light, &S::balance, &S::power,
-                                     &S::shot, &S::samples, &S::chosen, &S::sent, &S::sample_power,
-                                     &S::site_power, &S::sends, &S::list, &S::listed})
+        b.most_samples = 3;
+        b.per_site = points_per_site(b.most_samples);
+        b.point_stride = point_stride;
+        for (cl::Buffer S::*which :
+             {&S::sites, &S::planes, &S::light, &S::balance, &S::power, &S::shot, &S::samples,
+              &S::points, &S::chosen, &S::sent, &S::sample_power, &S::site_power, &S::sends,
+              &S::list, &S::listed})
             b.*which = test::upload(std::vector<float>(1 << 10));
     }
     S with(cl::Buffer S::*which, B other) const {
@@ -68,7 +73,7 @@ TEST(Sizes, OfVplPasses) {
     const Enough e;
     const VplPasses& passes = test::vpl_passes();
     const cl::CommandQueue& queue = test::device().queue;
-    const TransportParams shooters{1, 2, 0, n, stride, sample_stride, size, 1.0f, 4, 0, 0, 0};
+    const TransportParams shooters{1, 2, 0, n, stride, sample_stride, size, 1.0f, 0, 0, 0, 0};
     const ShootParams shoot{1, 2, 0, n, stride, 1.0f, SHOOT_ALL, 0.0f};
     const auto& z = e.zeros;
     const std::tuple<const char*, cl::Buffer S::*, std::size_t> sites{"sites", &S::sites,
@@ -77,12 +82,16 @@ TEST(Sizes, OfVplPasses) {
         points{"samples", &S::samples, GBUFFER_PLANES * sample_stride * word},
         light{"light", &S::light, SITE_LIGHT_PLANES * plane}, power{"power", &S::power, plane},
         shot{"shot", &S::shot, 3 * plane}, balance{"balance", &S::balance, BALANCE_PLANES * plane},
+        few{"points", &S::points, SITE_POINT_PLANES * point_stride * word},
         chosen{"chosen", &S::chosen, 3 * word};
     std::vector<test::Argument> all;
     const auto place = [&](const S& b, B ids) { passes.place(queue, e.scene, b, ids); };
     add(all, e, "vpl.place", [&](const S& b) { place(b, z); }, {sites, planes, points});
     add(all, "vpl.place", "ids", GBUFFER_ID_PLANES * sample_stride * word,
         [&](B b) { place(e.buffers, b); });
+
+    add(all, e, "vpl.points", [&](const S& b) { passes.points(queue, b); },
+        {sites, planes, points, few});
 
     add(all, e, "vpl.receive", [&](const S& b) { passes.receive(queue, b, z); },
         {sites, planes, points, light});
@@ -108,7 +117,7 @@ TEST(Sizes, OfVplPasses) {
             passes.transport(queue, params, b, views, depth, rows);
         };
         add(all, e, "vpl.transport", [=](const S& b) { call(b, z, z, z); },
-            {sites, planes, points, chosen});
+            {sites, planes, points, few, chosen});
         add(all, "vpl.transport", "views", 10 * sizeof(View),
             [=, &e](B b) { call(e.buffers, b, z, z); });
         add(all, "vpl.transport", "depth", word * 2 * 3 * size * size,
@@ -123,7 +132,9 @@ TEST(Sizes, OfVplPasses) {
         view.width = view.height = 1;
         return std::vector<View>(10, view);
     }());
-    const auto reach = [&](const S& b, B v, B depth) { passes.reach(queue, shooters, b, v, depth); };
+    const auto reach = [&](const S& b, B v, B depth) {
+        passes.reach(queue, shooters, b, v, depth);
+    };
     add(all, e, "vpl.reach", [&](const S& b) { reach(b, views, z); },
         {sites, planes, points, chosen, balance});
     all.push_back({"vpl.reach", "views", 10 * sizeof(View), [&](B b) {
@@ -180,7 +191,8 @@ TEST(Sizes, OfAtlasPasses) {
     const cl::CommandQueue& queue = test::device().queue;
     constexpr std::uint32_t texels = 7, texel_stride = 32;
     constexpr std::size_t texel_plane = texel_stride * word;
-    const FillParams params{1, 2, stride, sample_stride, texels, texel_stride, 0, FILL_FORM_FACTORS};
+    const FillParams params{
+        1, 2, stride, sample_stride, texels, texel_stride, 0, FILL_FORM_FACTORS};
     const cl::Buffer z = e.zeros, out = test::upload(std::vector<float>(1 << 10));
     std::vector<test::Argument> all;
     // Nine shooters have two rows, which are put after three others.
@@ -251,7 +263,8 @@ TEST(Sizes, OfAtlasPasses) {
     wrong.stride = 24;
     EXPECT_THROW(passes.gather(queue, wrong, e.buffers, z, z, out, out), Error);
     EXPECT_THROW(passes.see(queue, {1, size, texels, 24, 0, 0, 0, 0}, z, z, z, out), Error);
-    EXPECT_THROW(passes.see(queue, {1, size, texels, texel_stride, 8, 0, 0, 0}, z, z, z, out), Error);
+    EXPECT_THROW(passes.see(queue, {1, size, texels, texel_stride, 8, 0, 0, 0}, z, z, z, out),
+                 Error);
     EXPECT_THROW(passes.nearest(queue, wrong, e.buffers, z, out), Error);
     EXPECT_THROW(passes.complete(queue, wrong, z, z, z, out, out), Error);
 }

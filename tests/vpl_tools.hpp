@@ -23,7 +23,8 @@ struct SitePlace {
     float area = 0.0f;
     glm::vec3 albedo = glm::vec3(1.0f);
     std::vector<SurfacePlace> samples;
-    glm::vec3 power = glm::vec3(std::numeric_limits<float>::quiet_NaN());  // that it sends to texels
+    glm::vec3 power =
+        glm::vec3(std::numeric_limits<float>::quiet_NaN());  // that it sends to texels
     std::vector<glm::vec3> powers = {};  // of its samples; need not add up to that
 };
 
@@ -57,8 +58,8 @@ inline cl::Buffer upload_points(const std::vector<SurfacePlace>& points, std::ui
     return upload(out.values);
 }
 
-// Sites on the device. They shoot, and send to texels, in their order unless `order` says otherwise;
-// they hold no light; balance factors are 1, the reach is 1.
+// Sites on the device. They shoot, and send to texels, in their order unless `order` says
+// otherwise; they hold no light; balance factors are 1, the reach is 1.
 struct Sites {
     explicit Sites(std::vector<SitePlace> list, std::vector<cl_uint> order = {})
         : places(std::move(list)) {
@@ -151,17 +152,31 @@ inline const AtlasPasses& atlas_passes(Math math = Math::strict) {
     return shared_passes<AtlasPasses>(math);
 }
 
+// The buffers with the points at which sites are looked at, most_samples of each at most.
+inline SiteBuffers with_points(const Sites& sites, std::uint32_t most_samples,
+                               const VplPasses& passes = vpl_passes()) {
+    SiteBuffers b = sites.buffers;
+    std::size_t largest = 1;
+    for (const SitePlace& place : sites.places) largest = std::max(largest, place.samples.size());
+    b.most_samples = std::min(most_samples, static_cast<std::uint32_t>(largest));
+    b.per_site = points_per_site(b.most_samples);
+    b.point_stride = padded(std::size_t{b.site_count} * b.per_site);
+    b.points = upload(Planes(SITE_POINT_PLANES, b.point_stride).values);
+    passes.points(device().queue, b);
+    return b;
+}
+
 // Halves as they lie in the rows: [shooters or sites][stride].
 inline std::vector<std::uint16_t> transport_rows(const Sites& sites, const Hemicubes& cubes,
                                                  bool kept = false, float row_scale = 1.0f,
                                                  const VplPasses& passes = vpl_passes(),
                                                  std::uint32_t most_samples = 1u << 20) {
-    const SiteBuffers& b = sites.buffers;
+    const SiteBuffers b = with_points(sites, most_samples, passes);
     const std::size_t halves = std::size_t{kept ? b.site_count : cubes.count} * b.stride;
     const cl::Buffer rows = upload(std::vector<std::uint16_t>(halves, 0x7e00));  // NaN
     passes.transport(device().queue,
                      {cubes.first, cubes.count, kept ? 1u : 0u, b.site_count, b.stride,
-                      b.sample_stride, cubes.size, row_scale, most_samples, 0, 0, 0},
+                      b.sample_stride, cubes.size, row_scale, 0, 0, 0, 0},
                      b, cubes.views, cubes.depth, rows);
     return download<std::uint16_t>(rows, halves);
 }

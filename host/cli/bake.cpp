@@ -201,7 +201,9 @@ void add_method_flags(CLI::App& command, BakeFlags& flags) {
         ->type_name("X")
         ->check(CLI::Range(1.0, 1000.0));
     add_count(command, "--exchange-samples", flags.bake.exchange_samples,
-              "Those of them that tell how much of a VPL another one sees", 1, 4096);
+              "Those of them that tell how much of a VPL another one sees; 0: 4 to 16, fewer for more "
+              "VPLs",
+              0, 4096);
     add_bake_flags(command, "", flags.bake, flags.atlas);
     command
         .add_option("--threshold", flags.threshold,

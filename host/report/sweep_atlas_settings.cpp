@@ -36,7 +36,7 @@ public:
              [](AtlasSettings& to, std::uint32_t n) { to.bake.bounces = n; });
         vary(gather_, "samples-per-vpl", {10, 48}, {6, 12, 24, 48, 96},
              [](AtlasSettings& to, std::uint32_t n) { to.vpls.samples_per_vpl = n; });
-        vary(gather_, "exchange-samples", {2, 10}, {1, 3, 10, 20, 48},
+        vary(gather_, "exchange-samples", {2, 16}, {1, 2, 4, 8, 16, 48},
              [](AtlasSettings& to, std::uint32_t n) { to.bake.exchange_samples = n; });
         vary(gather_, "hemicube-size", {64, 256}, {32, 64, 128, 256, 512}, size);
         vary(project_, "vpls, project", {50, 100}, {100, 400, 1600}, vpls);

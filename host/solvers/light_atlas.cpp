@@ -65,8 +65,7 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     if (vpl_layout.vpls.empty()) throw Error("light-atlas: there is no VPL");
     if (atlas_layout.texels.empty()) throw Error("light-atlas: there is no texel");
     const BufferTable all =
-        table(b, emitters, scene, vpl_layout.samples.size(), vpl_layout.vpls.size(),
-              atlas_layout, options, budget,
+        table(b, emitters, scene, vpl_layout, atlas_layout, options, budget,
               device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
     all.check(device, options.memory_budget, scene.bytes());
     all.allocate(record);
@@ -131,6 +130,8 @@ void LightAtlasSolver::State::place() {
     record("vpl.place", b.sites.site_count, [&](const WaitList& wait) {
         return vpl.place(queue, scene, b.sites, b.samples.ids, wait);
     });
+    record("vpl.points", b.sites.point_stride,
+           [&](const WaitList& wait) { return vpl.points(queue, b.sites, wait); });
     record("gbuffer.surface", b.texel_count, [&](const WaitList& wait) {
         return gbuffer.surface(queue, scene, {b.texel_count, b.texels.stride, 0, 0}, b.texel_list,
                                b.texels, {}, wait);

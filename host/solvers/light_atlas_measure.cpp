@@ -35,8 +35,9 @@ void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count
     const TransportParams params{first, count, b.kept ? 1u : 0u, b.sites.site_count,
                                  b.sites.stride, b.sites.sample_stride,
                                  static_cast<std::uint32_t>(options.hemicube_size), row_scale,
-                                 options.exchange_samples, 0, 0, 0};
-    record("vpl.transport", std::size_t{count} * b.sites.sample_count, [&](const WaitList& wait) {
+                                 0, 0, 0, 0};
+    const std::size_t pairs = std::size_t{count} * b.sites.site_count * b.sites.per_site;
+    record("vpl.transport", pairs, [&](const WaitList& wait) {
         return vpl.transport(queue, params, b.sites, b.views, b.pixels, b.rows, wait);
     });
     record("vpl.reach", count, [&](const WaitList& wait) {

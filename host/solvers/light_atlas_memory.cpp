@@ -14,7 +14,7 @@ namespace light_atlas {
 
 void check(const LightAtlasOptions& options) {
     need_range<double>("light-atlas", "bounces", options.bounces, 0, 1000);
-    need_range<double>("light-atlas", "exchange_samples", options.exchange_samples, 1, 4096);
+    need_range<double>("light-atlas", "exchange_samples", options.exchange_samples, 0, 4096);
     need_range<double>("light-atlas", "threshold", options.threshold, 1e-7, 1);
     need_range<double>("light-atlas", "hemicube_size", options.hemicube_size, 32, 1024);
     if (options.hemicube_size % 2 != 0)
@@ -40,6 +40,17 @@ std::uint32_t mesh_squares(int triangles) {
 
 namespace {
 
+constexpr std::size_t points_of_all = 25600;  // that a shooter looks at
+
+// Sample points of a receiving VPL. The more VPLs, the fewer of each: a packet holds more of them.
+std::uint32_t looked_at(const LightAtlasOptions& options, const VplLayout& layout) {
+    std::uint32_t most = 1;
+    for (const VplSite& vpl : layout.vpls) most = std::max(most, vpl.sample_count);
+    if (options.exchange_samples > 0) return std::min(options.exchange_samples, most);
+    const std::size_t share = points_of_all / layout.vpls.size();
+    return std::min(static_cast<std::uint32_t>(std::clamp<std::size_t>(share, 4, 16)), most);
+}
+
 // Nothing unless the atlas is filled by projection.
 void add_mesh(BufferTable& t, Buffers& b, const DeviceScene& scene, std::size_t charts,
               const LightAtlasOptions& options) {
@@ -62,9 +73,10 @@ void add_mesh(BufferTable& t, Buffers& b, const DeviceScene& scene, std::size_t 
 
 }  // namespace
 
-BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std::size_t samples,
-                  std::size_t sites, const AtlasLayout& atlas, const LightAtlasOptions& options,
-                  std::size_t budget, std::size_t largest) {
+BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, const VplLayout& layout,
+                  const AtlasLayout& atlas, const LightAtlasOptions& options, std::size_t budget,
+                  std::size_t largest) {
+    const std::size_t samples = layout.samples.size(), sites = layout.vpls.size();
     const std::size_t texels = atlas.texels.size();
     const char* vpls = "the number of VPLs";
     const char* points = "the number of VPLs or of samples for each";
@@ -75,11 +87,15 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
     s.stride = plane_stride(sites);
     s.sample_count = static_cast<std::uint32_t>(samples);
     s.sample_stride = plane_stride(samples + sites);
+    s.most_samples = looked_at(options, layout);
+    s.per_site = points_per_site(s.most_samples);
+    s.point_stride = plane_stride(sites * s.per_site);
     b.texel_count = static_cast<std::uint32_t>(texels);
     b.texel_stride = plane_stride(texels);
     b.samples.stride = s.sample_stride;
     b.texels.stride = b.texel_stride;
-    // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits each.
+    // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits
+    // each.
     b.batch = SEEN_VPLS;
 
     BufferTable t("light-atlas");
@@ -95,6 +111,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, std:
     t.add(b.sample_list, "sample points", points, (samples + sites) * sizeof(SurfaceSample));
     t.add(s.samples, "planes of sample points", points,
           gbuffer_bytes(Storage::full, s.sample_stride) + 64);
+    t.add(s.points, "points of VPLs", points, SITE_POINT_PLANES * word * s.point_stride);
     t.add(b.samples.ids, "ids of sample points", points,
           GBUFFER_ID_PLANES * word * s.sample_stride);
     t.add(b.sample_irradiance, "irradiance of sample points", points,
@@ -144,8 +161,8 @@ std::size_t light_atlas_least_bytes(std::size_t vpls, std::size_t samples) {
     std::size_t of_point = light_and_powers, of_site = 9;  // lists and powers
     for (const std::size_t planes : {std::size_t{GBUFFER_PLANES}, std::size_t{GBUFFER_ID_PLANES}})
         of_point += planes;
-    for (const std::size_t planes : {std::size_t{SITE_PLANES}, std::size_t{SITE_LIGHT_PLANES},
-                                     std::size_t{BALANCE_PLANES}})
+    for (const std::size_t planes :
+         {std::size_t{SITE_PLANES}, std::size_t{SITE_LIGHT_PLANES}, std::size_t{BALANCE_PLANES}})
         of_site += planes;
     return (vpls + samples) * (sizeof(SurfaceSample) + of_point * word) +
            vpls * (sizeof(Site) + of_site * word);

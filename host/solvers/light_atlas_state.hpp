@@ -47,7 +47,7 @@ inline Pixels filling_pixels(const LightAtlasOptions& options) {
 
 // The row of every buffer. `budget`: bytes for all, from which it follows what is kept.
 BufferTable table(Buffers& buffers, Emitters& emitters, const DeviceScene& scene,
-                  std::size_t samples, std::size_t sites, const AtlasLayout& atlas,
+                  const VplLayout& vpls, const AtlasLayout& atlas,
                   const LightAtlasOptions& options, std::size_t budget, std::size_t largest);
 
 }  // namespace light_atlas

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/passes/vpl.hpp>
+
+#include <algorithm>
+#include <clgi/error.hpp>
 #include <clgi/planes.hpp>
+#include <string>
 
 #include "opencl/launch.hpp"
 #include "opencl/planes.hpp"
@@ -28,11 +32,21 @@ SiteParams site_params(const SiteBuffers& b) {
 
 void need_sites(const PassKernel& pass, const SiteBuffers& b) {
     need_stride(pass, "stride", b.stride, b.site_count);
-    need_stride(pass, "sample_stride", b.sample_stride,
-                std::size_t{b.sample_count} + b.site_count);
+    need_stride(pass, "sample_stride", b.sample_stride, std::size_t{b.sample_count} + b.site_count);
     need(pass, "sites", b.sites, b.site_count * sizeof(Site));
     need(pass, "planes", b.planes, SITE_PLANES * word * b.stride);
     need(pass, "samples", b.samples, GBUFFER_PLANES * word * b.sample_stride);
+}
+
+// Throws Error for points that no packet holds.
+void need_points(const PassKernel& pass, const SiteBuffers& b) {
+    if (b.most_samples == 0) throw Error(pass.name + ": most_samples is 0, at least 1 needed");
+    if (b.per_site != points_per_site(b.most_samples))
+        throw Error(pass.name + ": per_site is " + std::to_string(b.per_site) + ", " +
+                    std::to_string(points_per_site(b.most_samples)) + " needed for " +
+                    std::to_string(b.most_samples) + " samples");
+    need_stride(pass, "point_stride", b.point_stride, std::size_t{b.site_count} * b.per_site);
+    need(pass, "points", b.points, SITE_POINT_PLANES * word * b.point_stride);
 }
 
 std::size_t last_shooter(std::uint32_t first, std::uint32_t count) {
@@ -55,6 +69,7 @@ VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
         return in_small_groups(kernel(pass, how), programs.device(), options);
     };
     place_ = few("place", scalar(options));
+    points_ = kernel("points", scalar(options));
     receive_ = few("receive", scalar(options));
     transport_ = few("transport", full(options));
     reach_ = few("reach", scalar(options));
@@ -66,8 +81,8 @@ VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
 }
 
 void VplPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({place_, receive_, transport_, reach_, balance_receivers_, balance_shooters_,
-                 emit_, shoot_, send_},
+    build_named({place_, points_, receive_, transport_, reach_, balance_receivers_,
+                 balance_shooters_, emit_, shoot_, send_},
                 passes);
 }
 
@@ -78,6 +93,16 @@ cl::Event VplPasses::place(const cl::CommandQueue& queue, const DeviceScene& sce
     need(place_, "ids", ids, GBUFFER_ID_PLANES * word * b.sample_stride);
     return launch(place_, queue, b.site_count, wait, site_params(b), b.sites, scene.materials(),
                   ids, b.samples, b.planes);
+}
+
+cl::Event VplPasses::points(const cl::CommandQueue& queue, const SiteBuffers& b,
+                            const WaitList& wait) const {
+    need_sites(points_, b);
+    need_points(points_, b);
+    const PointParams params{
+        b.site_count, b.sample_stride, b.most_samples, b.per_site, b.point_stride, 0, 0, 0};
+    return launch(points_, queue, b.site_count > 0 ? b.point_stride : 0, wait, params, b.sites,
+                  b.samples, b.points);
 }
 
 cl::Event VplPasses::receive(const cl::CommandQueue& queue, const SiteBuffers& b,
@@ -108,16 +133,21 @@ cl::Event VplPasses::transport(const cl::CommandQueue& queue, const TransportPar
                                const cl::Buffer& depth, const cl::Buffer& rows,
                                const WaitList& wait) const {
     need_sites(transport_, b);
-    if (params.most_samples == 0)
-        throw Error("vpl.transport: most_samples is 0, at least 1 needed");
+    need_points(transport_, b);
     need(transport_, "chosen", b.chosen,
          last_shooter(params.first_shooter, params.shooter_count) * word);
     need(transport_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
-    need(transport_, "depth", depth,
-         3 * word * params.shooter_count * params.size * params.size);
+    need(transport_, "depth", depth, 3 * word * params.shooter_count * params.size * params.size);
     need_rows(transport_, b, rows, params.kept, params.shooter_count);
-    return launch_rows(transport_, queue, b.site_count, params.shooter_count, wait, params,
-                       b.chosen, views, depth, b.sites, b.planes, b.samples, rows);
+    const std::size_t together =
+        std::max<std::size_t>(std::size_t(transport_.packet_width) / b.per_site, 1);
+    TransportParams all = params;
+    all.most_samples = b.most_samples;
+    all.per_site = b.per_site;
+    all.point_stride = b.point_stride;
+    return launch_rows(transport_, queue, (b.site_count + together - 1) / together,
+                       params.shooter_count, wait, all, b.chosen, views, depth, b.sites, b.planes,
+                       b.samples, b.points, rows);
 }
 
 cl::Event VplPasses::reach(const cl::CommandQueue& queue, const TransportParams& params,
@@ -165,8 +195,8 @@ cl::Event VplPasses::emit(const cl::CommandQueue& queue, const ShootParams& para
     need(emit_, "shot", b.shot, 3 * word * b.stride);
     need(emit_, "chosen", b.chosen, last_shooter(params.first_shooter, 1) * word);
     const std::size_t items = params.mode == SHOOT_STRONGEST ? 1 : b.site_count;
-    return launch(emit_, queue, items, wait, params, strongest, b.sites, b.planes, b.light,
-                  b.power, b.shot, b.chosen);
+    return launch(emit_, queue, items, wait, params, strongest, b.sites, b.planes, b.light, b.power,
+                  b.shot, b.chosen);
 }
 
 cl::Event VplPasses::shoot(const cl::CommandQueue& queue, const ShootParams& params,

@@ -2,13 +2,14 @@
 //
 //   T_ij = 1/m sum_k  cos cos' k(d, r_i) v_ik / pi         (irradiance at j for a power of 1 at i)
 //
-// over the first m sample points k of the receiver, each seen or not in the shooter's hemicube. The
+// over the points k of the receiver (points.cl), each seen or not in the shooter's hemicube. The
 // paper takes the form factor of the two VPLs times the share of samples that are seen (Eq. 6); the
 // samples' own form factors cost nothing more and are right near by.      [Schaerfig16, Eq. 6]
 //
-// Work size    2D, one work-item a receiver, and the shooters; any local size; tail guarded
-// Writes       its own number of the row, as half, times row_scale
-// Cost         some 90 flops and one look-up a sample and shooter
+// Work size    2D, one work-item for every max(1, CLGI_WIDTH / per_site) receivers, and the shooters;
+//              any local size; tail guarded
+// Writes       its own numbers of the row, as half, times row_scale
+// Cost         some 90 flops and one look-up a point and shooter
 // SPDX-License-Identifier: MIT
 #include "vpl/exchange.clh"
 #include "vpl/hemicube.clh"
@@ -21,49 +22,50 @@ kernel void vpl_transport(
     global const Site*     restrict sites,    // [site_count]
     global const float*    restrict planes,   // [SITE_PLANES][stride]
     global const float*    restrict samples,  // [GBUFFER_PLANES][sample_stride]
+    global const float*    restrict points,   // [SITE_POINT_PLANES][point_stride]
     global half*           restrict rows)     // [site_count or shooter_count][stride]
 {
-    uint receiver = (uint)get_global_id(0);
+    uint together = max((uint)CLGI_WIDTH / params.per_site, 1u);
+    uint receiver = (uint)get_global_id(0) * together;
     if (receiver >= params.site_count) return;
     uint s = (uint)get_global_id(1);
     uint site = chosen[params.first_shooter + s];
-    uint stride = params.sample_stride;
+    uint stride = params.point_stride;
     Shooter shooter = exchange_shooter(sites, planes, params.stride, site);
     Hemicube cube = hemicube_of(views + 5 * s);
-    Site own = sites[receiver];
-    uint count = min(own.sample_count, params.most_samples);
     floatp zero = packet_zero;
-    float sum = 0.0f;
+    float sum[CLGI_WIDTH] = {0.0f};
     float facing = dot(shooter.normal.xyz, shooter.normal.xyz);
-    for (uint first = 0; first < count && facing > 0.0f; first += CLGI_WIDTH) {
-        global const float* at = samples + own.first_sample + first;
-        floatp px, py, pz;
-        packet_load3(at, stride, &px, &py, &pz);
-        at += GBUFFER_NORMAL * stride;
-        floatp nx, ny, nz;
-        packet_load3(at, stride, &nx, &ny, &nz);
-        at += (GBUFFER_GEOMETRIC - GBUFFER_NORMAL) * stride;
-        floatp gx, gy, gz;
-        packet_load3(at, stride, &gx, &gy, &gz);
+    for (uint first = 0; first < params.per_site && facing > 0.0f; first += CLGI_WIDTH) {
+        global const float* at = points + receiver * params.per_site + first;
+        floatp px, py, pz, nx, ny, nz, gx, gy, gz;
+        packet_load3(at + SITE_POINT_POSITION * stride, stride, &px, &py, &pz);
+        packet_load3(at + SITE_POINT_GEOMETRIC * stride, stride, &gx, &gy, &gz);
         floatp dx = px - packet_splat(cube.eye.x);
         floatp dy = py - packet_splat(cube.eye.y);
         floatp dz = pz - packet_splat(cube.eye.z);
-        intp wanted = packet_lanes < (int)(count - first);
-        wanted &= packet_dot(dx, dy, dz, gx, gy, gz) < 0.0f;
+        intp wanted = packet_dot(dx, dy, dz, gx, gy, gz) < 0.0f;
         wanted &= packet_dot(dx, dy, dz, packet_splat(cube.c.x), packet_splat(cube.c.y),
                              packet_splat(cube.c.z)) > 0.0f;
         if (!packet_any(wanted)) continue;
         intp seen = hemicube_sees(&cube, depth, dx, dy, dz, gx, gy, gz, wanted);
         if (!packet_any(seen)) continue;
+        packet_load3(at + SITE_POINT_NORMAL * stride, stride, &nx, &ny, &nz);
         Receiver to = {px, py, pz, nx, ny, nz};
-        floatp factor = exchange_kernel(&shooter, samples, stride, &to);
+        floatp factor = exchange_kernel(&shooter, samples, params.sample_stride, &to);
         float lane[CLGI_WIDTH];
         packet_store(packet_select(zero, factor, seen), lane);
-        for (int k = 0; k < CLGI_WIDTH; ++k) sum += lane[k];
+        uint of_one = (uint)CLGI_WIDTH / together;
+        for (uint k = 0; k < CLGI_WIDTH; ++k) sum[k / of_one] += lane[k];
     }
-    float mean = sum / ((float)count * CLGI_PI) * params.row_scale;
-    // Never more than a half holds; what is no number stays so and is counted later.
-    if (mean > 65504.0f) mean = 65504.0f;
-    if (receiver == site) mean = 0.0f;
-    vstore_half(mean, receiver, rows + (ulong)(params.kept ? site : s) * params.stride);
+    global half* row = rows + (ulong)(params.kept ? site : s) * params.stride;
+    uint last = min(receiver + together, params.site_count);
+    for (uint r = 0; receiver < last; ++r, ++receiver) {
+        uint count = min(sites[receiver].sample_count, params.most_samples);
+        float mean = sum[r] / ((float)count * CLGI_PI) * params.row_scale;
+        // Never more than a half holds; what is no number stays so and is counted later.
+        if (mean > 65504.0f) mean = 65504.0f;
+        if (receiver == site) mean = 0.0f;
+        vstore_half(mean, receiver, row);
+    }
 }

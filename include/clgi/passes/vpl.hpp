@@ -22,6 +22,7 @@ struct SiteBuffers {
     cl::Buffer power;    // [stride] unshot power, exposed lumen; channels summed
     cl::Buffer shot;     // [3][stride] power on its way, exposed lumen
     cl::Buffer samples;  // [GBUFFER_PLANES][sample_stride] of the sample points, then of the sites
+    cl::Buffer points;   // [SITE_POINT_PLANES][point_stride] of the samples that are looked at
     cl::Buffer chosen;   // uint: sites in the order in which they shoot
     // What texels receive of them; exposed lumen.
     cl::Buffer sent;          // [3][sample_stride] what samples sent so far
@@ -34,7 +35,16 @@ struct SiteBuffers {
     std::uint32_t stride = 0;
     std::uint32_t sample_count = 0;
     std::uint32_t sample_stride = 0;
+    std::uint32_t most_samples = 0;  // of a site that are looked at, at least 1
+    std::uint32_t per_site = 0;      // points_per_site(most_samples)
+    std::uint32_t point_stride = 0;  // plane_stride(site_count * per_site)
 };
+
+// Places for the points of a site: a power of two below a packet of 16, or a multiple of that.
+constexpr std::uint32_t points_per_site(std::uint32_t most_samples) {
+    if (most_samples > 8) return (most_samples + 15) / 16 * 16;
+    return most_samples > 4 ? 8 : most_samples > 2 ? 4 : most_samples;
+}
 
 class CLGI_API VplPasses {
 public:
@@ -47,6 +57,10 @@ public:
     cl::Event place(const cl::CommandQueue& queue, const DeviceScene& scene,
                     const SiteBuffers& buffers, const cl::Buffer& ids,
                     const WaitList& wait = {}) const;
+
+    // Points of the sites from those of their samples, as they are placed.
+    cl::Event points(const cl::CommandQueue& queue, const SiteBuffers& buffers,
+                     const WaitList& wait = {}) const;
 
     // Direct light: irradiance [IRRADIANCE_PLANES][sample_stride] of the samples -> light.
     cl::Event receive(const cl::CommandQueue& queue, const SiteBuffers& buffers,
@@ -97,7 +111,7 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel place_, receive_, transport_, reach_, balance_receivers_, balance_shooters_, emit_,
+    PassKernel place_, points_, receive_, transport_, reach_, balance_receivers_, balance_shooters_, emit_,
         shoot_, send_;
 };
 

@@ -42,6 +42,21 @@ typedef struct {
     uint sample_stride;  // of the planes of samples
 } SiteParams;
 
+// Sample points at which sites are looked at when others shoot. Each site has room for as many: a
+// divisor or a multiple of a packet, so that a packet holds several sites or parts of one.
+typedef struct {
+    uint site_count;
+    uint sample_stride;  // of the planes of samples
+    uint most_samples;   // of a site, the first of its own, that are looked at
+    uint per_site;       // places for them
+    uint stride;         // of the planes of points
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+} PointParams;
+
+enum { SITE_POINT_POSITION = 0, SITE_POINT_NORMAL = 3, SITE_POINT_GEOMETRIC = 6, SITE_POINT_PLANES = 9 };
+
 // Shooting sites with their hemicubes, and the rows of transport that belong to them: all rows are
 // kept, one for every site, or only those of the shooters.
 typedef struct {
@@ -53,10 +68,10 @@ typedef struct {
     uint sample_stride;  // of the planes of samples
     uint size;           // pixels, width of the hemicubes' faces
     float row_scale;     // multiplies the transport, so that a half holds it: the area of all sites
-    uint most_samples;   // of a receiver, the first of its own, that are looked at
-    uint pad0_;
-    uint pad1_;
-    uint pad2_;
+    uint most_samples;   // as in PointParams; set by the pass, as the next two
+    uint per_site;
+    uint point_stride;   // of the planes of points
+    uint pad_;
 } TransportParams;
 
 typedef struct {

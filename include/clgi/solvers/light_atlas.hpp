@@ -34,9 +34,10 @@ struct LightAtlasOptions {
     // With bounces = 0: the strongest VPL shoots alone, then the next, as in the paper. Otherwise
     // all shoot at once, which converges to the same light in far less time.
     bool one_at_a_time = false;
-    // Sample points of a receiving VPL that are looked at when VPLs exchange light, at least 1. All
-    // of them send light to the texels near by.
-    std::uint32_t exchange_samples = 10;
+    // Sample points of a receiving VPL that are looked at when VPLs exchange light; 0: 4 to 16, so
+    // many that a shooter looks at 25,600 in all, if the VPLs have as many. All of them send light to
+    // the texels near by.
+    std::uint32_t exchange_samples = 0;
     int hemicube_size = 256;  // pixels of the face of a VPL's hemicube, even
     Filling filling = Filling::gather;
     int mesh = 512;  // triangles of M over a hemicube's face, for Filling::project: 2 n^2 with an
