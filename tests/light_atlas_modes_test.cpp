@@ -89,6 +89,31 @@ std::vector<LightAtlasOptions> ways() {
     return {all, alone, poor, direct, drawn};
 }
 
+// The shadow maps of a bake, 16 million pixels together.
+TEST(LightAtlasShadows, AreSmallerWhereMoreLightsHaveThem) {
+    for (const auto& [spots, sky, usual] :
+         {std::tuple{4, 0, 2048}, {5, 0, 1024}, {1, 4, 1024}, {16, 0, 1024}, {17, 0, 512}}) {
+        Scene scene = room();
+        const Light spot = scene.lights[1];
+        for (int i = 1; i < spots; ++i) {
+            scene.lights.push_back(spot);
+            scene.lights.back().position.x += 0.05 * i;
+        }
+        if (sky > 0) scene.environment = Environment{};
+        const Bakery bakery(scene, {.vpls = 60, .atlas = 16});
+        LightAtlasOptions options = test::bake_options();
+        options.emitters.environment_lights = sky;
+        const auto bytes = [&](int size) {
+            options.emitters.shadow_size = size;
+            return bakery.solver(options).bytes();
+        };
+        const std::size_t found = bytes(bake_emitters().shadow_size);
+        const std::string label = std::to_string(spots) + " spots, size " + std::to_string(usual);
+        EXPECT_EQ(found, bytes(usual)) << label;
+        EXPECT_NE(found, bytes(usual / 2)) << label;
+    }
+}
+
 // 25,600 points for all VPLs together, from 4 to 16 of each.
 TEST(LightAtlasExchange, LooksAtFewerPointsOfMoreVpls) {
     for (const auto& [vpls, usual, other] :

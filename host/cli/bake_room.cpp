@@ -21,8 +21,12 @@ void add_bake_flags(CLI::App& command, const std::string& prefix, LightAtlasOpti
 }
 
 void add_emitter_flags(CLI::App& command, EmitterOptions& emitters) {
+    const bool bakes = emitters.shadow_size == 0;
+    const int lowest = bakes ? 0 : 1;
+    const char* more = bakes ? "; 0: 2048, fewer if there are more than 4 such maps" : "";
     add_count(command, "--shadow-size", emitters.shadow_size,
-              "Pixels per side of the shadow map of a spot or directional light", 1, 8192);
+              std::string("Pixels per side of the shadow map of a spot or directional light") + more,
+              lowest, 8192);
     add_count(command, "--face-size", emitters.face_size,
               "Pixels per side of a cube or hemicube face, for point and area lights", 1, 4096);
     add_count(command, "--area-samples", emitters.area_samples,

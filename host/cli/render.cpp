@@ -265,6 +265,9 @@ void add_render(CLI::App& app) {
                              "--target-error", "--time-budget"});
         flags->atlas_only =
             given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--least-change"});
+        flags->atlas.bake.emitters = flags->options.emitters;
+        if (command->count("--shadow-size") == 0)
+            flags->atlas.bake.emitters.shadow_size = bake_emitters().shadow_size;
         if (command->count("--vpls") > 0)
             flags->atlas.vpls.count = static_cast<std::uint32_t>(flags->options.emitters.vpls);
         run_render(*flags);

@@ -66,7 +66,6 @@ void run_atlas(RenderFlags flags) {
     const Stopwatch build;
     DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
-    atlas_flags.bake.emitters = flags.options.emitters;
     atlas_flags.bake.build = build_of(flags.device);
     LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, atlas,
                             atlas_flags.bake);

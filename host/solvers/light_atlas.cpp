@@ -17,6 +17,8 @@ constexpr std::uint32_t one_bits = 0x3f800000;  // 1.0f
 LightAtlasOptions checked(LightAtlasOptions options, const DeviceScene& scene) {
     check(options);
     options.build.textures = options.build.textures && scene.needs_textures();
+    if (options.emitters.shadow_size == 0)
+        options.emitters.shadow_size = usual_shadow_size(scene, options.emitters);
     options.build.storage = Storage::full;  // sums of thousands of VPLs
     return options;
 }

@@ -32,6 +32,19 @@ void check(const LightAtlasOptions& options) {
                     std::to_string(2 * options.hemicube_size * options.hemicube_size) + " needed");
 }
 
+// Light through the openings of a building is too much by a fifth with maps of 512 pixels, by 1 %
+// with 2048 (docs/accuracy.md).
+int usual_shadow_size(const DeviceScene& scene, const EmitterOptions& emitters) {
+    constexpr std::size_t most_pixels = std::size_t{1} << 24;  // of all maps
+    constexpr int most = 2048, least = 512;
+    std::size_t maps = 0;
+    for (const Light& light : scene.lights()) maps += light.kind != Light::Kind::point;
+    if (scene.environment()) maps += static_cast<std::size_t>(emitters.environment_lights);
+    int size = most;
+    while (size > least && maps * size * size > most_pixels) size /= 2;
+    return size;
+}
+
 std::uint32_t mesh_squares(int triangles) {
     std::uint32_t out = 0;
     while (2 * (out + 1) * (out + 1) <= static_cast<std::uint32_t>(triangles)) ++out;

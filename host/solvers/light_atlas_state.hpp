@@ -37,6 +37,9 @@ struct Buffers {
 // Throws Error for options out of range.
 void check(const LightAtlasOptions& options);
 
+// Pixels of the shadow maps of spots and directional lights, where nothing else is asked for.
+int usual_shadow_size(const DeviceScene& scene, const EmitterOptions& emitters);
+
 // Squares across a face of a mesh of so many triangles.
 std::uint32_t mesh_squares(int triangles);
 

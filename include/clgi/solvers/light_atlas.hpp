@@ -25,8 +25,17 @@ enum class Filling {
     project,  // triangles of a mesh M over each VPL's view are projected into the atlas [section 4]
 };
 
+// Those of a bake, which draws shadow maps once: size 0.
+inline EmitterOptions bake_emitters() {
+    EmitterOptions out;
+    out.shadow_size = 0;
+    return out;
+}
+
 struct LightAtlasOptions {
-    EmitterOptions emitters;  // shadow maps and samples of the lights; emitters.vpls is not used
+    // Shadow maps and samples of the lights; emitters.vpls is not used. shadow_size 0: 2048 pixels,
+    // 1024 or 512 where more than 4 or 16 lights have such a map.
+    EmitterOptions emitters = bake_emitters();
     // How often light is reflected at most before it reaches a texel, at least 1; 0: until the
     // largest unshot power is below the threshold.
     std::uint32_t bounces = 10;
