@@ -16,13 +16,18 @@ namespace {
 
 using namespace clgi;
 
-void bake(const DeviceScene& scene, const Scene& world, bool one_at_a_time) {
+enum class Way { all_at_once, strongest_alone, projected };
+
+void bake(DeviceScene& scene, const Scene& world, Way way) {
+    const bool one_at_a_time = way == Way::strongest_alone;
     LightAtlasOptions options;
     options.emitters.shadow_size = options.emitters.face_size = 16;
     options.hemicube_size = 32;
     options.bounces = one_at_a_time ? 0 : 2;
     options.threshold = 0.3f;
     options.one_at_a_time = one_at_a_time;
+    if (way == Way::projected) options.filling = Filling::project;
+    options.mesh = 8;
     options.build = {.packet_width = 4, .local_size = 16, .parallel = false};
     VplOptions few;
     few.count = 7;
@@ -35,6 +40,14 @@ void bake(const DeviceScene& scene, const Scene& world, bool one_at_a_time) {
                             place_vpls(world, patches, few),
                             make_atlas(world, patches.triangle_patch, small), options);
     solver.run();
+    Light dimmed = world.lights[0];
+    dimmed.intensity *= glm::vec3(0.5f, 0.7f, 0.9f);
+    scene.set_light(0, dimmed);
+    solver.lights_changed();
+    if (way == Way::projected)
+        solver.run();
+    else
+        solver.update(0.0);
     const LightAtlasStatus status = solver.status();
     std::printf("%zu passes, %u shots, %g lm received\n", solver.events().size(), status.shots,
                 status.power_received);
@@ -48,9 +61,9 @@ int main() {
         test::add_box(world, {-1, -1, -1}, {1, 1, 1}, -1);
         test::add_box(world, {-0.4, -0.9, -0.4}, {0.4, -0.2, 0.3}, 1);
         world.lights = {test::spot_light({0.3, 0.9, 0.3}, {-0.3f, -1, -0.3f}, 0.6)};
-        const DeviceScene scene = test::on_device(world);
-        bake(scene, world, false);
-        bake(scene, world, true);
+        DeviceScene scene = test::on_device(world);
+        for (const Way way : {Way::all_at_once, Way::strongest_alone, Way::projected})
+            bake(scene, world, way);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;
