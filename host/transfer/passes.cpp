@@ -21,11 +21,6 @@ std::size_t blocks_of(const ProjectParams& params) {
 std::size_t waves_of(int bands) { return SH_WAVES(static_cast<std::size_t>(bands)); }
 std::size_t terms_of(int bands) { return static_cast<std::size_t>(sh::terms(bands)); }
 
-// Four packets a work-item (kernels/transfer/project_rows.cl).
-std::size_t strips(const PassKernel& pass, std::size_t stride) {
-    return (packets(pass, stride) + 3) / 4;
-}
-
 void need_picture(const PassKernel& pass, const ProjectParams& params) {
     const std::size_t floats = 3 * std::size_t{params.width};
     if (params.width == 0 || params.height == 0 || params.width > 65536 || params.height > 65536)
@@ -103,7 +98,7 @@ void TransferPasses::build(std::initializer_list<const char*> passes) const {
 cl::Event TransferPasses::project_rows(const cl::CommandQueue& queue, const ProjectParams& params,
                                        const ProjectionBuffers& b, const WaitList& wait) const {
     need_rows(project_rows_, params, bands_, b);
-    return launch_rows(project_rows_, queue, strips(project_rows_, params.stride),
+    return launch_rows(project_rows_, queue, packets(project_rows_, params.stride),
                        blocks_of(params), wait, params, b.texels, b.row_weights, b.sums,
                        b.non_finite);
 }

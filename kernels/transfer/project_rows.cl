@@ -8,20 +8,15 @@
 // In the picture's own frame, whose polar axis is the picture's. A lane is one float of a row, a
 // colour of a texel, so rows are read as they lie.
 //
-// Work size    2D: one work-item for every STRIPS packets of a row (rounded up), and for every
-//              PROJECT_ROWS rows; any local size
+// Work size    2D: one work-item for every CLGI_WIDTH floats of a row (rounded up), and for
+//              every PROJECT_ROWS rows; any local size
 // Writes       its own sums, 0 beyond the end of a row; adds to non_finite how many floats are not
 //              finite; they are read as 0
 // Cost         12 bytes read a texel, 3 SH_WAVES multiply-adds
 // SPDX-License-Identifier: MIT
 #include "transfer/sh.clh"
 
-enum {
-    WAVES = SH_WAVES(CLGI_SH_BANDS),
-    // Packets side by side, of which a run of rows is read before the next: rows of wide pictures
-    // share sets of a CPU's cache, and more rows at a time would evict half-read lines.
-    STRIPS = 4
-};
+enum { WAVES = SH_WAVES(CLGI_SH_BANDS) };
 
 // Floats that follow each other, those that exist.
 CLGI_INLINE floatp load_before(global const float* values, ulong at, ulong end) {
@@ -38,44 +33,37 @@ kernel void transfer_project_rows(
     global float*           restrict sums,         // [blocks][WAVES][stride]
     volatile global uint*   restrict non_finite)   // [1]
 {
-    uint first = (uint)get_global_id(0) * (STRIPS * CLGI_WIDTH), block = (uint)get_global_id(1);
-    if (first >= params.stride) return;
+    uint at = (uint)get_global_id(0) * CLGI_WIDTH, block = (uint)get_global_id(1);
+    if (at >= params.stride) return;
     uint length = 3 * params.width;
     ulong end = (ulong)length * params.height;
     uint last = min((block + 1) * PROJECT_ROWS, params.height);
+    intp inside = packet_lanes + (int)at < (intp)((int)length);
 
-    floatp total[STRIPS][WAVES];
-    for (int strip = 0; strip < STRIPS; ++strip)
-        for (int k = 0; k < WAVES; ++k) total[strip][k] = packet_zero;
+    floatp total[WAVES];
+#pragma unroll
+    for (int k = 0; k < WAVES; ++k) total[k] = packet_zero;
     intp refused = (intp)(0);
-    for (uint run = block * PROJECT_ROWS; run < last; run += PROJECT_RUN)
-        for (int strip = 0; strip < STRIPS; ++strip) {
-            uint at = first + strip * CLGI_WIDTH;
-            intp inside = packet_lanes + (int)at < (intp)((int)length);
-            floatp sum[WAVES];
+    for (uint run = block * PROJECT_ROWS; run < last; run += PROJECT_RUN) {
+        floatp sum[WAVES];
 #pragma unroll
-            for (int k = 0; k < WAVES; ++k) sum[k] = packet_zero;
-            for (uint row = run; row < min(run + PROJECT_RUN, last); ++row) {
-                floatp light = load_before(texels, (ulong)row * length + at, end);
-                intp odd = packet_magnitude(light) >= NOT_FINITE;
-                light = packet_select(light, packet_zero, odd);
-                refused += odd & inside & 1;
-                global const float* weights = row_weights + row * WAVES;
+        for (int k = 0; k < WAVES; ++k) sum[k] = packet_zero;
+        for (uint row = run; row < min(run + PROJECT_RUN, last); ++row) {
+            floatp light = load_before(texels, (ulong)row * length + at, end);
+            intp odd = packet_magnitude(light) >= NOT_FINITE;
+            light = packet_select(light, packet_zero, odd);
+            refused += odd & inside & 1;
+            global const float* weights = row_weights + row * WAVES;
 #pragma unroll
-                for (int k = 0; k < WAVES; ++k)
-                    sum[k] = fma(light, packet_splat(weights[k]), sum[k]);
-            }
-#pragma unroll
-            for (int k = 0; k < WAVES; ++k) total[strip][k] += sum[k];
+            for (int k = 0; k < WAVES; ++k) sum[k] = fma(light, packet_splat(weights[k]), sum[k]);
         }
-    for (int strip = 0; strip < STRIPS; ++strip) {
-        uint at = first + strip * CLGI_WIDTH;
-        intp inside = packet_lanes + (int)at < (intp)((int)length);
-        global float* out = sums + (ulong)block * WAVES * params.stride + at;
-        for (int k = 0; k < WAVES; ++k)
-            packet_store(packet_select(packet_zero, total[strip][k], inside),
-                         out + (ulong)k * params.stride);
+#pragma unroll
+        for (int k = 0; k < WAVES; ++k) total[k] += sum[k];
     }
+    global float* out = sums + (ulong)block * WAVES * params.stride + at;
+#pragma unroll
+    for (int k = 0; k < WAVES; ++k)
+        packet_store(packet_select(packet_zero, total[k], inside), out + (ulong)k * params.stride);
 
     if (!packet_any(refused != 0)) return;
     int counts[CLGI_WIDTH], count = 0;
