@@ -2,7 +2,7 @@
 //
 //   c_l,+-m = sum over k of T_lmk sum over leaves of H_k,+-m        [derived: project_rows.cl]
 //   L_lm    = factor sum over n of R^l_mn c_ln + sum over lights of E Y_lm(s)
-//                                                   [Kautz04, section 3: the light's coefficients]
+//                                                   [Kautz04, section 2.1: L_in]
 //
 // T writes Y_lm as waves of the polar angle: Y_lm(theta, 0) = sum over k of T_lmk wave_k(theta). R
 // turns the picture's frame, whose polar axis is z, into that of the light (clgi/sh.hpp).
