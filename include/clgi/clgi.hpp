@@ -22,12 +22,14 @@
 #include <clgi/passes/lights.hpp>
 #include <clgi/passes/parallel.hpp>
 #include <clgi/passes/scene.hpp>
+#include <clgi/passes/transfer.hpp>
 #include <clgi/passes/vpl.hpp>
 #include <clgi/patches.hpp>
 #include <clgi/procedural.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
 #include <clgi/scene_mover.hpp>
+#include <clgi/sh.hpp>
 #include <clgi/slice.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
