@@ -116,8 +116,8 @@ double density_of(Packing& packing, std::size_t charts, const AtlasOptions& opti
 }  // namespace
 
 AtlasPlacement place_by_regions(const Scene& scene, const std::vector<std::uint32_t>& region_of,
-                                const AtlasOptions& options) {
-    const std::vector<FlatChart> charts = flatten(scene, region_of);
+                                const Adjacency* mesh, const AtlasOptions& options) {
+    const std::vector<FlatChart> charts = flatten(scene, region_of, mesh);
     if (charts.empty()) throw InputError("atlas: no triangle of a region has an area");
     Packing packing(charts, options);
     AtlasPlacement out;

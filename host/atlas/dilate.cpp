@@ -1,6 +1,8 @@
 // Empty texels that interpolation at the edge of a chart reads.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstring>
+#include <vector>
 
 #include "atlas/placement.hpp"
 
@@ -9,54 +11,75 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffffu;
 
+// Which texels of the pages are listed. There is a frame of one texel around every page, which
+// counts as listed: nothing beyond a page is empty.
+class Listed {
+public:
+    explicit Listed(const AtlasLayout& layout)
+        : size_(static_cast<std::size_t>(layout.size)), side_(size_ + 2) {
+        flags_.assign(static_cast<std::size_t>(layout.pages) * side_ * side_, 1);
+        for (std::size_t row = 0; row < static_cast<std::size_t>(layout.pages) * size_; ++row)
+            std::memset(&flags_[place(row / size_, 0, row % size_)], 0, size_);
+        for (const AtlasTexel& texel : layout.texels) flags_[place_of(texel.texel)] = 1;
+    }
+
+    bool operator()(std::size_t page, std::uint32_t column, std::uint32_t row) const {
+        return flags_[place(page, column, row)] != 0;
+    }
+
+    // With the eight texels around it.
+    bool surrounded(std::uint32_t texel) const {
+        const std::uint8_t* const left = &flags_[place_of(texel)] - 1;
+        return three(left - side_) && three(left) && three(left + side_);
+    }
+
+private:
+    static bool three(const std::uint8_t* flags) { return flags[0] & flags[1] & flags[2]; }
+
+    std::size_t place(std::size_t page, std::size_t column, std::size_t row) const {
+        return (page * side_ + row + 1) * side_ + column + 1;
+    }
+
+    std::size_t place_of(std::uint32_t texel) const {
+        return place(texel / size_ / size_, texel % size_, texel / size_ % size_);
+    }
+
+    std::size_t size_, side_;
+    std::vector<std::uint8_t> flags_;
+};
+
 }  // namespace
 
 void list_dilated(int padding, AtlasLayout& layout) {
     const auto size = static_cast<std::uint32_t>(layout.size);
     const auto reach = static_cast<std::uint32_t>(padding);
-    // [pages * size * size] index of the texel that is listed there, or of the nearest.
+    // [pages * size * size] index of the listed texel that is nearest to an empty one.
     std::vector<std::uint32_t> source(
         std::size_t{size} * size * static_cast<std::size_t>(layout.pages), none);
-    std::vector<bool> listed(source.size());
-    for (std::uint32_t i = 0; i < layout.texels.size(); ++i) {
-        source[layout.texels[i].texel] = i;
-        listed[layout.texels[i].texel] = true;
-    }
+    const Listed listed(layout);
     const auto distance = [&](std::uint32_t column, std::uint32_t row, std::uint32_t from) {
         const std::uint32_t other = layout.texels[from].texel;
         const std::int64_t x = std::int64_t{column} - other % size,
                            y = std::int64_t{row} - other / size % size;
         return x * x + y * y;
     };
-    std::vector<std::uint32_t> found;
     for (std::uint32_t i = 0; i < layout.texels.size(); ++i) {
         const std::uint32_t texel = layout.texels[i].texel;
+        if (listed.surrounded(texel)) continue;  // most lie within their chart
         const std::uint32_t row = texel / size % size, column = texel % size;
-        const std::uint32_t page = texel - row * size - column;  // its first texel
-        const auto is_empty = [&](std::uint32_t x, std::uint32_t y) {
-            return x < size && y < size && !listed[page + y * size + x];
-        };
-        // Most lie within their chart; one beyond 0 wraps to what is no column or row.
-        bool at_edge = false;
-        for (std::uint32_t k = 0; k < 9 && !at_edge; ++k)
-            at_edge = is_empty(column + k % 3 - 1, row + k / 3 - 1);
-        if (!at_edge) continue;
+        const std::uint32_t page = texel / size / size;
         for (std::uint32_t y = row - std::min(row, reach); y <= std::min(row + reach, size - 1);
              ++y)
             for (std::uint32_t x = column - std::min(column, reach);
                  x <= std::min(column + reach, size - 1); ++x) {
-                if (!is_empty(x, y)) continue;
-                std::uint32_t& nearest = source[page + y * size + x];
-                if (nearest == none)
-                    found.push_back(page + y * size + x);
-                else if (distance(x, y, nearest) <= distance(x, y, i))
-                    continue;
-                nearest = i;
+                if (listed(page, x, y)) continue;
+                std::uint32_t& nearest = source[(std::size_t{page} * size + y) * size + x];
+                if (nearest == none || distance(x, y, i) < distance(x, y, nearest)) nearest = i;
             }
     }
-    std::sort(found.begin(), found.end());
-    layout.dilated.reserve(found.size());
-    for (const std::uint32_t texel : found) layout.dilated.push_back({texel, source[texel]});
+    for (std::size_t texel = 0; texel < source.size(); ++texel)
+        if (source[texel] != none)
+            layout.dilated.push_back({static_cast<std::uint32_t>(texel), source[texel]});
 }
 
 }  // namespace clgi

@@ -28,7 +28,8 @@ std::pair<glm::dvec3, glm::dvec3> axes_of(const glm::dvec3& normal) {
 
 class Flattener {
 public:
-    explicit Flattener(const Scene& scene) : scene_(scene), place_(scene.triangles.size()) {
+    Flattener(const Scene& scene, const Adjacency* mesh)
+        : scene_(scene), place_(scene.triangles.size()), mesh_(mesh) {
         for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
             areas_.push_back(doubled_area_of(scene, t));
     }
@@ -114,7 +115,7 @@ private:
     }
 
     const Adjacency& mesh() {
-        if (!mesh_) mesh_ = adjacency(scene_);
+        if (!mesh_) mesh_ = &made_.emplace(adjacency(scene_));
         return *mesh_;
     }
 
@@ -197,14 +198,16 @@ private:
     const Scene& scene_;
     std::vector<glm::dvec3> areas_;     // doubled, along the normals, m^2
     std::vector<std::uint32_t> place_;  // of a triangle in the list looked at last
-    std::optional<Adjacency> mesh_;     // made when something has to be split
+    const Adjacency* mesh_;             // null until something has to be split
+    std::optional<Adjacency> made_;     // where none was given
     std::vector<FlatChart> charts_;
 };
 
 }  // namespace
 
-std::vector<FlatChart> flatten(const Scene& scene, const std::vector<std::uint32_t>& region_of) {
-    Flattener out(scene);
+std::vector<FlatChart> flatten(const Scene& scene, const std::vector<std::uint32_t>& region_of,
+                               const Adjacency* mesh) {
+    Flattener out(scene, mesh);
     // Regions have any numbers; in the order in which they appear they are always the same.
     std::map<std::uint32_t, std::size_t> place;
     std::vector<std::pair<std::uint32_t, Triangles>> regions;

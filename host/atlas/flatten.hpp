@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/adjacency.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -20,7 +21,9 @@ struct FlatChart {
 constexpr double least_share = 0.5;
 
 // In the order in which the regions appear. Each chart lies in the smallest rectangle around it.
-std::vector<FlatChart> flatten(const Scene& scene, const std::vector<std::uint32_t>& region_of);
+// mesh: adjacency(scene), or null: it is found where it is needed.
+std::vector<FlatChart> flatten(const Scene& scene, const std::vector<std::uint32_t>& region_of,
+                               const Adjacency* mesh);
 
 // Turns corners into the smallest rectangle around them, its lower corner at 0 and its longer side
 // along x. Returns its extent.

@@ -66,6 +66,11 @@ glm::dvec3 doubled_area_of(const Scene& scene, std::uint32_t triangle) {
 
 AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& region_of,
                        const AtlasOptions& options) {
+    return make_atlas(scene, region_of, nullptr, options);
+}
+
+AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& region_of,
+                       const Adjacency* mesh, const AtlasOptions& options) {
     check(scene, region_of, options);
     AtlasLayout out;
     out.size = options.size;
@@ -75,7 +80,7 @@ AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& reg
     if (out.uv_set < 0 && region_of.empty())
         throw Error("atlas: region_of is empty, a number for each triangle needed for charts");
     const AtlasPlacement placed = out.uv_set >= 0 ? place_by_uvs(scene, out.uv_set, options.size)
-                                                  : place_by_regions(scene, region_of, options);
+                                                  : place_by_regions(scene, region_of, mesh, options);
     out.pages = placed.pages;
     out.texels_per_metre = placed.texels_per_metre;
     list_texels(scene, placed, out);

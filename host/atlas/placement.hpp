@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/adjacency.hpp>
 #include <clgi/atlas_layout.hpp>
 #include <glm/glm.hpp>
 #include <vector>
@@ -30,9 +31,14 @@ Scene with_corner_uvs(const Scene& scene, const AtlasLayout& atlas, AtlasPages p
 // those of their corners.
 AtlasPlacement place_by_uvs(const Scene& scene, int uv_set, int size);
 
-// Charts made of regions. Throws InputError if they do not fit.
+// Charts made of regions. mesh: adjacency(scene), or null: it is found where it is needed. Throws
+// InputError if they do not fit.
 AtlasPlacement place_by_regions(const Scene& scene, const std::vector<std::uint32_t>& region_of,
-                                const AtlasOptions& options);
+                                const Adjacency* mesh, const AtlasOptions& options);
+
+// make_atlas with this mesh.
+AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& region_of,
+                       const Adjacency* mesh, const AtlasOptions& options);
 
 // Texels, dilated, uvs, triangle_page, triangle_chart, charts and skipped_area of a layout whose
 // size is set.

@@ -74,6 +74,10 @@ public:
     Lister(const Scene& scene, const AtlasPlacement& placed, int size)
         : scene_(scene), placed_(placed), size_(size), side_(static_cast<std::size_t>(size)) {
         first_.assign(side_ * side_ * static_cast<std::size_t>(placed.pages), none);
+        std::size_t most = 0;  // memory that is not written is not used
+        for (const AtlasChart& chart : placed.charts)
+            most += static_cast<std::size_t>(chart.width) * static_cast<std::size_t>(chart.height);
+        shares_.reserve(std::min(most, first_.size()));
     }
 
     void add(std::uint32_t t) {

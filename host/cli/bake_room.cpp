@@ -49,9 +49,7 @@ void need_room(const std::string& command, const cl::Device& device, const VplOp
 BakeLayout lay_out(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas, bool quiet) {
     const Stopwatch watch;
     BakeLayout out;
-    out.patches = make_patches(scene);
-    out.vpls = place_vpls(scene, out.patches, vpls);
-    out.atlas = make_atlas(scene, out.patches.triangle_patch, atlas);
+    static_cast<clgi::BakeLayout&>(out) = make_bake_layout(scene, vpls, atlas);
     out.seconds = watch.seconds();
     for (const std::string& warning : out.atlas.warnings) {
         notice(quiet, "warning: " + warning);

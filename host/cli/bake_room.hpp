@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <clgi/bake_layout.hpp>
 #include <clgi/opencl.hpp>
-#include <clgi/patches.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 #include <string>
 
@@ -40,10 +40,7 @@ CLI::Option* add_count(CLI::App& command, const std::string& name, T& value,
 // its own. Throws DeviceError that begins with the command's name.
 void need_room(const std::string& command, const cl::Device& device, const VplOptions& options);
 
-struct BakeLayout {
-    Patches patches;
-    VplLayout vpls;
-    AtlasLayout atlas;
+struct BakeLayout : clgi::BakeLayout {
     double seconds = 0.0;
 };
 

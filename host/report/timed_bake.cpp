@@ -2,6 +2,7 @@
 #include "report/timed_bake.hpp"
 
 #include <chrono>
+#include <clgi/bake_layout.hpp>
 
 namespace clgi::report {
 namespace {
@@ -17,11 +18,10 @@ double seconds_since(Clock::time_point start) {
 std::optional<TimedBake> timed_bake(const BakeJob& job, const Progress& progress) {
     TimedBake out;
     const auto start = Clock::now();
-    const Patches patches = make_patches(job.scene);
-    const VplLayout vpls = place_vpls(job.scene, patches, job.vpls);
-    const AtlasLayout atlas = make_atlas(job.scene, patches.triangle_patch, job.atlas);
+    const BakeLayout layout = make_bake_layout(job.scene, job.vpls, job.atlas);
     out.layout_seconds = seconds_since(start);
-    LightAtlasSolver solver(job.programs, job.queue, job.on_device, vpls, atlas, job.options);
+    LightAtlasSolver solver(job.programs, job.queue, job.on_device, layout.vpls, layout.atlas,
+                            job.options);
     if (!solver.run(progress)) return std::nullopt;
     out.seconds = seconds_since(start);
     out.irradiance = solver.irradiance();

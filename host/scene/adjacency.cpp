@@ -31,7 +31,7 @@ struct Side {
     EdgeUse use;
 };
 
-// All sides, those of one edge together.
+// All sides, those of one edge together: put in by their first vertex, then each vertex's sorted.
 std::vector<Side> sorted_sides(const std::vector<SceneTriangle>& triangles, Adjacency& out) {
     std::vector<Side> sides;
     sides.reserve(3 * triangles.size());
@@ -47,11 +47,20 @@ std::vector<Side> sorted_sides(const std::vector<SceneTriangle>& triangles, Adja
             sides.push_back({std::min(a, b), std::max(a, b), {t, k, a < b}});
         }
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.from, a.to, a.use.triangle, a.use.side) <
-               std::tie(b.from, b.to, b.use.triangle, b.use.side);
-    });
-    return sides;
+    std::vector<std::size_t> end(std::size_t{out.welded_count} + 1, 0);  // of each vertex's sides
+    for (const Side& side : sides) ++end[side.from + 1];
+    for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
+    std::vector<Side> sorted(sides.size());
+    for (const Side& side : sides) sorted[end[side.from]++] = side;
+    std::size_t first = 0;
+    for (std::uint32_t v = 0; v < out.welded_count; first = end[v++])
+        std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(first),
+                  sorted.begin() + static_cast<std::ptrdiff_t>(end[v]),
+                  [](const Side& a, const Side& b) {
+                      return std::tie(a.to, a.use.triangle, a.use.side) <
+                             std::tie(b.to, b.use.triangle, b.use.side);
+                  });
+    return sorted;
 }
 
 EdgeKind kind_of(const EdgeUse* uses, std::size_t count) {
@@ -74,6 +83,7 @@ Adjacency adjacency(const std::vector<glm::dvec3>& positions,
     out.neighbours.assign(triangles.size(), none);
 
     const std::vector<Side> sides = sorted_sides(triangles, out);
+    out.uses.reserve(sides.size());
     for (const Side& side : sides) out.uses.push_back(side.use);
     DisjointSets sets(triangles.size());
     for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {

@@ -1,13 +1,10 @@
-// Equal positions are found by sorting; what is left is put into a grid of cells many tolerances
-// wide, so that a vertex looks into one cell and seldom into more.
-// SPDX-License-Identifier: MIT
+// Vertices are put into a grid of cells many tolerances wide, of equal ones the first alone, so
+// that a vertex looks into one cell and seldom into more. SPDX-License-Identifier: MIT
 #include "scene/weld.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <tuple>
-#include <unordered_map>
+#include <optional>
 
 #include "scene/disjoint_sets.hpp"
 
@@ -26,20 +23,55 @@ double largest(const glm::dvec3& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
 
-struct Cell {
-    std::int64_t x, y, z;
-    bool operator==(const Cell& o) const { return x == o.x && y == o.y && z == o.z; }
-};
+// Vertices in lists, one for every few cells: a grid without bounds. Whoever looks compares the
+// vertices themselves, so it does no harm that cells share a list.
+class Grid {
+public:
+    Grid(std::size_t vertices, double cell) : cell_(cell), next_(vertices) {
+        std::size_t lists = 1;
+        while (lists < vertices) lists *= 2;
+        first_.assign(lists, none_);
+    }
 
-struct CellHash {
-    std::size_t operator()(const Cell& c) const {
+    struct Cell {
+        std::int64_t x, y, z;
+    };
+
+    Cell of(const glm::dvec3& p) const { return {along(p.x), along(p.y), along(p.z)}; }
+
+    void add(std::uint32_t vertex, const Cell& cell) {
+        std::uint32_t& list = first_[list_of(cell)];
+        next_[vertex] = list;
+        list = vertex;
+    }
+
+    // The first vertex in a cell's list for which found(vertex).
+    template <typename Found>
+    std::optional<std::uint32_t> find(const Cell& cell, Found&& found) const {
+        for (std::uint32_t v = first_[list_of(cell)]; v != none_; v = next_[v])
+            if (found(v)) return v;
+        return {};
+    }
+
+private:
+    static constexpr std::uint32_t none_ = 0xffffffffu;
+
+    std::int64_t along(double coordinate) const {
+        return static_cast<std::int64_t>(std::floor(coordinate / cell_));
+    }
+
+    std::size_t list_of(const Cell& cell) const {
         std::uint64_t hash = 0;
-        for (const std::int64_t i : {c.x, c.y, c.z}) {
+        for (const std::int64_t i : {cell.x, cell.y, cell.z}) {
             hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x9e3779b97f4a7c15u;
             hash ^= hash >> 29;
         }
-        return static_cast<std::size_t>(hash);
+        return static_cast<std::size_t>(hash) & (first_.size() - 1);
     }
+
+    double cell_;
+    std::vector<std::uint32_t> first_;  // [lists] vertex
+    std::vector<std::uint32_t> next_;   // [vertices] in the same list
 };
 
 // How far a vertex's coordinates may be off, by the largest coordinate of its triangles.
@@ -58,30 +90,6 @@ std::vector<double> tolerances(const std::vector<glm::dvec3>& positions,
     return reach;
 }
 
-bool before(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
-
-// One vertex for each place, with the largest tolerance of those that are there.
-std::vector<std::uint32_t> places(const std::vector<glm::dvec3>& positions,
-                                  std::vector<double>& tolerance, DisjointSets& sets) {
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return before(positions[a], positions[b]);
-    });
-    std::vector<std::uint32_t> out;
-    for (const std::uint32_t v : order) {
-        if (out.empty() || positions[out.back()] != positions[v]) {
-            out.push_back(v);
-            continue;
-        }
-        sets.join(out.back(), v);
-        tolerance[out.back()] = std::max(tolerance[out.back()], tolerance[v]);
-    }
-    return out;
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions,
@@ -95,30 +103,36 @@ std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions,
     const glm::dvec3 middle = 0.5 * (low + high);
     std::vector<double> tolerance = tolerances(positions, triangles, middle);
     DisjointSets sets(positions.size());
-    const std::vector<std::uint32_t> distinct = places(positions, tolerance, sets);
 
     const double widest = *std::max_element(tolerance.begin(), tolerance.end());
-    const double cell = widest > 0.0 ? cell_tolerances * widest : 1.0;
-    const auto index = [&](double coordinate) {
-        return static_cast<std::int64_t>(std::floor(coordinate / cell));
-    };
-    std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> grid;
-    grid.reserve(distinct.size());
+    Grid grid(positions.size(), widest > 0.0 ? cell_tolerances * widest : 1.0);
+    // One vertex for each place, with the largest tolerance of those that are there.
+    std::vector<std::uint32_t> distinct;
+    for (std::uint32_t v = 0; v < positions.size(); ++v) {
+        const Grid::Cell cell = grid.of(positions[v] - middle);
+        const auto first =
+            grid.find(cell, [&](std::uint32_t other) { return positions[other] == positions[v]; });
+        if (first) {
+            sets.join(*first, v);
+            tolerance[*first] = std::max(tolerance[*first], tolerance[v]);
+        } else {
+            grid.add(v, cell);
+            distinct.push_back(v);
+        }
+    }
     for (const std::uint32_t v : distinct) {
-        const glm::dvec3 p = positions[v] - middle;
         // The larger tolerance of two counts, and the other's may be the widest.
-        const glm::dvec3 from = p - widest, to = p + widest;
-        for (std::int64_t x = index(from.x); x <= index(to.x); ++x)
-            for (std::int64_t y = index(from.y); y <= index(to.y); ++y)
-                for (std::int64_t z = index(from.z); z <= index(to.z); ++z) {
-                    const auto found = grid.find({x, y, z});
-                    if (found == grid.end()) continue;
-                    for (const std::uint32_t other : found->second)
-                        if (largest(positions[v] - positions[other]) <=
-                            std::max(tolerance[v], tolerance[other]))
+        const glm::dvec3 p = positions[v] - middle;
+        const Grid::Cell from = grid.of(p - widest), to = grid.of(p + widest);
+        for (std::int64_t x = from.x; x <= to.x; ++x)
+            for (std::int64_t y = from.y; y <= to.y; ++y)
+                for (std::int64_t z = from.z; z <= to.z; ++z)
+                    grid.find({x, y, z}, [&](std::uint32_t other) {
+                        if (other < v && largest(positions[v] - positions[other]) <=
+                                             std::max(tolerance[v], tolerance[other]))
                             sets.join(v, other);
-                }
-        grid[{index(p.x), index(p.y), index(p.z)}].push_back(v);
+                        return false;
+                    });
     }
     return sets.numbered();
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/patches.hpp>
+#include "vpl/patches.hpp"
 
 #include <algorithm>
-#include <clgi/adjacency.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <numeric>
@@ -31,22 +30,6 @@ struct Shape {
 
 double largest(const glm::dvec3& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
-void check(const Scene& scene, const PatchOptions& options) {
-    const auto fail = [](const char* name, float got, const char* needs) {
-        throw Error("make_patches: " + std::string(name) + " is " + std::to_string(got) +
-                    ", needs " + needs);
-    };
-    if (!(options.max_angle >= 0.0f && options.max_angle <= 1.57f))
-        fail("max_angle", options.max_angle, "0 to 1.57");
-    if (!(options.max_offset >= 0.0f && std::isfinite(options.max_offset)))
-        fail("max_offset", options.max_offset, "a number of at least 0");
-    for (std::size_t t = 0; t < scene.triangles.size(); ++t)
-        if (scene.triangles[t].material >= scene.materials.size())
-            throw InputError("make_patches: triangle " + std::to_string(t) + " has material " +
-                             std::to_string(scene.triangles[t].material) + ", there are " +
-                             std::to_string(scene.materials.size()));
 }
 
 Shape shape_of(const Scene& scene, const SceneTriangle& triangle, const glm::dvec3& middle) {
@@ -220,9 +203,28 @@ private:
 
 }  // namespace
 
+void check_patches(const Scene& scene, const PatchOptions& options) {
+    const auto fail = [](const char* name, float got, const char* needs) {
+        throw Error("make_patches: " + std::string(name) + " is " + std::to_string(got) +
+                    ", needs " + needs);
+    };
+    if (!(options.max_angle >= 0.0f && options.max_angle <= 1.57f))
+        fail("max_angle", options.max_angle, "0 to 1.57");
+    if (!(options.max_offset >= 0.0f && std::isfinite(options.max_offset)))
+        fail("max_offset", options.max_offset, "a number of at least 0");
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+        if (scene.triangles[t].material >= scene.materials.size())
+            throw InputError("make_patches: triangle " + std::to_string(t) + " has material " +
+                             std::to_string(scene.triangles[t].material) + ", there are " +
+                             std::to_string(scene.materials.size()));
+}
+
 Patches make_patches(const Scene& scene, const PatchOptions& options) {
-    check(scene, options);
-    const Adjacency mesh = adjacency(scene);
+    check_patches(scene, options);
+    return make_patches(scene, adjacency(scene), options);
+}
+
+Patches make_patches(const Scene& scene, const Adjacency& mesh, const PatchOptions& options) {
     const Bounds box = bounds(scene);
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
     const auto count = static_cast<std::uint32_t>(scene.triangles.size());

@@ -2,12 +2,46 @@
 // It pays where there are many small views; its bits are those of raster and raster_large.
 // [derived: as raster.cl and raster_large.cl]
 //
+// Near clusters come first, and now and then the kernel notes the farthest word of every square of
+// pixels: clusters and polygons behind these are passed over.
+//
 // Work size    1D, one work-item a view; any local size
 // Writes       the words of its own view's pixels
 // SPDX-License-Identifier: MIT
 #include "gbuffer/batch.clh"
+#include "gbuffer/near_first.clh"
+#include "gbuffer/occlusion.clh"
 #include "gbuffer/small.clh"
 #include "gbuffer/tile.clh"
+
+// Clusters that are drawn between two looks at all pixels: a look costs as much as one of them.
+#define CLUSTERS_A_LOOK 32
+
+static void draw_cluster(const View* view, const RasterParams* params, uint cluster,
+                         const Occlusion* occlusion, const SceneBuffers* scene,
+                         global PixelWord* visibility) {
+    uint end = min((cluster + 1) * CLUSTER_TRIANGLES, params->triangle_count);
+    for (uint first = cluster * CLUSTER_TRIANGLES; first < end; first += BATCH_TRIANGLES) {
+        Batch batch;
+        batch_sort(view, params, first, min(first + BATCH_TRIANGLES, end), scene->triangles,
+                   scene->positions, &batch);
+        for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
+            small_draw(view, RASTER_FUSED, batch.small + n, min(batch.small_count - n, CLGI_WIDTH),
+                       scene->triangles, scene->positions, visibility, 0);
+        for (int n = 0; n < batch.rest_count; n += CLGI_WIDTH) {
+            RasterPolygon made[CLGI_WIDTH];
+            int count = batch_polygons(view, batch.rest + n, min(batch.rest_count - n, CLGI_WIDTH),
+                                       scene->triangles, scene->positions, made);
+            for (int k = 0; k < count; ++k) {
+                uint key = ~(as_uint(made[k].closest) | 1u);
+                if (!occlusion_hides(occlusion, made[k].left, made[k].top, made[k].right,
+                                     made[k].bottom, key))
+                    tile_draw_all(view, params->scene_flags, made + k, scene, visibility, 0,
+                                  RASTER_FUSED);
+            }
+        }
+    }
+}
 
 kernel void gbuffer_raster_views(
     const RasterParams     params,
@@ -25,23 +59,18 @@ kernel void gbuffer_raster_views(
     for (uint pixel = 0; pixel < pixels; ++pixel)
         visibility[view.first_pixel + pixel] = (PixelWord)-1;
 
-    for (uint first = 0; first < params.triangle_count; first += BATCH_TRIANGLES) {
-        if (params.cull && batch_unseen(&view, clusters + first / CLUSTER_TRIANGLES)) continue;
-        uint last = min(first + BATCH_TRIANGLES, params.triangle_count);
-        Batch batch;
-        batch_sort(&view, &params, first, last, triangles, positions, &batch);
-        for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
-            small_draw(&view, RASTER_FUSED, batch.small + n,
-                       min(batch.small_count - n, CLGI_WIDTH), triangles, positions, visibility,
-                       0);
-        for (int n = 0; n < batch.rest_count; n += CLGI_WIDTH) {
-            RasterPolygon made[CLGI_WIDTH];
-            int count = batch_polygons(&view, batch.rest + n,
-                                       min(batch.rest_count - n, CLGI_WIDTH), triangles, positions,
-                                       made);
-            for (int k = 0; k < count; ++k)
-                tile_draw_all(&view, params.scene_flags, made + k, &scene, visibility, 0,
-                              RASTER_FUSED);
+    Occlusion occlusion;
+    occlusion_begin(&view, &occlusion);
+    int drawn = 0;  // clusters
+    uint cluster_count = (params.triangle_count + CLUSTER_TRIANGLES - 1) / CLUSTER_TRIANGLES;
+    for (uint next = 0; next < cluster_count;) {
+        NearFirst list;
+        next = near_first_list(&view, params.cull, clusters, next, cluster_count, &list);
+        for (int n = 0; n < list.count; ++n) {
+            uint cluster = list.cluster[list.order[n]];
+            if (occlusion_hides_cluster(&occlusion, &view, clusters + cluster)) continue;
+            draw_cluster(&view, &params, cluster, &occlusion, &scene, visibility);
+            if (++drawn % CLUSTERS_A_LOOK == 0) occlusion_update(&view, visibility, &occlusion);
         }
     }
 }
