@@ -264,7 +264,8 @@ void add_render(CLI::App& app) {
             given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates",
                              "--target-error", "--time-budget"});
         flags->atlas_only =
-            given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--least-change"});
+            given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--refine",
+                             "--least-change"});
         if (command->count("--vpls") > 0)
             flags->atlas.vpls.count = static_cast<std::uint32_t>(flags->options.emitters.vpls);
         run_render(*flags);
