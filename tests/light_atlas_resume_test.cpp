@@ -106,7 +106,7 @@ TEST(LightAtlasState, GoesOnToTheSameBits) {
             const std::size_t left = (second.vpl_count - state->measured_vpls + 7) / 8;
             if (keeps == Keeps::all) {
                 EXPECT_EQ(second.launches("vpl.transport"), left);
-                EXPECT_EQ(second.launches("atlas.see"), left);
+                EXPECT_EQ(second.launches("atlas.see_blocks"), left);
                 EXPECT_EQ(second.launches("vpl.balance_receivers") > 0, left > 0);
             }
             // Whoever went on can start anew, and so can who gave it away, and who had begun.

@@ -206,8 +206,8 @@ TEST(LightAtlasUpdate, DrawsNoHemicubeAgain) {
         for (const PassEvent& event : room.solver.events()) out += std::string(event.name) == name;
         return out;
     };
-    const char* const once[] = {"gbuffer.cubes", "vpl.transport",         "vpl.reach",
-                                "atlas.see",     "vpl.balance_receivers", "gbuffer.surface",
+    const char* const once[] = {"gbuffer.cubes",    "vpl.transport",         "vpl.reach",
+                                "atlas.see_blocks", "vpl.balance_receivers", "gbuffer.surface",
                                 "atlas.nearest"};
     ASSERT_TRUE(room.solver.run());
     for (const char* name : once) EXPECT_GT(count(name), 0u) << name;

@@ -138,7 +138,7 @@ TEST_F(AtlasProgram, BadInputEndsWithOneLineAndNoFile) {
                               file("y.glb").string()), 1);
     for (const char* flags :
          {"--vpls 0", "--bounces -1", "--atlas-size 9000", "--atlas-size 0", "--hemicube-size 33",
-          "--hemicube-size 2048", "--threshold none", "--uvs 2", "--pages 0", "--padding 0",
+          "--hemicube-size 2048", "--refine 3", "--threshold none", "--uvs 2", "--pages 0", "--padding 0",
           "--samples-per-vpl 0", "--texels-per-metre -1", "--size 64x64", "--gltf-lights",
           "--gltf-detail 2", "--direct --gltf-lights --gltf y.glb", "--gltf-detail 0 --gltf y.glb"})
         refused(scene + " " + flags, 1);
@@ -220,7 +220,7 @@ TEST_F(AtlasProgram, FlagsOfOneMethodAreNotTheOthers) {
           "--method atlas --low-res-step 2", "--method atlas --replicates 3",
           "--method atlas --time-budget 33ms", "--method atlas --target-error 2%",
           "--method atlas --gbuffer gl", "--method atlas --vpls 0", "--bounces 3",
-          "--method direct --atlas-size 64", "--hemicube-size 64"}) {
+          "--method direct --atlas-size 64", "--hemicube-size 64", "--refine 2"}) {
         SCOPED_TRACE(flags);
         expect_one_error_line(run(render + flags), 1);
         EXPECT_FALSE(fs::exists(file("x.exr")));

@@ -185,6 +185,77 @@ TEST(Sizes, OfVplPasses) {
     EXPECT_THROW(passes.receive(queue, wrong, z), Error);
 }
 
+// Nine shooters as below; 20 listed texels, of which 6 are in no block, and 3 blocks.
+TEST(Sizes, OfBlocksOfTexels) {
+    const AtlasPasses& passes = test::atlas_passes();
+    const cl::CommandQueue& queue = test::device().queue;
+    constexpr std::uint32_t texel_stride = 64, listed_stride = 32;
+    constexpr std::size_t planes = (GBUFFER_GEOMETRIC + 3) * word;
+    const BlockParams params{9, size, texel_stride, 3, 20, listed_stride, 6, 3};
+    const cl::Buffer z = test::upload(std::vector<float>(1 << 10)), views = test::empty<View>(45);
+    Enough::clear(views);
+    const cl::Buffer depths = test::upload(std::vector<cl_uint>(9 * 3 * size * size));
+    BlockBuffers enough;
+    enough.planes = enough.places = z;
+    enough.seen = test::upload(std::vector<float>(1 << 10));
+    enough.blocks = test::upload(std::vector<AtlasBlock>(3));
+    const cl::Buffer out = test::upload(std::vector<float>(1 << 10));
+    const auto with = [&](cl::Buffer BlockBuffers::*member, const B& buffer) {
+        BlockBuffers b = enough;
+        b.*member = buffer;
+        return b;
+    };
+    std::vector<test::Argument> all;
+    const auto flat = [&](const B& texels, const BlockBuffers& b) {
+        passes.flat(queue, params, texels, b);
+    };
+    add(all, "atlas.flat", "texels", planes * texel_stride, [&](B b) { flat(b, enough); });
+    add(all, "atlas.flat", "listed", planes * listed_stride,
+        [&](B b) { flat(z, with(&BlockBuffers::planes, b)); });
+    add(all, "atlas.flat", "blocks", 3 * sizeof(AtlasBlock),
+        [&](B b) { flat(z, with(&BlockBuffers::blocks, b)); });
+    const auto listed = [&](const B& v, const B& depth, const BlockBuffers& b, const B& seen) {
+        passes.see_listed(queue, params, v, depth, b, seen);
+    };
+    const auto blocks = [&](const B& v, const B& depth, const B& texels, const BlockBuffers& b,
+                            const B& seen) {
+        passes.see_blocks(queue, params, v, depth, texels, b, seen);
+    };
+    add(all, "atlas.see_listed", "views", 45 * sizeof(View),
+        [&](B b) { listed(b, depths, enough, out); });
+    add(all, "atlas.see_listed", "depth", 9 * 3 * size * size * word,
+        [&](B b) { listed(views, b, enough, out); });
+    add(all, "atlas.see_listed", "listed", planes * listed_stride,
+        [&](B b) { listed(views, depths, with(&BlockBuffers::planes, b), out); });
+    add(all, "atlas.see_listed", "places", 6 * word,
+        [&](B b) { listed(views, depths, with(&BlockBuffers::places, b), out); });
+    add(all, "atlas.see_listed", "listed_seen", 2 * listed_stride,
+        [&](B b) { listed(views, depths, with(&BlockBuffers::seen, b), out); });
+    add(all, "atlas.see_listed", "seen", 5 * texel_stride,
+        [&](B b) { listed(views, depths, enough, b); });
+    add(all, "atlas.see_blocks", "views", 45 * sizeof(View),
+        [&](B b) { blocks(b, depths, z, enough, out); });
+    add(all, "atlas.see_blocks", "depth", 9 * 3 * size * size * word,
+        [&](B b) { blocks(views, b, z, enough, out); });
+    add(all, "atlas.see_blocks", "texels", planes * texel_stride,
+        [&](B b) { blocks(views, depths, b, enough, out); });
+    add(all, "atlas.see_blocks", "blocks", 3 * sizeof(AtlasBlock),
+        [&](B b) { blocks(views, depths, z, with(&BlockBuffers::blocks, b), out); });
+    add(all, "atlas.see_blocks", "listed_seen", 2 * listed_stride,
+        [&](B b) { blocks(views, depths, z, with(&BlockBuffers::seen, b), out); });
+    add(all, "atlas.see_blocks", "seen", 5 * texel_stride,
+        [&](B b) { blocks(views, depths, z, enough, b); });
+    test::expect_refusals(all);
+
+    BlockParams wrong = params;
+    wrong.listed_stride = 16;
+    EXPECT_THROW(passes.see_listed(queue, wrong, views, depths, enough, out), Error);
+    EXPECT_THROW(passes.see_blocks(queue, wrong, views, depths, z, enough, out), Error);
+    wrong = params;
+    wrong.unblocked = 21;
+    EXPECT_THROW(passes.see_listed(queue, wrong, views, depths, enough, out), Error);
+}
+
 TEST(Sizes, OfAtlasPasses) {
     const Enough e;
     const AtlasPasses& passes = test::atlas_passes();

@@ -64,6 +64,9 @@ AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
     BuildOptions scalar = full;
     scalar.packet_width = 1;
     see_ = programs.kernel("atlas", "see", full);
+    flat_ = programs.kernel("atlas", "flat", scalar);
+    see_listed_ = programs.kernel("atlas", "see_listed", full);
+    see_blocks_ = programs.kernel("atlas", "see_blocks", full);
     gather_ = programs.kernel("atlas", "gather", full);
     geometry_ = programs.kernel("atlas", "geometry", scalar);
     replicate_ = programs.kernel("atlas", "replicate", scalar);
@@ -74,7 +77,9 @@ AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
 }
 
 void AtlasPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({see_, gather_, geometry_, replicate_, project_, nearest_, complete_, show_}, passes);
+    build_named({see_, flat_, see_listed_, see_blocks_, gather_, geometry_, replicate_, project_, nearest_,
+                 complete_, show_},
+                passes);
 }
 
 cl::Event AtlasPasses::see(const cl::CommandQueue& queue, const SeeParams& params,

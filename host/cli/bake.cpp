@@ -54,12 +54,12 @@ std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device&
     const LightAtlasOptions& bake = flags.bake;
     const EmitterOptions& emitters = bake.emitters;
     return fmt::format(
-               "{} {} {} | {} {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} {} {} | {} {} {} {}",
+               "{} {} {} | {} {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} {} {} {} | {} {} {} {}",
                CLGI_VERSION, report::scene_key(scene), describe(device), flags.vpls.count,
                flags.vpls.samples_per_vpl, flags.vpls.gap_density, flags.atlas.size, flags.uvs,
                flags.atlas.padding, flags.atlas.texels_per_metre, flags.atlas.most_pages,
                bake.bounces, bake.threshold, bake.one_at_a_time, bake.exchange_samples,
-               bake.hemicube_size, flags.filling, bake.mesh, bake.kernel,
+               bake.hemicube_size, flags.filling, bake.refine, bake.mesh, bake.kernel,
                bake.direct, emitters.shadow_size, emitters.face_size, emitters.area_samples,
                emitters.environment_lights) +
            build_flags(flags.device);

@@ -16,6 +16,11 @@ void add_bake_flags(CLI::App& command, const std::string& prefix, LightAtlasOpti
               0, 1000);
     add_count(command, "--hemicube-size", bake.hemicube_size,
               prefix + "Pixels of the face of a VPL's hemicube", 32, 1024);
+    command
+        .add_option("--refine", bake.refine,
+                    prefix + "Texels between those that look up every VPL first; 1: all of them do")
+        ->type_name("N")
+        ->check(CLI::IsMember({1, 2, 4}));
     add_count(command, "--atlas-size", atlas.size, prefix + "Texels, side of a page of the atlas",
               1, 8192);
 }

@@ -22,7 +22,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// --bounces, --hemicube-size and --atlas-size. prefix: of what each is for.
+// --bounces, --hemicube-size, --refine and --atlas-size. prefix: of what each is for.
 void add_bake_flags(CLI::App& command, const std::string& prefix, LightAtlasOptions& bake,
                     AtlasOptions& atlas);
 

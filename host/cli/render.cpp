@@ -264,7 +264,8 @@ void add_render(CLI::App& app) {
             given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates",
                              "--target-error", "--time-budget"});
         flags->atlas_only =
-            given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--least-change"});
+            given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--refine",
+                             "--least-change"});
         flags->atlas.bake.emitters = flags->options.emitters;
         if (command->count("--shadow-size") == 0)
             flags->atlas.bake.emitters.shadow_size = bake_emitters().shadow_size;

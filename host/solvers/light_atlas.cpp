@@ -66,13 +66,17 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     const std::size_t budget = options.memory_budget > 0 ? options.memory_budget : room / 2;
     if (vpl_layout.vpls.empty()) throw Error("light-atlas: there is no VPL");
     if (atlas_layout.texels.empty()) throw Error("light-atlas: there is no texel");
+    AtlasBlocks made;
+    if (options.filling == Filling::gather && options.refine > 1)
+        made = make_blocks(atlas_layout, options.refine);
     const BufferTable all =
-        table(b, emitters, scene, vpl_layout, atlas_layout, options, budget,
+        table(b, emitters, scene, vpl_layout, atlas_layout, made, options, budget,
               device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
     all.check(device, options.memory_budget, scene.bytes());
     all.allocate(record);
     bytes = all.bytes();
     b.samples.planes = b.sites.samples;
+    b.listed.planes = b.blocks.planes;
     lift = 2e-5f * scene.frame().radius;
     gbuffer.build({"surface", "cubes"});
     gbuffer.build({"raster_views"}, Pixels::depth);
@@ -84,13 +88,18 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
         atlas.build({"geometry", "replicate", "project"});
         gbuffer.build({"raster_views"}, Pixels::visibility);
     } else {
-        atlas.build({"see", "gather"});
+        atlas.build({"gather"});
+        if (b.block_count > 0)
+            atlas.build({"flat", "see_listed", "see_blocks"});
+        else
+            atlas.build({"see"});
     }
     emitters.write(record);
-    upload(vpl_layout, atlas_layout);
+    upload(vpl_layout, atlas_layout, made);
 }
 
-void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout& texels) {
+void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout& texels,
+                                     const AtlasBlocks& made) {
     const auto device = inverse(scene.triangle_order());
     const double scale = scene.frame().scale;
     std::vector<SurfaceSample> list;
@@ -119,6 +128,7 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
     for (const AtlasTexel& texel : texels.texels)
         list.push_back({device_triangle(device, texel.triangle), texel.b1, texel.b2, 0.0f});
     record.write(b.texel_list, list.data(), list.size() * sizeof(SurfaceSample));
+    if (b.block_count > 0) upload_blocks(made, list);
     if (options.filling == Filling::project) upload_charts(texels, device);
 }
 
@@ -138,6 +148,7 @@ void LightAtlasSolver::State::place() {
         return gbuffer.surface(queue, scene, {b.texel_count, b.texels.stride, 0, 0}, b.texel_list,
                                b.texels, {}, wait);
     });
+    if (b.block_count > 0) place_blocks();
     placed = !record.cancelled();
 }
 

@@ -45,15 +45,6 @@ void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count
     });
 }
 
-// Which texels a batch sees, in the hemicubes that were drawn last.
-void LightAtlasSolver::State::see(std::uint32_t first, std::uint32_t count) {
-    const SeeParams params{count, static_cast<std::uint32_t>(options.hemicube_size), b.texel_count,
-                           b.texel_stride, 0, b.seen_kept ? first / SEEN_VPLS : 0, 0, 0};
-    record("atlas.see", std::size_t{count} * b.texel_count, [&](const WaitList& wait) {
-        return atlas.see(queue, params, b.views, b.pixels, b.texels.planes, b.seen, wait);
-    });
-}
-
 // Transport of all VPLs, or, where it is not kept, what they reach and their factors alone. Goes on
 // where it was cancelled.
 void LightAtlasSolver::State::measure() {

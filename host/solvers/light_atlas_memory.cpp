@@ -20,6 +20,9 @@ void check(const LightAtlasOptions& options) {
     if (options.hemicube_size % 2 != 0)
         throw Error("light-atlas: hemicube_size is " + std::to_string(options.hemicube_size) +
                     ", an even number needed");
+    if (options.refine != 1 && options.refine != 2 && options.refine != 4)
+        throw Error("light-atlas: refine is " + std::to_string(options.refine) +
+                    ", 1, 2 or 4 needed");
     need_range<double>("light-atlas", "kernel", options.kernel, 0, 64);
     need_range<double>("light-atlas", "mesh", options.mesh, 8, 131072);
     const int squares = static_cast<int>(mesh_squares(options.mesh));
@@ -84,11 +87,30 @@ void add_mesh(BufferTable& t, Buffers& b, const DeviceScene& scene, std::size_t 
           b.batch * MESH_TRIANGLES(squares) * MESH_COPIES * sizeof(MeshCopy));
 }
 
+// Nothing unless texels are refined.
+void add_blocks(BufferTable& t, Buffers& b, const AtlasBlocks& made) {
+    const char* size = "the size of the atlas";
+    b.block_count = static_cast<std::uint32_t>(made.blocks.size());
+    if (b.block_count == 0) return;
+    b.listed_count = static_cast<std::uint32_t>(made.list.size());
+    b.listed_stride = plane_stride(made.list.size());
+    b.unblocked = made.unblocked;
+    b.listed.stride = b.listed_stride;
+    const std::size_t word = sizeof(std::uint32_t);
+    t.add(b.listed_texels, "texels that are looked up first", size,
+          made.list.size() * sizeof(SurfaceSample));
+    t.add(b.blocks.planes, "their planes", size, gbuffer_bytes(Storage::full, b.listed_stride));
+    t.add(b.listed.ids, "their ids", size, GBUFFER_ID_PLANES * word * b.listed_stride);
+    t.add(b.blocks.places, "texels in no block", size, (made.unblocked + 1) * word);
+    t.add(b.blocks.seen, "VPLs that see them", size, seen_rows(b.batch) * b.listed_stride);
+    t.add(b.blocks.blocks, "blocks of texels", size, made.blocks.size() * sizeof(AtlasBlock));
+}
+
 }  // namespace
 
 BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, const VplLayout& layout,
-                  const AtlasLayout& atlas, const LightAtlasOptions& options, std::size_t budget,
-                  std::size_t largest) {
+                  const AtlasLayout& atlas, const AtlasBlocks& blocks,
+                  const LightAtlasOptions& options, std::size_t budget, std::size_t largest) {
     const std::size_t samples = layout.samples.size(), sites = layout.vpls.size();
     const std::size_t texels = atlas.texels.size();
     const char* vpls = "the number of VPLs";
@@ -151,6 +173,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     t.add(b.pixels, "hemicubes", "hemicube_size",
           3 * b.batch * side * side * pixel_bytes(filling_pixels(options)));
     add_mesh(t, b, scene, atlas.charts.size(), options);
+    add_blocks(t, b, blocks);
     t.add_word(b.non_finite, "counters", 0);
     const auto fits = [&](std::size_t all, std::size_t others) {
         return all <= largest && t.bytes() + all + others <= budget;

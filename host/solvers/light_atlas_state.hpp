@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/atlas_blocks.hpp>
 #include <clgi/kit/draw.hpp>
 #include <clgi/kit/emitters.hpp>
 #include <clgi/passes/gbuffer.hpp>
@@ -21,6 +22,9 @@ struct Buffers {
     cl::Buffer gathered, irradiance;     // [IRRADIANCE_PLANES][texel_stride]; the second completed
     cl::Buffer reach, filled;            // [texel_stride]
     cl::Buffer seen;                     // [rows][texel_stride] uchar, atlas.see
+    BlockBuffers blocks;                 // where texels are refined
+    GBuffer listed;                      // of texels that are looked up first
+    cl::Buffer listed_texels;            // SurfaceSample
     cl::Buffer list_scratch;             // of the list of VPLs that send
     cl::Buffer rows;                     // transport, half
     cl::Buffer strongest, arg_max_scratch;
@@ -30,6 +34,8 @@ struct Buffers {
     RasterBuffers lists;  // for what is not drawn a view a work-item
     std::uint32_t texel_count = 0, texel_stride = 0;
     std::uint32_t batch = 0;  // shooters at a time
+    std::uint32_t listed_count = 0, listed_stride = 0, unblocked = 0;  // as in BlockParams
+    std::uint32_t block_count = 0;                                     // 0: nothing is refined
     bool kept = false;        // rows of all sites
     bool seen_kept = false;   // what texels see of them; only if the rows are kept
 };
@@ -51,7 +57,8 @@ inline Pixels filling_pixels(const LightAtlasOptions& options) {
 // The row of every buffer. `budget`: bytes for all, from which it follows what is kept.
 BufferTable table(Buffers& buffers, Emitters& emitters, const DeviceScene& scene,
                   const VplLayout& vpls, const AtlasLayout& atlas,
-                  const LightAtlasOptions& options, std::size_t budget, std::size_t largest);
+                  const AtlasBlocks& blocks, const LightAtlasOptions& options, std::size_t budget,
+                  std::size_t largest);
 
 }  // namespace light_atlas
 
@@ -59,7 +66,7 @@ struct LightAtlasSolver::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& scene,
           const VplLayout& vpls, const AtlasLayout& atlas, const LightAtlasOptions& options);
 
-    void upload(const VplLayout& vpls, const AtlasLayout& atlas);
+    void upload(const VplLayout& vpls, const AtlasLayout& atlas, const AtlasBlocks& blocks);
     void place();
     void receive_direct();
     void light_points(const GBuffer& points, std::uint32_t count, const cl::Buffer& irradiance,
@@ -67,6 +74,10 @@ struct LightAtlasSolver::State {
     void hemicubes(std::uint32_t first, std::uint32_t count, Pixels kind);
     void transport(std::uint32_t first, std::uint32_t count);
     void see(std::uint32_t first, std::uint32_t count);
+    void upload_blocks(const AtlasBlocks& blocks, const std::vector<SurfaceSample>& texels);
+    void place_blocks();
+    void see_in_blocks(std::uint32_t first, std::uint32_t count);
+    BlockParams block_params(std::uint32_t first, std::uint32_t count) const;
     void measure();
     void balance();
     void balance_shooters(std::uint32_t first, std::uint32_t count);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/adjacency.hpp>
+#include <clgi/atlas_blocks.hpp>
 #include <clgi/atlas_layout.hpp>
 #include <clgi/atlas_light.hpp>
 #include <clgi/bake_layout.hpp>

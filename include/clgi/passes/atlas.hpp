@@ -35,6 +35,14 @@ struct MeshBuffers {
     std::uint32_t chart_count = 0;
 };
 
+// Texels that are looked up first, and blocks of the others (AtlasBlocks).
+struct BlockBuffers {
+    cl::Buffer planes;  // a G-buffer's planes of the listed texels, [listed_stride]
+    cl::Buffer places;  // [unblocked] uint, texels that are in no block
+    cl::Buffer seen;    // [rows of a batch][listed_stride] uchar
+    cl::Buffer blocks;  // [block_count] AtlasBlock
+};
+
 // Rows of bits for so many VPLs.
 constexpr std::size_t seen_rows(std::size_t vpls) { return (vpls + SEEN_VPLS - 1) / SEEN_VPLS; }
 
@@ -50,6 +58,24 @@ public:
     cl::Event see(const cl::CommandQueue& queue, const SeeParams& params, const cl::Buffer& views,
                   const cl::Buffer& depth, const cl::Buffer& texels, const cl::Buffer& seen,
                   const WaitList& wait = {}) const;
+
+    // Which blocks are flat -> AtlasBlock::flat. To be done once, before see_blocks.
+    cl::Event flat(const cl::CommandQueue& queue, const BlockParams& params,
+                   const cl::Buffer& texels, const BlockBuffers& blocks,
+                   const WaitList& wait = {}) const;
+
+    // see for the listed texels alone -> blocks.seen, and seen of those that are in no block.
+    cl::Event see_listed(const cl::CommandQueue& queue, const BlockParams& params,
+                         const cl::Buffer& views, const cl::Buffer& depth,
+                         const BlockBuffers& blocks, const cl::Buffer& seen,
+                         const WaitList& wait = {}) const;
+
+    // blocks.seen -> seen of all texels in blocks: what the corners of a block agree about; they are
+    // looked up as by see where corners do not agree.
+    cl::Event see_blocks(const cl::CommandQueue& queue, const BlockParams& params,
+                     const cl::Buffer& views, const cl::Buffer& depth, const cl::Buffer& texels,
+                     const BlockBuffers& blocks, const cl::Buffer& seen,
+                     const WaitList& wait = {}) const;
 
     // Adds what sites of buffers.list send to the texels that they see. texels: a G-buffer's planes,
     // float; gathered: [3][stride] float, exposed lux; filled: [stride] float, the sum of the form
@@ -106,7 +132,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel see_, gather_, geometry_, replicate_, project_, nearest_, complete_, show_;
+    PassKernel see_, flat_, see_listed_, see_blocks_, gather_, geometry_, replicate_, project_, nearest_,
+        complete_, show_;
     Storage storage_;  // of what show reads and writes
 };
 

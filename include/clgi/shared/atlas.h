@@ -39,6 +39,30 @@ typedef struct {
     uint pad1_;
 } SeeParams;
 
+// Four by four texels of one chart. Each of their rows lies in the list of texels without a gap. Texels
+// at its corners, and between them, are looked up first and can stand for all.
+typedef struct {
+    uint row[4];     // the first texel of each row
+    uint corner[9];  // places in the list of texels that are looked up first
+    uint corners;    // how many of them
+    uint flat;       // 1: one plane holds the block, so that its corners stand for it
+    uint pad_;
+} AtlasBlock;
+
+enum { BLOCK_TEXELS = 16 };
+
+// Looking up a list of texels first, then blocks of texels where that is needed.
+typedef struct {
+    uint shooter_count;
+    uint size;           // pixels, width of the hemicubes' faces
+    uint stride;         // of the planes of texels and of rows of bits
+    uint first_row;      // that is written
+    uint listed_count;   // texels that are looked up first
+    uint listed_stride;  // of their rows of bits
+    uint unblocked;      // so many of them, the first ones, are in no block
+    uint block_count;
+} BlockParams;
+
 // Points of surfaces at which a filled atlas is looked up.
 typedef struct {
     uint point_count;

@@ -49,6 +49,10 @@ struct LightAtlasOptions {
     std::uint32_t exchange_samples = 0;
     int hemicube_size = 256;  // pixels of the face of a VPL's hemicube, even
     Filling filling = Filling::gather;
+    // For Filling::gather: texels between those that are looked up first, 1, 2 or 4. Blocks of 4 x 4
+    // texels take over whom their corners see where these agree [section 6.2]; 1: every texel looks
+    // up every VPL.
+    int refine = 2;
     int mesh = 512;  // triangles of M over a hemicube's face, for Filling::project: 2 n^2 with an
                      // even n of at most hemicube_size, 8 to 131072
     int kernel = 5;  // K, its soft shadows: pixels to each side, 0 (hard) to 64
