@@ -337,35 +337,6 @@ TEST(Transport, IsTheSameForEveryWidthGroupAndBatch) {
     }
 }
 
-// ---- the points at which sites are looked at ----------------------------------------------------
-
-TEST(Points, AreTheFirstSamplesOfEachSiteAndThenNothing) {
-    const Sites sites(crowd(37));
-    for (const std::uint32_t most : {1u, 2u, 3u, 8u, 9u, 21u}) {
-        const SiteBuffers b = test::with_points(sites, most);
-        EXPECT_EQ(b.per_site, most < 3    ? most
-                              : most < 4  ? 4u
-                              : most < 9  ? 8u
-                              : most < 17 ? 16u
-                                          : 32u);
-        const auto found = test::download<float>(b.points, SITE_POINT_PLANES * b.point_stride);
-        for (std::size_t i = 0; i < b.point_stride; ++i) {
-            const std::size_t site = i / b.per_site, k = i % b.per_site;
-            test::SurfacePlace wanted{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
-            if (site < sites.places.size() &&
-                k < std::min<std::size_t>(most, sites.places[site].samples.size()))
-                wanted = sites.places[site].samples[k];
-            for (int c = 0; c < 3; ++c) {
-                EXPECT_EQ(found[(SITE_POINT_POSITION + c) * b.point_stride + i],
-                          wanted.position[c]);
-                EXPECT_EQ(found[(SITE_POINT_NORMAL + c) * b.point_stride + i], wanted.normal[c]);
-                EXPECT_EQ(found[(SITE_POINT_GEOMETRIC + c) * b.point_stride + i],
-                          wanted.geometric[c]);
-            }
-        }
-    }
-}
-
 // ---- at the edges of its range ----------------------------------------------------------------
 
 TEST(Transport, OfNothingAndOfOneSite) {
