@@ -20,6 +20,7 @@
 #include <clgi/passes/image.hpp>
 #include <clgi/passes/import.hpp>
 #include <clgi/passes/lights.hpp>
+#include <clgi/passes/masks.hpp>
 #include <clgi/passes/parallel.hpp>
 #include <clgi/passes/scene.hpp>
 #include <clgi/passes/vpl.hpp>
