@@ -29,6 +29,7 @@
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
 #include <clgi/scene_mover.hpp>
+#include <clgi/sh.hpp>
 #include <clgi/slice.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
