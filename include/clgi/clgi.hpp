@@ -23,6 +23,7 @@
 #include <clgi/passes/masks.hpp>
 #include <clgi/passes/parallel.hpp>
 #include <clgi/passes/scene.hpp>
+#include <clgi/passes/transfer.hpp>
 #include <clgi/passes/vpl.hpp>
 #include <clgi/patches.hpp>
 #include <clgi/procedural.hpp>

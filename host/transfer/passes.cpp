@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/passes/transfer.hpp>
+#include <clgi/sh.hpp>
+
+#include "opencl/launch.hpp"
+#include "opencl/program.hpp"
+#include "transfer/sh_check.hpp"
+
+namespace clgi {
+
+static_assert(sh::most_bands == SH_MOST_BANDS && sh::default_bands == SH_DEFAULT_BANDS);
+
+namespace {
+
+constexpr std::size_t word = sizeof(float);
+
+std::size_t blocks_of(const ProjectParams& params) {
+    return (std::size_t{params.height} + PROJECT_ROWS - 1) / PROJECT_ROWS;
+}
+
+std::size_t moments_of(int bands) { return SH_MOMENTS(static_cast<std::size_t>(bands)); }
+std::size_t terms_of(int bands) { return static_cast<std::size_t>(sh::terms(bands)); }
+
+void need_picture(const PassKernel& pass, const ProjectParams& params) {
+    const std::size_t floats = 3 * std::size_t{params.width};
+    if (params.width == 0 || params.height == 0 || params.width > 65536 || params.height > 65536)
+        throw Error(pass.name + ": a picture of " + std::to_string(params.width) + "x" +
+                    std::to_string(params.height) + " texels, 1x1 to 65536x65536 needed");
+    if (params.stride < floats || params.stride % PROJECT_LEAF != 0)
+        throw Error(pass.name + ": stride is " + std::to_string(params.stride) +
+                    ", a multiple of " + std::to_string(int{PROJECT_LEAF}) + " of at least " +
+                    std::to_string(floats) + " needed");
+}
+
+void need_sums(const PassKernel& pass, const ProjectParams& params, int bands,
+               const ProjectionBuffers& b) {
+    need(pass, "sums", b.sums, word * blocks_of(params) * moments_of(bands) * params.stride);
+}
+
+void need_leaves(const PassKernel& pass, const ProjectParams& params, int bands,
+                 const ProjectionBuffers& b) {
+    need(pass, "leaves", b.leaves, params.stride / PROJECT_LEAF * terms_of(bands) * sizeof(float4));
+}
+
+void need_rows(const PassKernel& pass, const ProjectParams& params, int bands,
+               const ProjectionBuffers& b) {
+    need_picture(pass, params);
+    need(pass, "texels", b.texels, 3 * word * params.width * params.height);
+    need(pass, "row_weights", b.row_weights, word * moments_of(bands) * params.height);
+    need_sums(pass, params, bands, b);
+    need(pass, "non_finite", b.non_finite, word);
+}
+
+void need_columns(const PassKernel& pass, const ProjectParams& params, int bands,
+                  const ProjectionBuffers& b) {
+    need_picture(pass, params);
+    need_sums(pass, params, bands, b);
+    need(pass, "column_weights", b.column_weights,
+         word * static_cast<std::size_t>(2 * bands - 1) * params.stride);
+    need_leaves(pass, params, bands, b);
+}
+
+void need_environment(const PassKernel& pass, const ProjectParams& params, int bands,
+                      const ProjectionBuffers& b) {
+    need_picture(pass, params);
+    need_leaves(pass, params, bands, b);
+    need(pass, "rotation", b.rotation, word * static_cast<std::size_t>(sh::rotation_block(bands)));
+    if (params.light_count > 0)
+        need(pass, "lights", b.lights, params.light_count * sizeof(DirectionalLight));
+    need(pass, "light", b.light, terms_of(bands) * sizeof(float4));
+}
+
+}  // namespace
+
+TransferPasses::TransferPasses(const Programs& programs, const BuildOptions& options, int bands)
+    : bands_(bands) {
+    sh::need_bands(bands);
+    BuildOptions full = options;  // planes of the room are float, whatever storage others have
+    full.storage = Storage::full;
+    const std::string defines = "-DCLGI_SH_BANDS=" + std::to_string(bands);
+    BuildOptions scalar = full;
+    scalar.packet_width = 1;
+    const auto kernel = [&](const char* pass, const BuildOptions& how) {
+        return in_small_groups(programs.kernel("transfer", pass, how, defines), programs.device(),
+                               options);
+    };
+    project_rows_ = kernel("project_rows", full);
+    project_columns_ = kernel("project_columns", scalar);
+    project_environment_ = kernel("project_environment", scalar);
+}
+
+void TransferPasses::build(std::initializer_list<const char*> passes) const {
+    build_named({project_rows_, project_columns_, project_environment_}, passes);
+}
+
+cl::Event TransferPasses::project_rows(const cl::CommandQueue& queue, const ProjectParams& params,
+                                       const ProjectionBuffers& b, const WaitList& wait) const {
+    need_rows(project_rows_, params, bands_, b);
+    return launch_rows(project_rows_, queue, packets(project_rows_, params.stride),
+                       blocks_of(params), wait, params, b.texels, b.row_weights, b.sums,
+                       b.non_finite);
+}
+
+cl::Event TransferPasses::project_columns(const cl::CommandQueue& queue,
+                                          const ProjectParams& params, const ProjectionBuffers& b,
+                                          const WaitList& wait) const {
+    need_columns(project_columns_, params, bands_, b);
+    return launch_rows(project_columns_, queue, params.stride / PROJECT_LEAF, moments_of(bands_),
+                       wait, params, b.sums, b.column_weights, b.leaves);
+}
+
+cl::Event TransferPasses::project_environment(const cl::CommandQueue& queue,
+                                              const ProjectParams& params,
+                                              const ProjectionBuffers& b,
+                                              const WaitList& wait) const {
+    need_environment(project_environment_, params, bands_, b);
+    return launch(project_environment_, queue, terms_of(bands_), wait, params, b.leaves, b.rotation,
+                  b.lights, b.light);
+}
+
+cl::Event TransferPasses::project(const cl::CommandQueue& queue, const ProjectParams& params,
+                                  const ProjectionBuffers& b, const WaitList& wait) const {
+    need_columns(project_columns_, params, bands_, b);
+    need_environment(project_environment_, params, bands_, b);
+    const cl::Event rows = project_rows(queue, params, b, wait);
+    const cl::Event columns = project_columns(queue, params, b, {rows});
+    return project_environment(queue, params, b, {columns});
+}
+
+}  // namespace clgi

@@ -1,0 +1,42 @@
+// Light and visibility in spherical harmonics (clgi/sh.hpp has the conventions).
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_TRANSFER_H
+#define CLGI_SHARED_TRANSFER_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+// Bands are a build option of the room's kernels: CLGI_SH_BANDS.
+enum { SH_MOST_BANDS = 9, SH_DEFAULT_BANDS = 5 };
+
+// Functions of the polar angle alone: one for each degree l and order m >= 0, at
+// l (l + 1) / 2 + m.
+#define SH_MOMENTS(bands) ((bands) * ((bands) + 1) / 2)
+
+// How an environment's picture is cut for its projection. Results do not depend on the size of a
+// work-group, because these numbers do not.
+enum {
+    PROJECT_RUN = 16,            // rows summed one after the other
+    PROJECT_ROWS = 128,          // rows of a block: runs of them
+    PROJECT_LANES = 48,          // floats added at a time: 16 texels
+    PROJECT_LEAF = 8 * PROJECT_LANES  // floats of a row that make one leaf
+};
+
+typedef struct {
+    float4 factor;     // times the picture: exposed radiance, rgb
+    uint width;        // texels
+    uint height;
+    uint stride;       // floats of a row, rounded up to whole leaves
+    uint light_count;  // directional lights that are added
+} ProjectParams;
+
+// A light from one direction, in the frame of the coefficients.
+typedef struct {
+    float4 direction;   // xyz: unit, towards the light; w: 0
+    float4 irradiance;  // rgb: exposed, of a plane that faces it; w: 0
+} DirectionalLight;
+
+CLGI_SHARED_END
+
+#endif
