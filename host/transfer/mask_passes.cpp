@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/passes/masks.hpp>
 #include <cmath>
 
@@ -19,6 +20,9 @@ MaskOptions checked(const MaskOptions& options) {
         throw Error("masks: size is " + std::to_string(options.size) +
                     ", 8, 16, 32, 64 or 128 needed");
     need_range("masks", "table_size", options.table_size, 8, 512);
+    if (options.block != 1 && options.block != 2 && options.block != 4 && options.block != 8)
+        throw Error("masks: block is " + std::to_string(options.block) + ", 1, 2, 4 or 8 needed");
+    need_range("masks", "bands", options.bands, 1, sh::most_bands);
     return options;
 }
 
@@ -79,10 +83,16 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
     planes_ = programs.kernel("transfer", "planes", full(options), size);
     mask_ = few("mask", full(options),
                 masks_.planes == EdgePlanes::table ? size + " -DCLGI_TABLE" : size);
+    const std::string bands = " -DCLGI_SH_BANDS=" + std::to_string(masks_.bands);
+    const std::string cells = size + " -DCLGI_BLOCK=" + std::to_string(masks_.block) + bands;
+    integrate_ = few("integrate", full(options), cells);
+    integrate_gloss_ = few("integrate", full(options), cells + " -DCLGI_GLOSS");
+    shade_ = few("shade", full(options), bands.substr(1));
 }
 
 void MaskPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({receivers_, blockers_, planes_, mask_}, passes);
+    build_named({receivers_, blockers_, planes_, mask_, integrate_, integrate_gloss_, shade_},
+                passes);
 }
 
 cl::Event MaskPasses::receivers(const cl::CommandQueue& queue, const cl::Buffer& positions,
@@ -144,6 +154,56 @@ cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers&
                             0};
     return launch(mask_, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
                   b.corners, drawn, r.masks);
+}
+
+std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,
+                                      const cl::Buffer& weights, const cl::Buffer& directions,
+                                      const cl::Buffer& transfer) const {
+    need_receivers(pass, r);
+    const auto side = static_cast<std::size_t>(std::max(masks_.size / masks_.block, 1));
+    const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
+    const std::size_t turns = 2 * static_cast<std::size_t>(masks_.bands) - 1;
+    need(pass, "masks", r.masks,
+         std::size_t{MASK_WORDS(static_cast<std::size_t>(masks_.size))} * r.stride * word);
+    need(pass, "weights", weights, (side * side + 1) * terms * word);
+    need(pass, "directions", directions, (turns + side * side) * sizeof(glm::vec4));
+    need(pass, "transfer", transfer, terms * r.stride * word);
+    return packets(pass, r.count);
+}
+
+cl::Event MaskPasses::integrate(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                                const cl::Buffer& weights, const cl::Buffer& directions,
+                                const WaitList& wait) const {
+    const std::size_t items = need_integral(integrate_, r, weights, directions, r.transfer);
+    return launch(integrate_, queue, items, wait,
+                  IntegrateParams{glm::vec4(0.0f), r.count, r.stride, 0, 0}, r.planes, r.masks,
+                  weights, directions, r.transfer);
+}
+
+cl::Event MaskPasses::integrate_gloss(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                                      const cl::Buffer& weights, const cl::Buffer& directions,
+                                      const cl::Buffer& exponents, const glm::vec3& eye,
+                                      const cl::Buffer& lobes, const WaitList& wait) const {
+    const std::size_t items = need_integral(integrate_gloss_, r, weights, directions, lobes);
+    need(integrate_gloss_, "exponents", exponents, word * r.stride);
+    return launch(integrate_gloss_, queue, items, wait,
+                  IntegrateParams{glm::vec4(eye, 0.0f), r.count, r.stride, 0, 0}, r.planes, r.masks,
+                  weights, directions, exponents, lobes);
+}
+
+cl::Event MaskPasses::shade(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                            const cl::Buffer& transfer, const cl::Buffer& light,
+                            std::uint32_t flags, const cl::Buffer& irradiance,
+                            const cl::Buffer& non_finite, const WaitList& wait) const {
+    const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
+    need_stride(shade_, "receiver stride", r.stride, r.count);
+    need(shade_, "transfer", transfer, terms * r.stride * word);
+    need(shade_, "light", light, terms * sizeof(glm::vec4));
+    need(shade_, "irradiance", irradiance, 3 * word * r.stride);
+    need(shade_, "non_finite", non_finite, word);
+    return launch(shade_, queue, packets(shade_, r.count), wait,
+                  ShadeParams{r.count, r.stride, flags, 0}, transfer, light, irradiance,
+                  non_finite);
 }
 
 }  // namespace clgi

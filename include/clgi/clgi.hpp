@@ -15,6 +15,7 @@
 #include <clgi/kit/draw.hpp>
 #include <clgi/kit/emitters.hpp>
 #include <clgi/kit/recorder.hpp>
+#include <clgi/mask_weights.hpp>
 #include <clgi/passes/atlas.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>

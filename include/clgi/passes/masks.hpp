@@ -8,6 +8,8 @@
 #include <clgi/export.hpp>
 #include <clgi/pass.hpp>
 #include <clgi/programs.hpp>
+#include <clgi/sh.hpp>
+#include <glm/glm.hpp>
 #include <initializer_list>
 #include <vector>
 
@@ -21,12 +23,15 @@ struct MaskOptions {
     int size = 32;  // R, pixels: 8, 16, 32, 64 or 128
     EdgePlanes planes = EdgePlanes::exact;
     int table_size = 128;  // Q: 8 to 512
+    int block = 4;         // B, pixels: width of the cells that are integrated: 1, 2, 4 or 8
+    int bands = sh::default_bands;  // of transfer vectors: 1 to 9
 };
 
 // Points that light arrives at, with their frames.
 struct ReceiverBuffers {
-    cl::Buffer planes;  // [RECEIVER_PLANES][stride]
-    cl::Buffer masks;   // [MASK_WORDS(size)][stride] uint, 1: blocked
+    cl::Buffer planes;    // [RECEIVER_PLANES][stride]
+    cl::Buffer masks;     // [MASK_WORDS(size)][stride] uint, 1: blocked
+    cl::Buffer transfer;  // [terms][stride] sr, in the world's frame: clgi/sh.hpp
     std::uint32_t count = 0;
     std::uint32_t stride = 0;  // plane_stride(count)
 };
@@ -82,12 +87,38 @@ public:
                    const BlockerBuffers& blockers, const cl::Buffer& drawn,
                    const WaitList& wait = {}) const;
 
+    // Transfer vectors from masks -> transfer. weights, directions: MaskWeights::values and
+    // directions, of the same size, block and bands.
+    cl::Event integrate(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
+                        const cl::Buffer& weights, const cl::Buffer& directions,
+                        const WaitList& wait = {}) const;
+
+    // The same for the receivers' Phong lobes seen from `eye`, local frame (docs/materials.md): the
+    // inner product with light, times the lobe's share of reflectance, is radiance. exponents:
+    // [stride] float. lobes: [terms][stride].
+    cl::Event integrate_gloss(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
+                              const cl::Buffer& weights, const cl::Buffer& directions,
+                              const cl::Buffer& exponents, const glm::vec3& eye,
+                              const cl::Buffer& lobes, const WaitList& wait = {}) const;
+
+    // What arrives: transfer [terms][stride] (diffuse or lobes) times light [terms] float4, as
+    // TransferPasses::project makes it -> irradiance [3][stride]. flags: SHADE_... non_finite: [1]
+    // uint, counts packets.
+    cl::Event shade(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
+                    const cl::Buffer& transfer, const cl::Buffer& light, std::uint32_t flags,
+                    const cl::Buffer& irradiance, const cl::Buffer& non_finite,
+                    const WaitList& wait = {}) const;
+
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
 
 private:
+    std::size_t need_integral(const PassKernel& pass, const ReceiverBuffers& receivers,
+                              const cl::Buffer& weights, const cl::Buffer& directions,
+                              const cl::Buffer& transfer) const;
+
     MaskOptions masks_;
-    PassKernel receivers_, blockers_, planes_, mask_;
+    PassKernel receivers_, blockers_, planes_, mask_, integrate_, integrate_gloss_, shade_;
 };
 
 }  // namespace clgi

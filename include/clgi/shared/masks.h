@@ -68,6 +68,23 @@ typedef struct {
     uint pad2_;
 } MaskParams;
 
+typedef struct {
+    float4 eye;  // xyz: where the receivers are seen from, local frame; for gloss
+    uint receiver_count;
+    uint stride;  // of the planes of receivers, the words of masks and the transfer vectors
+    uint pad0_;
+    uint pad1_;
+} IntegrateParams;
+
+typedef struct {
+    uint receiver_count;
+    uint stride;  // of the transfer vectors and the irradiance
+    uint flags;   // SHADE_...
+    uint pad0_;
+} ShadeParams;
+
+enum { SHADE_CLAMP = 1 };  // nothing is negative
+
 CLGI_SHARED_END
 
 #endif
