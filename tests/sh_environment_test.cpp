@@ -282,20 +282,21 @@ TEST(ShEnvironments, RefuseBuffersThatAreTooSmall) {
     const auto last = &TransferPasses::project_environment;
     test::expect_refusals({
         {"transfer.project_rows", "texels", 4 * 3 * 150 * 130, call(rows, &B::texels)},
-        {"transfer.project_rows", "row_weights", 4 * 15 * 130, call(rows, &B::row_weights)},
-        {"transfer.project_rows", "sums", 4 * 2 * 15 * 768, call(rows, &B::sums)},
+        {"transfer.project_rows", "row_weights", 4 * 9 * 130, call(rows, &B::row_weights)},
+        {"transfer.project_rows", "sums", 4 * 2 * 9 * 768, call(rows, &B::sums)},
         {"transfer.project_rows", "non_finite", 4, call(rows, &B::non_finite)},
-        {"transfer.project_columns", "sums", 4 * 2 * 15 * 768, call(columns, &B::sums)},
+        {"transfer.project_columns", "sums", 4 * 2 * 9 * 768, call(columns, &B::sums)},
         {"transfer.project_columns", "column_weights", 4 * 9 * 768,
          call(columns, &B::column_weights)},
-        {"transfer.project_columns", "leaves", 2 * 25 * 16, call(columns, &B::leaves)},
-        {"transfer.project_environment", "leaves", 2 * 25 * 16, call(last, &B::leaves)},
+        {"transfer.project_columns", "leaves", 2 * 45 * 16, call(columns, &B::leaves)},
+        {"transfer.project_environment", "leaves", 2 * 45 * 16, call(last, &B::leaves)},
+        {"transfer.project_environment", "waves", 4 * 15 * 5, call(last, &B::waves)},
         {"transfer.project_environment", "rotation", 4 * 165, call(last, &B::rotation)},
         {"transfer.project_environment", "lights", 2 * 32, call(last, &B::lights)},
         {"transfer.project_environment", "light", 25 * 16, call(last, &B::light)},
     });
-    EXPECT_EQ(projection.sums_bytes(), 4u * 2 * 15 * 768);
-    EXPECT_EQ(projection.leaves_bytes(), 2u * 25 * 16);
+    EXPECT_EQ(projection.sums_bytes(), 4u * 2 * 9 * 768);
+    EXPECT_EQ(projection.leaves_bytes(), 2u * 45 * 16);
 
     const ProjectionBuffers buffers = project.buffers(projection, texels, 0.0);
     for (const auto& wrong : {ProjectParams{{}, 0, 130, 768, 0},

@@ -37,6 +37,7 @@ struct SkyProjector {
         out.texels = texels;
         out.row_weights = upload(projection.row_weights);
         out.column_weights = upload(projection.column_weights);
+        out.waves = upload(projection.waves);
         out.rotation = upload(environment_rotation(rotation, bands));
         if (!lights.empty()) out.lights = upload(lights);
         out.sums = empty<char>(projection.sums_bytes());

@@ -13,60 +13,64 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-struct Node {
-    double at, weight;  // in [-1, 1]
-};
-
-// Gauss-Legendre, positive half: exact to rounding for polynomials of sines and cosines of up to
-// ten times the angle, over an eighth of pi.
-constexpr Node nodes[] = {{0.1488743389816312, 0.2955242247147529},
-                          {0.4333953941292472, 0.2692667193099964},
-                          {0.6794095682990244, 0.2190863625159820},
-                          {0.8650633666889845, 0.1494513491505806},
-                          {0.9739065285171717, 0.0666713443086881}};
-
-// Adds integral Y_lm(theta, 0) sin theta dtheta between two angles, m >= 0.
-void add_moments(double from, double to, int bands, double* moments) {
-    std::vector<double> y(static_cast<std::size_t>(sh::terms(bands)));
-    for (const Node& node : nodes)
-        for (const double side : {-1.0, 1.0}) {
-            const double theta = 0.5 * (from + to) + side * node.at * 0.5 * (to - from);
-            const double weight = 0.5 * (to - from) * node.weight * std::sin(theta);
-            sh::evaluate({std::sin(theta), 0.0, std::cos(theta)}, bands, y.data());
-            for (int l = 0; l < bands; ++l)
-                for (int m = 0; m <= l; ++m)
-                    moments[SH_MOMENTS(l) + m] +=
-                        weight * y[static_cast<std::size_t>(sh::index(l, m))];
-        }
+// Of an angle from `middle - half` to `middle + half`: the integral of cos(k a), or of sin(k a).
+double cosine_integral(int k, double middle, double half) {
+    return 2.0 * std::cos(k * middle) * (k == 0 ? half : std::sin(k * half) / k);
+}
+double sine_integral(int k, double middle, double half) {
+    return k == 0 ? 0.0 : 2.0 * std::sin(k * middle) * std::sin(k * half) / k;
 }
 
+// integral of wave(theta) sin theta dtheta, as half a sum of two waves.
 std::vector<float> row_weights_of(int height, int bands) {
     std::vector<float> out;
-    const int pieces = std::max(1, 8 / height);
+    const double half = 0.5 * pi / height;
     for (int row = 0; row < height; ++row) {
-        std::vector<double> moments(SH_MOMENTS(static_cast<std::size_t>(bands)));
-        for (int piece = 0; piece < pieces; ++piece)
-            add_moments(pi * (row + double(piece) / pieces) / height,
-                        pi * (row + double(piece + 1) / pieces) / height, bands, moments.data());
-        out.insert(out.end(), moments.begin(), moments.end());
+        const double middle = pi * (row + 0.5) / height;
+        for (int k = 0; k < bands; ++k) {
+            out.push_back(static_cast<float>(
+                0.5 * (sine_integral(k + 1, middle, half) - sine_integral(k - 1, middle, half))));
+            if (k > 0)
+                out.push_back(static_cast<float>(0.5 * (cosine_integral(k - 1, middle, half) -
+                                                        cosine_integral(k + 1, middle, half))));
+        }
     }
+    return out;
+}
+
+// Y_lm(theta, 0) as waves: by samples in number twice the waves', which is exact.
+std::vector<float> waves_of(int bands) {
+    std::vector<float> out(static_cast<std::size_t>(SH_MOMENT(bands, 0) * bands), 0.0f);
+    const int samples = 2 * bands;
+    std::vector<double> sums(out.size(), 0.0);
+    for (int j = 0; j < samples; ++j) {
+        const double theta = pi * (j + 0.5) / samples;
+        const auto y = sh::evaluate({std::sin(theta), 0.0, std::cos(theta)}, bands);
+        for (int l = 0; l < bands; ++l)
+            for (int m = 0; m <= l; ++m)
+                for (int k = m % 2; k <= l; ++k) {
+                    const double wave = m % 2 == 0 ? std::cos(k * theta) : std::sin(k * theta);
+                    sums[static_cast<std::size_t>(SH_MOMENT(l, m) * bands + k)] +=
+                        (k == 0 ? 1.0 : 2.0) / samples * wave *
+                        y[static_cast<std::size_t>(sh::index(l, m))];
+                }
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(sums[i]);
     return out;
 }
 
 // The azimuth falls from column to column: from the inside, left to right is clockwise.
 std::vector<float> column_weights_of(int width, std::size_t stride, int bands) {
-    std::vector<float> out(static_cast<std::size_t>(2 * bands - 1) * stride, 0.0f);
-    const double step = 2.0 * pi / width;
-    for (int m = 0; m < bands; ++m) {
-        const double half = 0.5 * m * step;
-        const double arc = m == 0 ? step : step * std::sin(half) / half;
-        float* cosines = out.data() + (m > 0 ? 2 * m - 1 : 0) * stride;
-        for (int column = 0; column < width; ++column) {
-            const double azimuth = -m * step * (column + 0.5);
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::size_t at = 3 * static_cast<std::size_t>(column) + c;
-                cosines[at] = static_cast<float>(arc * std::cos(azimuth));
-                if (m > 0) cosines[stride + at] = static_cast<float>(arc * std::sin(azimuth));
+    std::vector<float> out(SH_WAVES(static_cast<std::size_t>(bands)) * stride, 0.0f);
+    const double half = pi / width;
+    for (int column = 0; column < width; ++column) {
+        const double azimuth = -2.0 * half * (column + 0.5);
+        for (std::size_t c = 0; c < 3; ++c) {
+            float* weight = out.data() + 3 * static_cast<std::size_t>(column) + c;
+            *weight = static_cast<float>(cosine_integral(0, azimuth, half));
+            for (int m = 1; m < bands; ++m) {
+                *(weight += stride) = static_cast<float>(cosine_integral(m, azimuth, half));
+                *(weight += stride) = static_cast<float>(sine_integral(m, azimuth, half));
             }
         }
     }
@@ -85,16 +89,17 @@ EnvironmentProjection::EnvironmentProjection(int width, int height, int count) :
               static_cast<std::uint32_t>(height), leaves * PROJECT_LEAF, 0};
     row_weights = row_weights_of(height, bands);
     column_weights = column_weights_of(width, params.stride, bands);
+    waves = waves_of(bands);
 }
 
 std::size_t EnvironmentProjection::sums_bytes() const {
     const std::size_t blocks = (params.height + PROJECT_ROWS - 1) / PROJECT_ROWS;
-    return blocks * SH_MOMENTS(static_cast<std::size_t>(bands)) * params.stride * sizeof(float);
+    return blocks * SH_WAVES(static_cast<std::size_t>(bands)) * params.stride * sizeof(float);
 }
 
 std::size_t EnvironmentProjection::leaves_bytes() const {
-    return params.stride / PROJECT_LEAF * static_cast<std::size_t>(sh::terms(bands)) *
-           sizeof(float4);
+    const auto slots = static_cast<std::size_t>(bands);
+    return params.stride / PROJECT_LEAF * SH_WAVES(slots) * slots * sizeof(float4);
 }
 
 std::vector<float> environment_rotation(double angle, int bands) {

@@ -18,7 +18,7 @@ std::size_t blocks_of(const ProjectParams& params) {
     return (std::size_t{params.height} + PROJECT_ROWS - 1) / PROJECT_ROWS;
 }
 
-std::size_t moments_of(int bands) { return SH_MOMENTS(static_cast<std::size_t>(bands)); }
+std::size_t waves_of(int bands) { return SH_WAVES(static_cast<std::size_t>(bands)); }
 std::size_t terms_of(int bands) { return static_cast<std::size_t>(sh::terms(bands)); }
 
 void need_picture(const PassKernel& pass, const ProjectParams& params) {
@@ -34,19 +34,21 @@ void need_picture(const PassKernel& pass, const ProjectParams& params) {
 
 void need_sums(const PassKernel& pass, const ProjectParams& params, int bands,
                const ProjectionBuffers& b) {
-    need(pass, "sums", b.sums, word * blocks_of(params) * moments_of(bands) * params.stride);
+    need(pass, "sums", b.sums, word * blocks_of(params) * waves_of(bands) * params.stride);
 }
 
 void need_leaves(const PassKernel& pass, const ProjectParams& params, int bands,
                  const ProjectionBuffers& b) {
-    need(pass, "leaves", b.leaves, params.stride / PROJECT_LEAF * terms_of(bands) * sizeof(float4));
+    need(pass, "leaves", b.leaves,
+         params.stride / PROJECT_LEAF * waves_of(bands) * static_cast<std::size_t>(bands) *
+             sizeof(float4));
 }
 
 void need_rows(const PassKernel& pass, const ProjectParams& params, int bands,
                const ProjectionBuffers& b) {
     need_picture(pass, params);
     need(pass, "texels", b.texels, 3 * word * params.width * params.height);
-    need(pass, "row_weights", b.row_weights, word * moments_of(bands) * params.height);
+    need(pass, "row_weights", b.row_weights, word * waves_of(bands) * params.height);
     need_sums(pass, params, bands, b);
     need(pass, "non_finite", b.non_finite, word);
 }
@@ -55,8 +57,7 @@ void need_columns(const PassKernel& pass, const ProjectParams& params, int bands
                   const ProjectionBuffers& b) {
     need_picture(pass, params);
     need_sums(pass, params, bands, b);
-    need(pass, "column_weights", b.column_weights,
-         word * static_cast<std::size_t>(2 * bands - 1) * params.stride);
+    need(pass, "column_weights", b.column_weights, word * waves_of(bands) * params.stride);
     need_leaves(pass, params, bands, b);
 }
 
@@ -64,6 +65,7 @@ void need_environment(const PassKernel& pass, const ProjectParams& params, int b
                       const ProjectionBuffers& b) {
     need_picture(pass, params);
     need_leaves(pass, params, bands, b);
+    need(pass, "waves", b.waves, word * static_cast<std::size_t>(SH_MOMENT(bands, 0) * bands));
     need(pass, "rotation", b.rotation, word * static_cast<std::size_t>(sh::rotation_block(bands)));
     if (params.light_count > 0)
         need(pass, "lights", b.lights, params.light_count * sizeof(DirectionalLight));
@@ -105,7 +107,7 @@ cl::Event TransferPasses::project_columns(const cl::CommandQueue& queue,
                                           const ProjectParams& params, const ProjectionBuffers& b,
                                           const WaitList& wait) const {
     need_columns(project_columns_, params, bands_, b);
-    return launch_rows(project_columns_, queue, params.stride / PROJECT_LEAF, moments_of(bands_),
+    return launch_rows(project_columns_, queue, params.stride / PROJECT_LEAF, waves_of(bands_),
                        wait, params, b.sums, b.column_weights, b.leaves);
 }
 
@@ -114,8 +116,8 @@ cl::Event TransferPasses::project_environment(const cl::CommandQueue& queue,
                                               const ProjectionBuffers& b,
                                               const WaitList& wait) const {
     need_environment(project_environment_, params, bands_, b);
-    return launch(project_environment_, queue, terms_of(bands_), wait, params, b.leaves, b.rotation,
-                  b.lights, b.light);
+    return launch(project_environment_, queue, terms_of(bands_), wait, params, b.leaves, b.waves,
+                  b.rotation, b.lights, b.light);
 }
 
 cl::Event TransferPasses::project(const cl::CommandQueue& queue, const ProjectParams& params,

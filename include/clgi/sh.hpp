@@ -4,7 +4,7 @@
 // l^2 + l + m belongs to degree l and order m, -l <= m <= l; "bands" are degrees 0 to bands - 1.
 // Terms 1, 2, 3 are sqrt(3 / 4 pi) times y, z, x: the polar axis is z, whichever way is up.
 // A function f has the coefficients c_i = integral f Y_i, in its own unit times steradians, and
-// f = sum c_i Y_i. [Sloan08, appendix A1 and A2; Ramamoorthi01, Eq. 3 with the same sign]
+// f = sum c_i Y_i. [Ramamoorthi01] has the same sign; others negate odd orders.
 //
 // A kernel is a function k(cos gamma) around an axis, given by one number a band,
 //   k_l = 2 pi integral_-1^1 k(z) P_l(z) dz.
@@ -21,7 +21,7 @@
 namespace clgi::sh {
 
 constexpr int most_bands = 9;     // of every function here; more throw Error
-constexpr int default_bands = 5;  // 25 terms [Kautz04, section 3.1]
+constexpr int default_bands = 5;  // 25 terms [Kautz04, section 3]
 
 constexpr int terms(int bands) { return bands * bands; }
 constexpr int index(int l, int m) { return l * l + l + m; }
@@ -49,7 +49,7 @@ CLGI_API int bands_of(std::size_t coefficients);
 // ---- rotation ----------------------------------------------------------------------------------
 
 // Coefficients of f(R^-1 s) from those of f(s): what f shows at s moves to R s. One block of
-// (2 l + 1)^2 numbers a band [Ivanic96, with the corrections of 1998].
+// (2 l + 1)^2 numbers a band [Ivanic96, with its corrections].
 class CLGI_API Rotation {
 public:
     // R is orthogonal; a reflection is one too. Throws Error where it is not.
@@ -75,7 +75,7 @@ constexpr int rotation_block(int l) { return l * (4 * l * l - 1) / 3; }
 
 // ---- kernels around an axis ----------------------------------------------------------------
 
-// max(0, cos): irradiance of radiance [Ramamoorthi01, Eq. 8]. pi, 2 pi / 3, pi / 4, 0, -pi / 24 ...
+// max(0, cos): irradiance of radiance [Ramamoorthi01]. pi, 2 pi / 3, pi / 4, 0, -pi / 24 ...
 CLGI_API std::vector<double> cosine_kernel(int bands);
 // max(0, cos)^exponent, at least 0; exponent 0 is 1 in front and 0 behind.
 CLGI_API std::vector<double> power_kernel(double exponent, int bands);
@@ -103,7 +103,7 @@ enum class Window {
 };
 CLGI_API std::vector<double> window(Window kind, int bands);
 
-// 1 / (1 + smoothing l^2 (l + 1)^2): the least curved function near f [Sloan08, "Windowing"].
+// 1 / (1 + smoothing l^2 (l + 1)^2): the least curved function near f [Sloan08].
 CLGI_API std::vector<double> smoothing_window(double smoothing, int bands);
 
 // The smallest smoothing, to three digits, at which the least value of f over all directions is

@@ -1,14 +1,14 @@
 // The sums of an environment's columns, summed along its rows: second of three steps.
 //
-//   c_l,+-m(leaf) = sum over the leaf's columns of F_lm(column) integral cos or sin(m phi) dphi
-//                                                           [derived: project_rows.cl]
+//   H_k,+-m(leaf) = sum over the leaf's columns of G_k(column) integral cos or sin(m phi) dphi,
+//                   m even for k a cosine and odd for k a sine      [derived: project_rows.cl]
 //
 // A leaf is PROJECT_LEAF floats of a row. It is always summed PROJECT_LANES floats at a time, and
 // these in a fixed order, so the sum does not depend on the width of packets or the work-group.
 //
-// Work size    2D: one work-item a leaf, and one for each of SH_MOMENTS functions of the polar
-//              angle; any local size
-// Writes       terms l, m and l, -m of its own leaf
+// Work size    2D: one work-item a leaf, and one for each of SH_WAVES waves of the polar angle; any
+//              local size
+// Writes       its own leaf and wave; nothing in slots without an order
 // Cost         4 bytes read a float and block of rows
 // SPDX-License-Identifier: MIT
 #include "transfer/sh.clh"
@@ -22,40 +22,52 @@ CLGI_INLINE float3 texels_total(const float16* lanes) {
     return (float3)(values[0], values[1], values[2]);
 }
 
+// The wave of the azimuth that a slot holds: slot m - 1 is the cosine and slot m the sine of order
+// m, which is odd or even as asked; order 0 is slot 0. Below 0: there is none.
+CLGI_INLINE int azimuth_wave(int slot, int odd) {
+    if (slot == 0 && !odd) return 0;
+    int sine = (slot & 1) == odd;
+    int m = sine ? slot : slot + 1;
+    return m < CLGI_SH_BANDS ? 2 * m - 1 + sine : -1;
+}
+
 kernel void transfer_project_columns(
     const ProjectParams   params,
-    global const float*   restrict sums,            // [blocks][SH_MOMENTS][stride]
-    global const float*   restrict column_weights,  // [2 * bands - 1][stride] radians; cos 0, cos 1,
-                                                    // sin 1, cos 2 ..., once for each colour
-    global float4*        restrict leaves)          // [stride / PROJECT_LEAF][terms] rgb, 0
+    global const float*   restrict sums,            // [blocks][SH_WAVES][stride]
+    global const float*   restrict column_weights,  // [SH_WAVES][stride] radians; a texel's weight
+                                                    // once for each colour
+    global float4*        restrict leaves)          // [stride / PROJECT_LEAF][SH_WAVES][bands] rgb, 0
 {
-    uint leaf = (uint)get_global_id(0), moment = (uint)get_global_id(1);
+    uint leaf = (uint)get_global_id(0), wave = (uint)get_global_id(1);
     if (leaf * PROJECT_LEAF >= params.stride) return;
-    int l = 0;
-    while (SH_MOMENTS(l + 1) <= (int)moment) ++l;
-    int m = (int)moment - SH_MOMENTS(l);
     uint blocks = (params.height + PROJECT_ROWS - 1) / PROJECT_ROWS;
-    uint step = SH_MOMENTS(CLGI_SH_BANDS) * params.stride;
-    global const float* cosines = column_weights + (m > 0 ? 2 * m - 1 : 0) * params.stride;
-    global const float* sines = cosines + (m > 0 ? params.stride : 0);
+    ulong step = (ulong)SH_WAVES(CLGI_SH_BANDS) * params.stride;
+    int odd = wave > 0 && (wave & 1) == 0;  // a sine of the polar angle
 
-    float16 even[3], odd[3];
-    for (int k = 0; k < 3; ++k) even[k] = odd[k] = 0.0f;
+    float16 slots[CLGI_SH_BANDS][3];
+#pragma unroll
+    for (int slot = 0; slot < CLGI_SH_BANDS; ++slot)
+        for (int k = 0; k < 3; ++k) slots[slot][k] = 0.0f;
     uint first = leaf * PROJECT_LEAF;
     for (uint at = first; at < first + PROJECT_LEAF; at += PROJECT_LANES)
         for (int k = 0; k < 3; ++k) {
-            global const float* column = sums + moment * params.stride + at + 16 * k;
+            uint lanes = at + 16 * k;
             float16 light = 0.0f;
             for (uint run = 0; run < blocks; run += PROJECT_RUN) {
                 float16 some = 0.0f;
                 for (uint block = run; block < min(run + PROJECT_RUN, blocks); ++block)
-                    some += vload16(0, column + (ulong)block * step);
+                    some += vload16(0, sums + block * step + wave * params.stride + lanes);
                 light += some;
             }
-            even[k] = fma(light, vload16(0, cosines + at + 16 * k), even[k]);
-            odd[k] = fma(light, vload16(0, sines + at + 16 * k), odd[k]);
+#pragma unroll
+            for (int slot = 0; slot < CLGI_SH_BANDS; ++slot) {
+                int azimuth = azimuth_wave(slot, odd);
+                if (azimuth < 0) continue;
+                float16 weights = vload16(0, column_weights + azimuth * params.stride + lanes);
+                slots[slot][k] = fma(light, weights, slots[slot][k]);
+            }
         }
-    global float4* out = leaves + (ulong)leaf * SH_TERMS + l * l + l;
-    out[m] = (float4)(texels_total(even), 0.0f);
-    if (m > 0) out[-m] = (float4)(texels_total(odd), 0.0f);
+    global float4* out = leaves + (leaf * SH_WAVES(CLGI_SH_BANDS) + wave) * CLGI_SH_BANDS;
+    for (int slot = 0; slot < CLGI_SH_BANDS; ++slot)
+        if (azimuth_wave(slot, odd) >= 0) out[slot] = (float4)(texels_total(slots[slot]), 0.0f);
 }

@@ -21,8 +21,9 @@ struct CLGI_API EnvironmentProjection {
 
     int bands;
     ProjectParams params{};             // factor 1, no directional lights
-    std::vector<float> row_weights;     // [height][SH_MOMENTS(bands)]
-    std::vector<float> column_weights;  // [2 * bands - 1][params.stride]
+    std::vector<float> row_weights;     // [height][SH_WAVES(bands)]
+    std::vector<float> column_weights;  // [SH_WAVES(bands)][params.stride]
+    std::vector<float> waves;           // [SH_MOMENT(bands, 0)][bands]
 
     std::size_t sums_bytes() const;    // scratch of the first step
     std::size_t leaves_bytes() const;  // of the second
@@ -38,6 +39,7 @@ struct ProjectionBuffers {
     cl::Buffer texels;          // [height][width][3] float: DeviceScene::environment_texels()
     cl::Buffer row_weights;     // of EnvironmentProjection
     cl::Buffer column_weights;  // of EnvironmentProjection
+    cl::Buffer waves;           // of EnvironmentProjection
     cl::Buffer rotation;        // [sh::rotation_block(bands)] float: environment_rotation()
     cl::Buffer lights;          // [light_count] DirectionalLight; none if there are no lights
     cl::Buffer sums;            // EnvironmentProjection::sums_bytes()

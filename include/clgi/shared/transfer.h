@@ -10,16 +10,18 @@ CLGI_SHARED_BEGIN
 // Bands are a build option of the room's kernels: CLGI_SH_BANDS.
 enum { SH_MOST_BANDS = 9, SH_DEFAULT_BANDS = 5 };
 
-// Functions of the polar angle alone: one for each degree l and order m >= 0, at
-// l (l + 1) / 2 + m.
-#define SH_MOMENTS(bands) ((bands) * ((bands) + 1) / 2)
+// Where the order m >= 0 of degree l lies among those of all degrees.
+#define SH_MOMENT(l, m) ((l) * ((l) + 1) / 2 + (m))
 
-// How an environment's picture is cut for its projection. Results do not depend on the size of a
-// work-group, because these numbers do not.
+// Waves of an angle: 1, cos a, sin a, cos 2a, sin 2a ... up to the last band's degree.
+#define SH_WAVES(bands) (2 * (bands) - 1)
+
+// How an environment's picture is cut for its projection. Sums have the same order for every size
+// of a work-group and every width of packets, because these numbers are fixed.
 enum {
-    PROJECT_RUN = 16,            // rows summed one after the other
-    PROJECT_ROWS = 128,          // rows of a block: runs of them
-    PROJECT_LANES = 48,          // floats added at a time: 16 texels
+    PROJECT_RUN = 16,                 // items summed one after the other
+    PROJECT_ROWS = 128,               // rows of a block: runs of them
+    PROJECT_LANES = 48,               // floats added at a time: 16 texels
     PROJECT_LEAF = 8 * PROJECT_LANES  // floats of a row that make one leaf
 };
 
