@@ -17,11 +17,13 @@
 #include <clgi/kit/draw.hpp>
 #include <clgi/kit/emitters.hpp>
 #include <clgi/kit/recorder.hpp>
+#include <clgi/mask_weights.hpp>
 #include <clgi/passes/atlas.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
 #include <clgi/passes/import.hpp>
 #include <clgi/passes/lights.hpp>
+#include <clgi/passes/masks.hpp>
 #include <clgi/passes/parallel.hpp>
 #include <clgi/passes/scene.hpp>
 #include <clgi/passes/transfer.hpp>

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <clgi/passes/masks.hpp>
+#include <cmath>
+
+#include "opencl/check.hpp"
+#include "opencl/launch.hpp"
+#include "opencl/planes.hpp"
+#include "opencl/program.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::size_t word = sizeof(float);
+constexpr std::size_t table_faces = 3;  // PLANE_FACES of kernels/transfer/half_plane.clh
+
+MaskOptions checked(const MaskOptions& options) {
+    if (options.size != 8 && options.size != 16 && options.size != 32 && options.size != 64 &&
+        options.size != 128)
+        throw Error("masks: size is " + std::to_string(options.size) +
+                    ", 8, 16, 32, 64 or 128 needed");
+    need_range("masks", "table_size", options.table_size, 8, 512);
+    if (options.block != 1 && options.block != 2 && options.block != 4 && options.block != 8)
+        throw Error("masks: block is " + std::to_string(options.block) + ", 1, 2, 4 or 8 needed");
+    need_range("masks", "bands", options.bands, 1, sh::most_bands);
+    return options;
+}
+
+BuildOptions full(BuildOptions options) {
+    options.storage = Storage::full;
+    return options;
+}
+
+BuildOptions scalar(BuildOptions options) {
+    options.packet_width = 1;
+    return full(options);
+}
+
+void need_receivers(const PassKernel& pass, const ReceiverBuffers& r) {
+    need_stride(pass, "receiver stride", r.stride, r.count);
+    need(pass, "receivers", r.planes, RECEIVER_PLANES * word * r.stride);
+}
+
+void need_blockers(const PassKernel& pass, const BlockerBuffers& b) {
+    if (b.stride != blocker_stride(b.triangle_count))
+        throw Error(pass.name + ": blocker stride is " + std::to_string(b.stride) + ", " +
+                    std::to_string(blocker_stride(b.triangle_count)) + " needed");
+    need(pass, "corners", b.corners, BLOCKER_PLANES * word * b.stride);
+    need(pass, "boxes", b.boxes, b.stride / BLOCKER_CLUSTER * sizeof(BlockerBox));
+}
+
+}  // namespace
+
+std::size_t mask_table_bytes(const MaskOptions& options) {
+    const auto size = static_cast<std::size_t>(checked(options).size);
+    if (options.planes == EdgePlanes::exact) return size * MASK_COLUMNS(size) * word;
+    const auto texels = static_cast<std::size_t>(options.table_size);
+    return table_faces * texels * texels * MASK_WORDS(size) * word;
+}
+
+std::vector<float> pixel_heights(int size) {
+    const int columns = MASK_COLUMNS(size);
+    std::vector<float> out(static_cast<std::size_t>(size) * columns);
+    for (int row = 0; row < size; ++row)
+        for (int column = 0; column < size; ++column) {
+            const double x = (2 * column + 1.0) / size - 1.0, y = (2 * row + 1.0) / size - 1.0;
+            const double square = 1.0 - x * x - y * y;
+            if (square > 0.0) out[row * columns + column] = static_cast<float>(std::sqrt(square));
+        }
+    return out;
+}
+
+MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
+                       const BuildOptions& options)
+    : masks_(checked(masks)) {
+    const std::string size = "-DCLGI_MASK=" + std::to_string(masks_.size);
+    const auto few = [&](const char* pass, const BuildOptions& how, const std::string& defines) {
+        return in_small_groups(programs.kernel("transfer", pass, how, defines), programs.device(),
+                               options);
+    };
+    receivers_ = programs.kernel("transfer", "receivers", scalar(options));
+    blockers_ = few("blockers", scalar(options), "");
+    planes_ = programs.kernel("transfer", "planes", full(options), size);
+    mask_ = few("mask", full(options),
+                masks_.planes == EdgePlanes::table ? size + " -DCLGI_TABLE" : size);
+    const std::string bands = " -DCLGI_SH_BANDS=" + std::to_string(masks_.bands);
+    const std::string cells = size + " -DCLGI_BLOCK=" + std::to_string(masks_.block) + bands;
+    integrate_ = few("integrate", full(options), cells);
+    integrate_gloss_ = few("integrate", full(options), cells + " -DCLGI_GLOSS");
+    shade_ = few("shade", full(options), bands.substr(1));
+}
+
+void MaskPasses::build(std::initializer_list<const char*> passes) const {
+    build_named({receivers_, blockers_, planes_, mask_, integrate_, integrate_gloss_, shade_},
+                passes);
+}
+
+cl::Event MaskPasses::receivers(const cl::CommandQueue& queue, const cl::Buffer& positions,
+                                const cl::Buffer& normals, const ReceiverBuffers& r,
+                                const cl::Buffer& status, const WaitList& wait) const {
+    need_receivers(receivers_, r);
+    need(receivers_, "positions", positions, std::size_t{r.count} * sizeof(glm::vec4));
+    need(receivers_, "normals", normals, std::size_t{r.count} * sizeof(glm::vec4));
+    need(receivers_, "status", status, MASK_STATUS_WORDS * word);
+    return launch(receivers_, queue, r.count, wait, ReceiverParams{r.count, r.stride, 0, 0},
+                  positions, normals, r.planes, status);
+}
+
+cl::Event MaskPasses::blockers(const cl::CommandQueue& queue, const cl::Buffer& triangles,
+                               const cl::Buffer& positions, const BlockerBuffers& b,
+                               const cl::Buffer& status, const WaitList& wait) const {
+    need_blockers(blockers_, b);
+    need(blockers_, "triangles", triangles, std::size_t{b.triangle_count} * sizeof(glm::uvec4));
+    need(blockers_, "positions", positions, b.triangle_count > 0 ? sizeof(glm::vec4) : 0);
+    need(blockers_, "status", status, MASK_STATUS_WORDS * word);
+    return launch(blockers_, queue, b.stride / BLOCKER_CLUSTER, wait,
+                  BlockerParams{b.triangle_count, b.stride, 0, 0}, triangles, positions, b.corners,
+                  b.boxes, status);
+}
+
+cl::Event MaskPasses::planes(const cl::CommandQueue& queue, const cl::Buffer& heights,
+                             const cl::Buffer& table, const WaitList& wait) const {
+    MaskOptions exact = masks_, rounded = masks_;
+    exact.planes = EdgePlanes::exact;
+    rounded.planes = EdgePlanes::table;
+    need(planes_, "heights", heights, mask_table_bytes(exact));
+    need(planes_, "table", table, mask_table_bytes(rounded));
+    const auto texels = static_cast<std::size_t>(masks_.table_size);
+    return launch(planes_, queue, table_faces * texels * texels, wait,
+                  static_cast<cl_uint>(masks_.table_size), heights, table);
+}
+
+cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                           const BlockerBuffers& b, const cl::Buffer& drawn,
+                           const WaitList& wait) const {
+    need_receivers(mask_, r);
+    need_blockers(mask_, b);
+    if (b.receivers_per_list == 0)
+        throw Error("transfer.mask: receivers_per_list is 0, at least 1 needed");
+    const std::size_t lists =
+        (std::size_t{r.count} + b.receivers_per_list - 1) / b.receivers_per_list;
+    need(mask_, "lists", b.lists, (lists + 1) * word);
+    need(mask_, "ranges", b.ranges, 2 * word);
+    need(mask_, "drawn", drawn, mask_table_bytes(masks_));
+    need(mask_, "masks", r.masks,
+         std::size_t{MASK_WORDS(static_cast<std::size_t>(masks_.size))} * r.stride * word);
+    const MaskParams params{r.count,
+                            r.stride,
+                            b.stride,
+                            b.receivers_per_list,
+                            static_cast<std::uint32_t>(masks_.table_size),
+                            0,
+                            0,
+                            0};
+    return launch(mask_, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
+                  b.corners, drawn, r.masks);
+}
+
+std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,
+                                      const cl::Buffer& weights, const cl::Buffer& directions,
+                                      const cl::Buffer& transfer) const {
+    need_receivers(pass, r);
+    const auto side = static_cast<std::size_t>(std::max(masks_.size / masks_.block, 1));
+    const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
+    const std::size_t turns = 2 * static_cast<std::size_t>(masks_.bands) - 1;
+    need(pass, "masks", r.masks,
+         std::size_t{MASK_WORDS(static_cast<std::size_t>(masks_.size))} * r.stride * word);
+    need(pass, "weights", weights, (side * side + 1) * terms * word);
+    need(pass, "directions", directions, (turns + side * side) * sizeof(glm::vec4));
+    need(pass, "transfer", transfer, terms * r.stride * word);
+    return packets(pass, r.count);
+}
+
+cl::Event MaskPasses::integrate(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                                const cl::Buffer& weights, const cl::Buffer& directions,
+                                const WaitList& wait) const {
+    const std::size_t items = need_integral(integrate_, r, weights, directions, r.transfer);
+    return launch(integrate_, queue, items, wait,
+                  IntegrateParams{glm::vec4(0.0f), r.count, r.stride, 0, 0}, r.planes, r.masks,
+                  weights, directions, r.transfer);
+}
+
+cl::Event MaskPasses::integrate_gloss(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                                      const cl::Buffer& weights, const cl::Buffer& directions,
+                                      const cl::Buffer& exponents, const glm::vec3& eye,
+                                      const cl::Buffer& lobes, const WaitList& wait) const {
+    const std::size_t items = need_integral(integrate_gloss_, r, weights, directions, lobes);
+    need(integrate_gloss_, "exponents", exponents, word * r.stride);
+    return launch(integrate_gloss_, queue, items, wait,
+                  IntegrateParams{glm::vec4(eye, 0.0f), r.count, r.stride, 0, 0}, r.planes, r.masks,
+                  weights, directions, exponents, lobes);
+}
+
+cl::Event MaskPasses::shade(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                            const cl::Buffer& transfer, const cl::Buffer& light,
+                            std::uint32_t flags, const cl::Buffer& irradiance,
+                            const cl::Buffer& non_finite, const WaitList& wait) const {
+    const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
+    need_stride(shade_, "receiver stride", r.stride, r.count);
+    need(shade_, "transfer", transfer, terms * r.stride * word);
+    need(shade_, "light", light, terms * sizeof(glm::vec4));
+    need(shade_, "irradiance", irradiance, 3 * word * r.stride);
+    need(shade_, "non_finite", non_finite, word);
+    return launch(shade_, queue, packets(shade_, r.count), wait,
+                  ShadeParams{r.count, r.stride, flags, 0}, transfer, light, irradiance,
+                  non_finite);
+}
+
+}  // namespace clgi
