@@ -196,12 +196,17 @@ void expect_decision(const World& in, const Batch& batch, const AtlasBlocks& blo
     }
 }
 
-// Every other block is flat.
+// Every other block is flat. The last packet of texels in no block has some of the next kind too.
 AtlasBlocks some_flat(const World& in, int step) {
     AtlasBlocks out = make_blocks(in.atlas, step);
     EXPECT_GT(out.blocks.size(), 50u);
     EXPECT_GT(out.unblocked, 50u);
     for (std::size_t k = 0; k < out.blocks.size(); ++k) out.blocks[k].flat = k % 2;
+    const std::uint32_t surplus = (out.unblocked + 1) % 4;
+    out.list.erase(out.list.begin(), out.list.begin() + surplus);
+    out.unblocked -= surplus;
+    for (AtlasBlock& block : out.blocks)
+        for (std::uint32_t c = 0; c < block.corners; ++c) block.corner[c] -= surplus;
     return out;
 }
 
