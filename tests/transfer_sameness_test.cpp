@@ -235,7 +235,7 @@ TEST(TransferInputs, MayBeNone) {
 }
 
 TEST(TransferInputs, OfTooFewBytesAreRefused) {
-    const MaskPasses& passes = test::mask_passes();
+    const MaskPasses& passes = test::mask_passes({.block = 4});
     const cl::CommandQueue& queue = test::device().queue;
     const cl::Buffer zeros = test::upload(std::vector<cl_uint>(1 << 16));
     const cl::Buffer scratch = test::empty<float>(1 << 16);
