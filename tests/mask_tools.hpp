@@ -50,7 +50,8 @@ inline Blockers one_each(const std::vector<Triangle>& all) {
                           {static_cast<cl_uint>(out.triangles.size() / BLOCKER_CLUSTER), 1});
         out.lists.push_back(static_cast<cl_uint>(out.ranges.size() / 2));
         out.add(triangle);
-        while (out.triangles.size() % BLOCKER_CLUSTER) out.triangles.push_back(glm::uvec4(0));
+        const glm::uvec4 corner(out.triangles.back().x);  // keeps the box as it is
+        while (out.triangles.size() % BLOCKER_CLUSTER) out.triangles.push_back(corner);
     }
     return out;
 }

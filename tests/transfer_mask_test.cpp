@@ -98,6 +98,17 @@ TEST_P(Mask, OfTrianglesInTheTangentPlaneIsEmpty) {
     }
 }
 
+// A triangle that begins at the receiver is seen edge-on, wherever it leads.
+TEST_P(Mask, OfTrianglesAtTheReceiverIsEmpty) {
+    test::Random random(19);
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < 200; ++i) {
+        triangles.push_back(test::random_triangle(random));
+        triangles.back()[i % 3] = glm::dvec3(0.0);
+    }
+    EXPECT_EQ(draw(GetParam(), triangles).count(0), 0);
+}
+
 // Their planes have no direction, which no table has.
 TEST_P(Mask, OfTrianglesWithoutAreaIsEmptyWithATableToo) {
     test::Random random(18);
@@ -105,6 +116,7 @@ TEST_P(Mask, OfTrianglesWithoutAreaIsEmptyWithATableToo) {
     for (int i = 0; i < 50; ++i) {
         Triangle t = test::random_triangle(random);
         t[i % 3] = t[(i + 1) % 3];
+        if (i % 2) t = {t[0], t[0], t[0]};
         triangles.push_back(t);
     }
     const Drawn drawn = test::draw_masks(Blockers(triangles), {}, {.planes = EdgePlanes::table},

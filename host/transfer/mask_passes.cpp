@@ -87,6 +87,7 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
     const std::string cells = size + " -DCLGI_BLOCK=" + std::to_string(masks_.block) + bands;
     integrate_ = few("integrate", full(options), cells);
     integrate_gloss_ = few("integrate", full(options), cells + " -DCLGI_GLOSS");
+    integrate_gloss_.name = "transfer.integrate_gloss";
     shade_ = few("shade", full(options), bands.substr(1));
 }
 

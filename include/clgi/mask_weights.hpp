@@ -42,7 +42,7 @@ struct MaskWeights {
 
 // size: R, 8 to 128. block: B, 1, 2, 4 or 8. The part of the disc in cells without a pixel's centre
 // is added to the nearest cell that has one.
-CLGI_API MaskWeights mask_weights(int size, int block = 4, int bands = sh::default_bands,
+CLGI_API MaskWeights mask_weights(int size, int block = 2, int bands = sh::default_bands,
                                   CellIntegral integral = CellIntegral::exact);
 
 }  // namespace clgi

@@ -31,7 +31,6 @@ typedef struct {
     uint complement[3][CLGI_WIDTH];
 #else
     float normal[9][CLGI_WIDTH];
-    float side[3][CLGI_WIDTH];
 #endif
     int first_column[CLGI_WIDTH], last_column[CLGI_WIDTH];
     int first_row[CLGI_WIDTH], last_row[CLGI_WIDTH];
@@ -49,7 +48,6 @@ CLGI_INLINE void to_lanes(const Cones* cones, uint table_size, Lanes* lanes) {
         packet_store(x, lanes->normal[3 * e]);
         packet_store(y, lanes->normal[3 * e + 1]);
         packet_store(z, lanes->normal[3 * e + 2]);
-        packet_store(on_plane(x, y, z), lanes->side[e]);
 #endif
     }
     packet_store(cones->first_column, lanes->first_column);
@@ -79,12 +77,10 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
     int first_packet = lanes->first_column[k] / CLGI_WIDTH;
     int last_packet = lanes->last_column[k] / CLGI_WIDTH;
     float nx[3], ny[3], nz[3];
-    floatp side[3];
     for (int e = 0; e < 3; ++e) {
         nx[e] = lanes->normal[3 * e][k];
         ny[e] = lanes->normal[3 * e + 1][k];
         nz[e] = lanes->normal[3 * e + 2][k];
-        side[e] = packet_splat(lanes->side[e][k]);
     }
     for (int packet = first_packet; packet <= last_packet; ++packet) {
         floatp x = column_x(packet);
@@ -101,7 +97,7 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
                 intp inside = (intp)(-1);
                 for (int e = 0; e < 3; ++e)
                     inside &= fma(packet_splat(nz[e]), z,
-                                  fma(packet_splat(ny[e]), y, along[e])) > side[e];
+                                  fma(packet_splat(ny[e]), y, along[e])) >= packet_zero;
                 bits |= packet_select((uintp)(0), (uintp)(1u << (row & 31)), inside);
             }
             mask->word[at] = bits;

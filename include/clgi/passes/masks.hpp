@@ -23,7 +23,7 @@ struct MaskOptions {
     int size = 32;  // R, pixels: 8, 16, 32, 64 or 128
     EdgePlanes planes = EdgePlanes::exact;
     int table_size = 128;  // Q: 8 to 512
-    int block = 4;         // B, pixels: width of the cells that are integrated: 1, 2, 4 or 8
+    int block = 2;         // B, pixels: width of the cells that are integrated: 1, 2, 4 or 8
     int bands = sh::default_bands;  // of transfer vectors: 1 to 9
 };
 
