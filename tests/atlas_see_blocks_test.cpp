@@ -202,11 +202,19 @@ AtlasBlocks some_flat(const World& in, int step) {
     EXPECT_GT(out.blocks.size(), 50u);
     EXPECT_GT(out.unblocked, 50u);
     for (std::size_t k = 0; k < out.blocks.size(); ++k) out.blocks[k].flat = k % 2;
-    const std::uint32_t surplus = (out.unblocked + 1) % 4;
-    out.list.erase(out.list.begin(), out.list.begin() + surplus);
-    out.unblocked -= surplus;
-    for (AtlasBlock& block : out.blocks)
-        for (std::uint32_t c = 0; c < block.corners; ++c) block.corner[c] -= surplus;
+    for (std::uint32_t at = out.unblocked; at-- > 0 && out.unblocked % 4 != 3;) {
+        const auto each_corner = [&](const auto& work) {
+            for (AtlasBlock& block : out.blocks)
+                for (std::uint32_t c = 0; c < block.corners; ++c) work(block.corner[c]);
+        };
+        bool needed = false;
+        each_corner([&](std::uint32_t corner) { needed |= corner == at; });
+        if (needed) continue;
+        out.list.erase(out.list.begin() + at);
+        --out.unblocked;
+        each_corner([&](std::uint32_t& corner) { corner -= corner > at; });
+    }
+    EXPECT_EQ(out.unblocked % 4, 3u);
     return out;
 }
 
