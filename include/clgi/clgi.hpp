@@ -27,6 +27,7 @@
 #include <clgi/procedural.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
+#include <clgi/scene_animator.hpp>
 #include <clgi/scene_mover.hpp>
 #include <clgi/slice.hpp>
 #include <clgi/solvers/light_atlas.hpp>
