@@ -76,7 +76,7 @@ cl::Event ScenePasses::pose(const cl::CommandQueue& queue, const PoseParams& par
     check("ranges", buffers.ranges, params.range_count, sizeof(PoseRange));
     check("rest_positions", buffers.rest_positions, params.vertex_count, 16);
     check("rest_normals", buffers.rest_normals, params.vertex_count, 16);
-    check("influences", buffers.influences, params.influence_count, sizeof(PoseInfluence));
+    check("influences", buffers.influences, params.influence_count, 8);
     check("differences", buffers.differences, params.difference_count, 12);
     check("matrices", buffers.matrices, params.matrix_count, sizeof(PoseMatrix));
     check("weights", buffers.weights, params.weight_count, sizeof(float));

@@ -111,9 +111,9 @@ PoseData upload_poses(const cl::CommandQueue& queue, const Scene& scene, const g
         positions.emplace_back(glm::vec3(scene.positions[v] - origin), 0.0f);
         normals.emplace_back(scene.normals[v], 0.0f);
     }
-    std::vector<PoseInfluence> influences;
+    std::vector<glm::uvec2> influences;
     for (const Influence& influence : animation.influences)
-        influences.push_back({influence.joint, influence.weight});
+        influences.emplace_back(influence.joint, bits_of(influence.weight));
     PoseBuffers& buffers = out.buffers;
     const auto put = [&](auto values) { return upload(queue, std::move(values), out.bytes); };
     buffers.ranges = put(std::move(tables.ranges));

@@ -38,17 +38,18 @@ static float3 morphed(float3 value, const PoseRange* range, uint first, uint ver
 }
 
 static PoseMatrix blended(const PoseRange* range, uint vertex,
-                          global const PoseInfluence* influences,
+                          global const uint2* influences,
                           global const PoseMatrix* matrices) {
     if (range->influences == 0) return matrices[range->matrix];
     PoseMatrix sum;
     for (int i = 0; i < 3; ++i) sum.row[i] = (float4)(0.0f);
     for (uint i = 0; i < range->influences; ++i) {
-        PoseInfluence influence =
+        uint2 influence =
             influences[range->first_influence + i * range->count + vertex];
-        if (!(influence.weight > 0.0f)) continue;
-        PoseMatrix matrix = matrices[range->matrix + influence.joint];
-        for (int k = 0; k < 3; ++k) sum.row[k] += influence.weight * matrix.row[k];
+        float weight = as_float(influence.y);
+        if (!(weight > 0.0f)) continue;
+        PoseMatrix matrix = matrices[range->matrix + influence.x];
+        for (int k = 0; k < 3; ++k) sum.row[k] += weight * matrix.row[k];
     }
     return sum;
 }
@@ -75,7 +76,8 @@ kernel void scene_pose(
     global const uint4*           restrict rest_positions,  // [vertex_count] floats: xyz from the
                                                             // range's middle; w: its range
     global const float4*          restrict rest_normals,    // [vertex_count] xyz unit
-    global const PoseInfluence*   restrict influences,      // [influence_count]
+    global const uint2*           restrict influences,      // [influence_count] joint of the range,
+                                                            // bits of its weight; 0: nothing
     global const float*           restrict differences,     // [difference_count][3]
     global const PoseMatrix*      restrict matrices,        // [matrix_count]
     global const float*           restrict weights,         // [weight_count] of morph targets

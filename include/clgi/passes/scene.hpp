@@ -25,7 +25,7 @@ struct PoseBuffers {
     cl::Buffer ranges;          // [range_count] PoseRange
     cl::Buffer rest_positions;  // [vertex_count] uint4: bits of xyz, range
     cl::Buffer rest_normals;    // [vertex_count] float4
-    cl::Buffer influences;      // [influence_count] PoseInfluence
+    cl::Buffer influences;      // [influence_count] uint2: joint of the range, bits of its weight
     cl::Buffer differences;     // [difference_count] three floats
     cl::Buffer matrices;        // [matrix_count] PoseMatrix
     cl::Buffer weights;         // [weight_count] float

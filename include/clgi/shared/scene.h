@@ -131,12 +131,6 @@ enum {
     POSE_FLAT = 2  // normals are those of the triangles, scene_flatten writes them
 };
 
-// How much of a vertex follows a joint; weight 0: nothing.
-typedef struct {
-    uint joint;  // of the range's matrices
-    float weight;
-} PoseInfluence;
-
 // From rest positions to metres from the origin of positions written; rows of [linear | translation].
 typedef struct {
     float4 row[3];
