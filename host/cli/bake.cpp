@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/animation.hpp"
 #include "cli/bake_gltf.hpp"
 #include "cli/bake_room.hpp"
 #include "cli/bake_stats.hpp"
@@ -28,6 +29,7 @@ struct BakeFlags {
     DeviceFlags device;
     PictureFlags picture;
     EnvironmentFlags environment;
+    AnimationFlags animation;
     VplOptions vpls;
     AtlasOptions atlas;
     std::string uvs = "auto";
@@ -148,6 +150,7 @@ void run_bake(BakeFlags flags) {
     flags.bake.build = build_of(flags.device);
     Scene scene =
         open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
+    pose_scene("bake", flags.animation, scene);
     const Session session = open_session(flags.device);
     need_room("bake", session.device, flags.vpls);
 
@@ -271,6 +274,7 @@ void add_bake(CLI::App& app) {
     add_emitter_flags(*command, flags->bake.emitters);
     add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
+    add_animation_flags(*command, flags->animation);
     command->add_option("--scene", flags->scene_index, "Index of the glTF scene")
         ->type_name("N")
         ->default_str("the file's");

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/animation.hpp"
 #include "cli/commands.hpp"
 #include "cli/percent.hpp"
 #include "cli/picture.hpp"
@@ -24,6 +25,7 @@ struct ReferenceFlags {
     std::string scene;
     PictureFlags picture;
     EnvironmentFlags environment;
+    AnimationFlags animation;
     int atlas = 0;    // texels, side; 0: a camera's picture
     int uv_set = -1;  // -1: 1 where that is a lightmap, else 0
     reference::Options options;
@@ -100,6 +102,7 @@ void run_reference(ReferenceFlags flags) {
         flags.options.target = parse_percent("reference", "--error", flags.error);
     Scene scene =
         open_scene(flags.scene, flags.scene_index, flags.environment, flags.quiet, flags.atlas > 0);
+    pose_scene("reference", flags.animation, scene);
     if (flags.camera >= static_cast<int>(scene.cameras.size()))
         throw Error(fmt::format("reference: --camera is {}, the scene has {}", flags.camera,
                                 scene.cameras.size()));
@@ -181,6 +184,7 @@ void add_reference(CLI::App& app) {
         ->type_name("N")
         ->check(CLI::Range(0, 4096));
     add_place_options(*command, flags->scene_index, flags->camera);
+    add_animation_flags(*command, flags->animation);
     command->get_option("--camera")->excludes(atlas);
     command->add_option("--stats", flags->stats, "JSON file with samples, error and time")
         ->type_name("FILE")

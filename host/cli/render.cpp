@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <clgi/clgi.hpp>
-#include <glm/gtc/constants.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "cli/bake_room.hpp"
 #include "cli/commands.hpp"
 #include "cli/gl_frames.hpp"
+#include "cli/motion.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
 #include "report/preview.hpp"
@@ -68,11 +68,11 @@ void run_second_order(RenderFlags flags) {
     flags.options.indirect = flags.method != "direct";
     flags.options.build = build_of(flags.device);
 
-    const Scene scene =
-        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
     if (flags.camera >= static_cast<int>(scene.cameras.size()))
         throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
                                 scene.cameras.size()));
+    prepare_motion(flags, scene);
     const Camera camera = scene.cameras[flags.camera];
     std::optional<GlFrames> gl;
     if (flags.gbuffer == "gl") gl.emplace();
@@ -84,6 +84,8 @@ void run_second_order(RenderFlags flags) {
     DeviceScene device_scene(session.context, session.device, scene);
     SecondOrderSolver solver(session.queue, device_scene, flags.options);
     if (gl) gl->open(session.queue, device_scene, solver.options().build);
+    Motion motion(flags, scene, device_scene, session.queue);
+    if (flags.fps && motion.at(0).lights) solver.lights_changed();  // builds its kernels
     RenderRecord record;
     record.build_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - build_start)
@@ -108,21 +110,28 @@ void run_second_order(RenderFlags flags) {
         }
         if (!solver.run(camera, nullptr)) throw Interrupted();
     }
-    const Bounds box = bounds(scene);
-    const glm::dvec3 centre = 0.5 * (box.low + box.high);
     for (int frame = 0; frame < flags.frames; ++frame) {
-        const double angle = glm::two_pi<double>() * frame / flags.frames;
-        if (flags.spin_light) {
-            spin_lights(device_scene, scene, angle);
-            solver.lights_changed();
-        }
-        const Camera at = flags.orbit ? orbited(camera, centre, angle) : camera;
-        record.frame_ms.push_back(
-            gl ? report::time_frame(session.queue, [&] { gl->render(solver, at); })
-               : report::time_frame(solver, session.queue, at));
+        Camera at = camera;
+        const auto step = [&] {
+            const Motion::Step moved = motion.at(frame);
+            at = moved.camera;
+            if (moved.lights) solver.lights_changed();
+        };
+        if (!flags.fps) step();
+        record.frame_ms.push_back(report::time_frame(session.queue, [&] {
+            if (flags.fps) step();  // the frame's time has the pose in it
+            if (gl)
+                gl->render(solver, at);
+            else
+                solver.render(at);
+        }));
         record.passes.push_back(report::pass_times(solver));
+        if (flags.fps)
+            save_picture(report::radiance_picture(session.queue, solver),
+                         numbered(flags.picture, frame));
         if (interrupted()) throw Interrupted();
     }
+    motion.report();
     record.status = solver.status();
     if (flags.replicates > 1) {
         try {
@@ -132,7 +141,7 @@ void run_second_order(RenderFlags flags) {
             throw Interrupted();
         }
         save_picture(record.replicates->mean, flags.picture);
-    } else {
+    } else if (!flags.fps) {
         save_picture(report::radiance_picture(session.queue, solver), flags.picture);
     }
 
@@ -180,7 +189,7 @@ void run_second_order(RenderFlags flags) {
         record.triangles = scene.triangles.size();
         record.lights = solver.emitters().emitters.size();
         record.effects = effects_of(device_scene, solver);
-        record.bytes = device_scene.bytes() + solver.bytes();
+        record.bytes = device_scene.bytes() + solver.bytes() + motion.bytes();
         record.warnings = scene.warnings;
         save_stats(record, flags.stats);
     }
@@ -244,9 +253,17 @@ void add_render(CLI::App& app) {
     add_ask_flags(*command, flags->ask);
     command->add_flag("--no-direct", flags->no_direct,
                       "Leave out direct light, emission and the environment");
+    add_animation_flags(*command, flags->animation);
     command->add_option("--frames", flags->frames, "Pictures to render and time; the last is kept")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000));
+    command
+        ->add_option("--fps", flags->fps,
+                     "Play the animation at F frames a second from --time on; every frame is kept, "
+                     "FILE.0000.exr and so on")
+        ->type_name("F")
+        ->default_str("none")
+        ->check(CLI::PositiveNumber);
     command
         ->add_option("--replicates", flags->replicates,
                      "Render N randomised replicates, keep the mean and its standard error")

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <glm/gtc/constants.hpp>
 
 #include "cli/bake_room.hpp"
+#include "cli/motion.hpp"
 #include "cli/percent.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
@@ -55,7 +55,7 @@ void run_atlas(RenderFlags flags) {
         parse_percent("render", "--least-change", atlas_flags.least_change);
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet, true);
     check(flags, scene);
-    const Camera camera = scene.cameras[static_cast<std::size_t>(flags.camera)];
+    prepare_motion(flags, scene);
     const Session session = open_session(flags.device);
     need_room("render", session.device, atlas_flags.vpls);
 
@@ -70,6 +70,7 @@ void run_atlas(RenderFlags flags) {
     LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, atlas,
                             atlas_flags.bake);
     LightAtlasView view(programs, session.queue, device_scene, atlas, view_options(flags));
+    Motion motion(flags, scene, device_scene, session.queue);
     RenderRecord record;
     record.build_ms = 1e3 * build.seconds();
 
@@ -78,28 +79,29 @@ void run_atlas(RenderFlags flags) {
     if (!solver.run(progress_bar("bake", quiet))) throw Interrupted();
     bake.bake_ms = 1e3 * baking.seconds();
     // The first picture warms up and is not timed.
+    const Camera camera = scene.cameras[static_cast<std::size_t>(flags.camera)];
     view.render(camera, solver.irradiance_planes(), solver.stride()).wait();
-    const Bounds box = bounds(scene);
+    const auto picture = [&] {
+        return report::radiance_picture(session.queue, view.radiance(), view.options().width,
+                                        view.options().height, view.stride());
+    };
     for (int frame = 0; frame < flags.frames; ++frame) {
-        const double angle = glm::two_pi<double>() * frame / flags.frames;
-        const Camera at = flags.orbit ? orbited(camera, 0.5 * (box.low + box.high), angle) : camera;
         const Stopwatch frame_watch;
-        if (flags.spin_light) {  // the frame's time has the change of the bake in it
-            spin_lights(device_scene, scene, angle);
+        const Motion::Step step = motion.at(frame);
+        if (step.lights) {  // the frame's time has the change of the bake in it
             solver.lights_changed();
             view.lights_changed();
             if (!solver.update(least_change, [](double) { return !interrupted(); }))
                 throw Interrupted();
         }
-        view.render(at, solver.irradiance_planes(), solver.stride());
+        view.render(step.camera, solver.irradiance_planes(), solver.stride());
         session.queue.finish();
         record.frame_ms.push_back(1e3 * frame_watch.seconds());
         record.passes.push_back(report::pass_times(view.events()));
+        if (flags.fps) save_picture(picture(), numbered(flags.picture, frame));
         if (interrupted()) throw Interrupted();
     }
-    save_picture(report::radiance_picture(session.queue, view.radiance(), view.options().width,
-                                          view.options().height, view.stride()),
-                 flags.picture);
+    if (!flags.fps) save_picture(picture(), flags.picture);
 
     record.status.non_finite = view.non_finite() + solver.status().non_finite;
     if (record.status.non_finite > 0)

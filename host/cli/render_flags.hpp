@@ -3,9 +3,11 @@
 #pragma once
 
 #include <clgi/clgi.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/animation.hpp"
 #include "cli/ask.hpp"
 #include "cli/environment.hpp"
 #include "cli/picture.hpp"
@@ -26,6 +28,8 @@ struct RenderFlags {
     PictureFlags picture;
     AskFlags ask;
     EnvironmentFlags environment;
+    AnimationFlags animation;
+    std::optional<double> fps;  // frames a second of the animation, each in a file of its own
     std::string scene;
     int scene_index = -1;
     int camera = 0;
@@ -46,11 +50,5 @@ struct RenderFlags {
 
 // Bakes an atlas and shows the scene with it.
 void run_atlas(RenderFlags flags);
-
-// Turned about the vertical axis through a point.
-Camera orbited(const Camera& camera, const glm::dvec3& centre, double angle);
-
-// The scene's lights, turned about the vertical, on the device.
-void spin_lights(DeviceScene& device, const Scene& scene, double angle);
 
 }  // namespace clgi::cli

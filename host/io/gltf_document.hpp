@@ -36,9 +36,12 @@ struct Document {
     Model model;                       // everything else
     bool quantized = false;            // KHR_mesh_quantization is declared
     std::vector<int> parents;          // of the nodes, -1: none
+    std::vector<int> order;            // all nodes, parents before children
     std::vector<glm::dmat4> matrices;  // of the nodes, to the world
     std::vector<Light> lights;         // at the origin, as are the cameras
     std::vector<Camera> cameras;
+    std::vector<int> light_nodes;   // of the lights that the scene has
+    std::vector<int> camera_nodes;  // of its cameras
     Warnings warnings;
 };
 
@@ -108,7 +111,7 @@ void check_meshes(const Document& document);
 // Fills lights and cameras, one for one, whether a node carries them or not.
 void read_lights(Document& document);
 
-// Fills parents and matrices. The nodes are a forest; no transform overflows.
+// Fills parents, order and matrices. The nodes are a forest; no transform overflows.
 void place_nodes(Document& document);
 
 // Fills scene.materials, one for one, and scene.textures. Only images that a base color, an
@@ -121,13 +124,19 @@ void load_materials(Document& document, const GltfOptions& options, Scene& scene
 std::vector<int> scene_nodes(Document& document, int scene);
 
 // The copies of a node's mesh that EXT_mesh_gpu_instancing places, else one: the accessors of their
-// transforms, their number, and their matrices to the world.
+// transforms, their number, and their matrices to the node.
 Attributes copies_of(const Node& node);
 std::size_t copy_count(const Document& document, const Node& node);
-std::vector<glm::dmat4> copy_matrices(const Document& document, int node);
+std::vector<glm::dmat4> copy_transforms(const Document& document, const Node& node);
 
+// What a node's matrix to its parent is made of.
+AnimatedNode transform_of(const Node& node, Warnings& warnings);
+
+class AnimationReader;
 void place_meshes(Document& document, const std::vector<int>& nodes, const GltfOptions& options,
-                  Scene& scene);
+                  AnimationReader& animation, Scene& scene);
+
+// Fills scene.lights and scene.cameras, and the nodes that carry them.
 void place_lights(Document& document, const std::vector<int>& nodes, Scene& scene);
 
 // The bytes of an image or the first of them, at least `limit`. `held` holds what has to be read.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "io/gltf_document.hpp"
+#include "scene/carried.hpp"
 
 namespace clgi::io::gltf {
 
@@ -74,26 +75,6 @@ Light read_light(const tinygltf::Light& source, Warnings& warnings) {
     return light;
 }
 
-glm::dvec3 unit_or_zero(const glm::dvec3& v, double least) {
-    return glm::length(v) > least ? glm::normalize(v) : glm::dvec3(0.0);
-}
-
-// Where a node stands and where it looks, along its -Z. Zero: it has no such direction.
-struct Place {
-    explicit Place(const glm::dmat4& matrix)
-        : position(matrix[3]),
-          forward(-unit_or_zero(matrix[2], 1e-30)),
-          right(unit_or_zero(glm::cross(forward, unit_or_zero(matrix[1], 1e-30)), 1e-9)) {}
-
-    bool is_usable(const glm::dvec3& direction) const {
-        return glm::length(position) <= largest && direction != glm::dvec3(0.0);
-    }
-
-    glm::dvec3 position;
-    glm::dvec3 forward;
-    glm::dvec3 right;
-};
-
 }  // namespace
 
 void read_lights(Document& document) {
@@ -112,30 +93,28 @@ void place_lights(Document& document, const std::vector<int>& nodes, Scene& scen
         if (!carried) continue;
         Light light = document.lights[index_in(*carried, "light")];
         if (light.name.empty()) light.name = short_name(node.name);
-        const Place place(document.matrices[index]);
+        const NodePlace place(document.matrices[index]);
         const bool directed = light.kind != Light::Kind::point;
         if (!place.is_usable(directed ? place.forward : glm::dvec3(1.0))) {
             document.warnings.add("a light whose node has no direction or place is left out");
             continue;
         }
-        light.position = place.position;
-        if (directed) light.direction = glm::vec3(place.forward);
+        carry(document.matrices[index], light);
+        document.light_nodes.push_back(index);
         scene.lights.push_back(std::move(light));
     }
     for (const int index : nodes) {
         const Node& node = document.model.nodes[index];
         if (node.camera < 0) continue;
-        const Place place(document.matrices[index]);
+        const NodePlace place(document.matrices[index]);
         if (!place.is_usable(place.right)) {
             document.warnings.add("a camera whose node has no direction or place is left out");
             continue;
         }
         Camera camera = document.cameras[node.camera];
         if (camera.name.empty()) camera.name = short_name(node.name);
-        camera.position = place.position;
-        camera.right = glm::vec3(place.right);
-        camera.up = glm::vec3(glm::cross(place.right, place.forward));
-        camera.forward = glm::vec3(place.forward);
+        carry(document.matrices[index], camera);
+        document.camera_nodes.push_back(index);
         scene.cameras.push_back(std::move(camera));
     }
 }

@@ -7,7 +7,7 @@
 #include <regex>
 #include <stdexcept>
 
-#include "io/gltf_document.hpp"
+#include "io/gltf_animation.hpp"
 
 namespace clgi::io {
 
@@ -108,8 +108,10 @@ Scene load(const std::filesystem::path& path, const GltfOptions& options) {
     scene.name = path.stem().string();
     load_materials(document, options, scene);
     const std::vector<int> nodes = scene_nodes(document, options.scene);
-    place_meshes(document, nodes, options, scene);
+    AnimationReader animation(document, options);
+    place_meshes(document, nodes, options, animation, scene);
     place_lights(document, nodes, scene);
+    animation.finish(scene);
     scene.warnings = document.warnings.lines();
     validate(scene);
     return scene;

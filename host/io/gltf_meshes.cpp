@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/gltf_accessor.hpp"
+#include "io/gltf_animation.hpp"
 #include "io/gltf_primitive.hpp"
 
 namespace clgi::io::gltf {
@@ -25,8 +26,12 @@ struct DrawnMesh {
 
 class MeshPlacer {
 public:
-    MeshPlacer(Document& document, bool lightmaps, Scene& scene)
-        : document_(document), scene_(scene), poser_(document), textured_(lightmaps) {
+    MeshPlacer(Document& document, bool lightmaps, AnimationReader& animation, Scene& scene)
+        : document_(document),
+          animation_(animation),
+          scene_(scene),
+          poser_(document),
+          textured_(lightmaps) {
         for (const Material& material : scene.materials) {
             textured_ = textured_ || material.base_texture.texture >= 0 ||
                         material.emission_texture.texture >= 0;
@@ -57,12 +62,12 @@ public:
         const Node& node = document_.model.nodes[index];
         DrawnMesh& mesh = meshes_[node.mesh];
         if (mesh.triangles == 0) return;
-        const std::vector<glm::dmat4> copies = copy_matrices(document_, index);
+        const std::vector<glm::dmat4> copies = copy_transforms(document_, node);
         for (auto& [primitive, topology] : mesh.primitives) {
             if (!topology) topology = triangles_of(document_, *primitive, renumberer_);
             if (topology->triangles.empty()) continue;
             warn_of_missing_uv(*primitive);
-            for (const glm::dmat4& matrix : copies) place(node, *primitive, *topology, matrix);
+            for (const glm::dmat4& copy : copies) place(index, *primitive, *topology, copy);
         }
     }
 
@@ -82,9 +87,12 @@ private:
         }
     }
 
-    void place(const Node& node, const Primitive& primitive, const Topology& topology,
-               const glm::dmat4& matrix) {
-        Pose pose = poser_.pose(primitive, node, matrix, topology.vertices);
+    void place(int index, const Primitive& primitive, const Topology& topology,
+               const glm::dmat4& copy) {
+        const Node& node = document_.model.nodes[index];
+        const glm::dmat4& placed = document_.matrices[index];
+        const glm::dmat4 matrix = copies_of(node).empty() ? placed : placed * copy;
+        PosedVertices pose = poser_.pose(primitive, node, matrix, topology.vertices);
         for (const glm::dvec3& p : pose.positions) {
             require(glm::length(p) <= farthest, "meshes[", node.mesh,
                     "] is placed at a distance beyond 1e18 m");
@@ -93,16 +101,18 @@ private:
             Topology split = topology;
             make_flat(split, pose);
             append(node, primitive, split, pose);
+            animation_.add({index, primitive, split, copy, true}, scene_);
             return;
         }
         if (mend_normals(topology, pose)) {
             document_.warnings.add("vertex normals without a direction are computed anew");
         }
         append(node, primitive, topology, pose);
+        animation_.add({index, primitive, topology, copy, false}, scene_);
     }
 
     void append(const Node& node, const Primitive& primitive, const Topology& topology,
-                const Pose& pose) {
+                const PosedVertices& pose) {
         require(topology.vertices.size() <= UINT32_MAX - scene_.positions.size(),
                 "has more than 2^32 vertices");
         const std::string& mesh_name = document_.model.meshes[node.mesh].name;
@@ -183,6 +193,7 @@ private:
     }
 
     Document& document_;
+    AnimationReader& animation_;
     Scene& scene_;
     Poser poser_;
     bool textured_;  // or its texture coordinates are wanted all the same
@@ -196,8 +207,8 @@ private:
 }  // namespace
 
 void place_meshes(Document& document, const std::vector<int>& nodes, const GltfOptions& options,
-                  Scene& scene) {
-    MeshPlacer placer(document, options.lightmaps, scene);
+                  AnimationReader& animation, Scene& scene) {
+    MeshPlacer placer(document, options.lightmaps, animation, scene);
     placer.count(nodes, std::min<std::size_t>(options.max_triangles, UINT32_MAX / 3));
     for (const int node : nodes) {
         if (document.model.nodes[node].mesh >= 0) placer.place(node);

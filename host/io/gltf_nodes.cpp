@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "io/gltf_accessor.hpp"
+#include "scene/node_matrix.hpp"
 
 namespace clgi::io::gltf {
 
@@ -17,36 +17,15 @@ constexpr double largest_entry = 1e100;
 
 const glm::dvec4 no_turn(0.0, 0.0, 0.0, 1.0);
 
-bool is_rotation(const glm::dquat& q) { return glm::length(q) > 1e-6 && glm::length(q) < 1e6; }
-
-// What is no rotation turns nothing.
-glm::dmat4 composed(const glm::dvec3& translation, const glm::dquat& q, const glm::dvec3& scale) {
-    glm::dmat4 transform(1.0);
-    if (is_rotation(q)) transform = glm::mat4_cast(q / glm::length(q));
-    for (int column = 0; column < 3; ++column) transform[column] *= scale[column];
-    transform[3] = glm::dvec4(translation, 1.0);
-    return transform;
-}
-
 glm::dquat quaternion(const glm::dvec4& xyzw) { return {xyzw.w, xyzw.x, xyzw.y, xyzw.z}; }
 
 glm::dmat4 local_transform(const Node& node, Warnings& warnings) {
-    if (!node.matrix.empty()) {
-        glm::dmat4 transform = glm::make_mat4(node.matrix.data());  // by columns, as in glm
-        glm::dmat4 affine = transform;
-        for (int column = 0; column < 4; ++column) affine[column][3] = column == 3;
-        if (transform != affine) {
-            warnings.add("a node matrix with a projective row is read without it");
-        }
-        return affine;
+    const AnimatedNode parts = transform_of(node, warnings);
+    if (parts.matrix) return *parts.matrix;
+    if (!is_rotation(parts.rotation)) {
+        warnings.add("a node rotation that is no quaternion is ignored");
     }
-    const auto vec3_or = [](const std::vector<double>& numbers, double fallback) {
-        return numbers.empty() ? glm::dvec3(fallback) : glm::make_vec3(numbers.data());
-    };
-    const glm::dquat rotation =
-        quaternion(node.rotation.empty() ? no_turn : glm::make_vec4(node.rotation.data()));
-    if (!is_rotation(rotation)) warnings.add("a node rotation that is no quaternion is ignored");
-    return composed(vec3_or(node.translation, 0.0), rotation, vec3_or(node.scale, 1.0));
+    return node_matrix(parts.translation, parts.rotation, parts.scale);
 }
 
 void set_parents(Document& document) {
@@ -88,9 +67,29 @@ std::vector<int> with_descendants(const Document& document, std::vector<int> ord
 
 }  // namespace
 
+AnimatedNode transform_of(const Node& node, Warnings& warnings) {
+    AnimatedNode parts;
+    if (!node.matrix.empty()) {
+        const glm::dmat4 transform = glm::make_mat4(node.matrix.data());  // by columns, as in glm
+        glm::dmat4 affine = transform;
+        for (int column = 0; column < 4; ++column) affine[column][3] = column == 3;
+        if (transform != affine) {
+            warnings.add("a node matrix with a projective row is read without it");
+        }
+        parts.matrix = affine;
+        return parts;
+    }
+    if (!node.translation.empty()) parts.translation = glm::make_vec3(node.translation.data());
+    if (!node.rotation.empty())
+        parts.rotation = quaternion(glm::make_vec4(node.rotation.data()));
+    if (!node.scale.empty()) parts.scale = glm::make_vec3(node.scale.data());
+    return parts;
+}
+
 void place_nodes(Document& document) {
     set_parents(document);
-    const std::vector<int> order = with_descendants(document, roots_of(document));
+    document.order = with_descendants(document, roots_of(document));
+    const std::vector<int>& order = document.order;
     // Every node has at most one parent, so what no root reaches lies on or below a cycle.
     require(order.size() == document.parents.size(), "the nodes form a cycle");
 
@@ -148,20 +147,19 @@ std::size_t copy_count(const Document& document, const Node& node) {
     return 1;
 }
 
-std::vector<glm::dmat4> copy_matrices(const Document& document, int node) {
-    const Attributes copies = copies_of(document.model.nodes[node]);
-    if (copies.empty()) return {document.matrices[node]};
+std::vector<glm::dmat4> copy_transforms(const Document& document, const Node& node) {
+    const Attributes copies = copies_of(node);
+    if (copies.empty()) return {glm::dmat4(1.0)};
     const auto translation = reader_of(document, copies, "TRANSLATION");
     const auto rotation = reader_of(document, copies, "ROTATION");
     const auto scale = reader_of(document, copies, "SCALE");
-    std::vector<glm::dmat4> matrices(copy_count(document, document.model.nodes[node]));
-    for (std::size_t i = 0; i < matrices.size(); ++i) {
-        matrices[i] = document.matrices[node] *
-                      composed(translation ? translation->vector<3>(i) : glm::dvec3(0.0),
-                               quaternion(rotation ? rotation->vector<4>(i) : no_turn),
-                               scale ? scale->vector<3>(i) : glm::dvec3(1.0));
+    std::vector<glm::dmat4> transforms(copy_count(document, node));
+    for (std::size_t i = 0; i < transforms.size(); ++i) {
+        transforms[i] = node_matrix(translation ? translation->vector<3>(i) : glm::dvec3(0.0),
+                                    quaternion(rotation ? rotation->vector<4>(i) : no_turn),
+                                    scale ? scale->vector<3>(i) : glm::dvec3(1.0));
     }
-    return matrices;
+    return transforms;
 }
 
 }  // namespace clgi::io::gltf

@@ -19,7 +19,7 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
 
 // Zero for a triangle without area. Its corners are still in the order of the file, which a
 // mirroring transform has turned around.
-glm::dvec3 front_of(const Corners& corner, const Pose& pose) {
+glm::dvec3 front_of(const Corners& corner, const PosedVertices& pose) {
     const glm::dvec3 a = pose.positions[corner[0]];
     const glm::dvec3 normal =
         unit_or_zero(glm::cross(pose.positions[corner[1]] - a, pose.positions[corner[2]] - a));
@@ -154,7 +154,7 @@ const std::vector<glm::dmat4>& Poser::joint_matrices(int skin) {
 }
 
 void Poser::morph(const Primitive& primitive, const Node& node,
-                  const std::vector<std::uint32_t>& vertices, Pose& pose) {
+                  const std::vector<std::uint32_t>& vertices, PosedVertices& pose) {
     const std::vector<double>& weights =
         node.weights.empty() ? document_.model.meshes[node.mesh].weights : node.weights;
     for (std::size_t t = 0; t < weights.size(); ++t) {
@@ -173,9 +173,9 @@ void Poser::morph(const Primitive& primitive, const Node& node,
     }
 }
 
-Pose Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4& matrix,
+PosedVertices Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4& matrix,
                  const std::vector<std::uint32_t>& vertices) {
-    Pose pose;
+    PosedVertices pose;
     const auto read = [&](const char* name, std::vector<glm::dvec3>& values) {
         const auto reader = reader_of(document_, primitive.attributes, name);
         if (!reader) return;
@@ -215,9 +215,9 @@ Pose Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4&
     return pose;
 }
 
-void make_flat(Topology& topology, Pose& pose) {
+void make_flat(Topology& topology, PosedVertices& pose) {
     Topology split;
-    Pose flat;
+    PosedVertices flat;
     for (const Corners& corner : topology.triangles) {
         const glm::dvec3 normal = or_up(front_of(corner, pose));
         const auto first = static_cast<std::uint32_t>(split.vertices.size());
@@ -233,7 +233,7 @@ void make_flat(Topology& topology, Pose& pose) {
     pose = std::move(flat);
 }
 
-bool mend_normals(const Topology& topology, Pose& pose) {
+bool mend_normals(const Topology& topology, PosedVertices& pose) {
     std::map<std::uint32_t, glm::dvec3> sums;
     for (std::uint32_t i = 0; i < pose.normals.size(); ++i) {
         if (pose.normals[i] == glm::dvec3(0.0)) sums.emplace(i, 0.0);

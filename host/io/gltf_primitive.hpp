@@ -31,7 +31,7 @@ private:
 // Triangles that name a vertex twice, as strips have between rows, are left out.
 Topology triangles_of(const Document& document, const Primitive& primitive, Renumberer& renumberer);
 
-struct Pose {
+struct PosedVertices {
     std::vector<glm::dvec3> positions;   // world space
     std::vector<glm::dvec3> normals;     // world space, unit or zero; empty: the mesh has none
     std::vector<std::uint8_t> mirrored;  // 1 where the transform turns triangles inside out
@@ -43,12 +43,12 @@ public:
     explicit Poser(Document& document) : document_(document) {}
 
     // matrix: what places an unskinned primitive.
-    Pose pose(const Primitive& primitive, const Node& node, const glm::dmat4& matrix,
+    PosedVertices pose(const Primitive& primitive, const Node& node, const glm::dmat4& matrix,
               const std::vector<std::uint32_t>& vertices);
 
 private:
     void morph(const Primitive& primitive, const Node& node,
-               const std::vector<std::uint32_t>& vertices, Pose& pose);
+               const std::vector<std::uint32_t>& vertices, PosedVertices& pose);
     const std::vector<glm::dmat4>& joint_matrices(int skin);
 
     Document& document_;
@@ -58,10 +58,10 @@ private:
 
 // For a mesh without normals: gives every triangle three vertices of its own, which carry the
 // normal of its front, as the specification asks.
-void make_flat(Topology& topology, Pose& pose);
+void make_flat(Topology& topology, PosedVertices& pose);
 
 // Replaces normals of no direction by the mean of the triangles around the vertex. Returns
 // whether there were any.
-bool mend_normals(const Topology& topology, Pose& pose);
+bool mend_normals(const Topology& topology, PosedVertices& pose);
 
 }  // namespace clgi::io::gltf

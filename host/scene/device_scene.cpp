@@ -72,6 +72,11 @@ private:
     std::size_t most_;
 };
 
+Bounds united(Bounds box, const std::optional<Bounds>& other) {
+    if (!other) return box;
+    return {glm::min(box.low, other->low), glm::max(box.high, other->high)};
+}
+
 std::vector<glm::vec4> arranged(const std::vector<glm::vec4>& values,
                                 const std::vector<std::uint32_t>& order) {
     std::vector<glm::vec4> out;
@@ -103,7 +108,7 @@ struct DeviceScene::Cut {
 
 DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene) {
     validate(scene);
-    if (!scene.triangles.empty()) frame_ = local_frame(bounds(scene));
+    if (!scene.triangles.empty()) frame_ = local_frame(united(bounds(scene), scene.moving_bounds));
     frame_.exposure = common_exposure(scene, frame_);
     lights_ = scene.lights;
 

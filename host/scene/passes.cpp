@@ -39,7 +39,9 @@ MoveParams move_params(const DeviceScene& scene, std::uint32_t first, std::uint3
 
 ScenePasses::ScenePasses(const Programs& programs, const BuildOptions& options)
     : move_(programs.kernel("scene", "move", options)),
-      clusters_(programs.kernel("scene", "clusters", options)) {}
+      clusters_(programs.kernel("scene", "clusters", options)),
+      pose_(programs.kernel("scene", "pose", options)),
+      flatten_(programs.kernel("scene", "flatten", options)) {}
 
 cl::Event ScenePasses::move(const cl::CommandQueue& queue, const MoveParams& params,
                             DeviceScene& scene, const MoveBuffers& buffers,
@@ -65,6 +67,34 @@ cl::Event ScenePasses::clusters(const cl::CommandQueue& queue, DeviceScene& scen
     const SceneInfo& info = scene.info();
     return launch(clusters_, queue, info.cluster_count, wait, info.triangle_count,
                   scene.triangles(), scene.positions(), scene.clusters());
+}
+
+cl::Event ScenePasses::pose(const cl::CommandQueue& queue, const PoseParams& params,
+                            const PoseBuffers& buffers, const WaitList& wait) const {
+    const auto check = [&](const char* name, const cl::Buffer& buffer, std::size_t count,
+                           std::size_t size) { need(pose_, name, buffer, count * size); };
+    check("ranges", buffers.ranges, params.range_count, sizeof(PoseRange));
+    check("rest_positions", buffers.rest_positions, params.vertex_count, 16);
+    check("rest_normals", buffers.rest_normals, params.vertex_count, 16);
+    check("influences", buffers.influences, params.influence_count, 8);
+    check("differences", buffers.differences, params.difference_count, 12);
+    check("matrices", buffers.matrices, params.matrix_count, sizeof(PoseMatrix));
+    check("weights", buffers.weights, params.weight_count, sizeof(float));
+    check("positions", buffers.positions, params.given_count, 16);
+    check("normals", buffers.normals, params.given_count, 16);
+    return launch(pose_, queue, params.vertex_count, wait, params, buffers.ranges,
+                  buffers.rest_positions, buffers.rest_normals, buffers.influences,
+                  buffers.differences, buffers.matrices, buffers.weights, buffers.positions,
+                  buffers.normals);
+}
+
+cl::Event ScenePasses::flatten(const cl::CommandQueue& queue, const PoseParams& params,
+                               const PoseBuffers& buffers, const WaitList& wait) const {
+    need(flatten_, "triangles", buffers.triangles, std::size_t{params.triangle_count} * 16);
+    need(flatten_, "positions", buffers.positions, std::size_t{params.given_count} * 16);
+    need(flatten_, "normals", buffers.normals, std::size_t{params.given_count} * 16);
+    return launch(flatten_, queue, params.triangle_count, wait, params.triangle_count,
+                  buffers.triangles, buffers.positions, buffers.normals);
 }
 
 }  // namespace clgi

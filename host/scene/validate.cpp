@@ -184,6 +184,14 @@ void check_cameras(const Scene& scene) {
     }
 }
 
+void check_bounds(const Bounds& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(box.low[axis] <= box.high[axis]) || !is_place(box.low) || !is_place(box.high)) {
+            fail("the moving bounds have low above high, or a corner beyond 1e18 m");
+        }
+    }
+}
+
 void check_environment(const Environment& environment) {
     const std::string size =
         std::to_string(environment.width) + "x" + std::to_string(environment.height);
@@ -259,6 +267,8 @@ void validate(const Scene& scene) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) validate_light(scene.lights[i], i);
     check_cameras(scene);
     if (scene.environment) check_environment(*scene.environment);
+    if (scene.moving_bounds) check_bounds(*scene.moving_bounds);
+    if (scene.animation) validate_animation(*scene.animation, scene);
 }
 
 Bounds bounds(const Scene& scene) {

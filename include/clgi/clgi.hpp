@@ -32,6 +32,7 @@
 #include <clgi/procedural.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
+#include <clgi/scene_animator.hpp>
 #include <clgi/scene_mover.hpp>
 #include <clgi/sh.hpp>
 #include <clgi/slice.hpp>

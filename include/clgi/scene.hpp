@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/animation.hpp>
 #include <clgi/export.hpp>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -126,6 +127,10 @@ struct Scene {
     std::vector<Part> parts;
     std::optional<Environment> environment;  // none: black
 
+    std::optional<Animation> animation;   // none: nothing moves by itself
+    std::optional<Bounds> moving_bounds;  // a box that moving vertices stay in; the local frame on
+                                          // the device covers it too
+
     std::vector<std::string> warnings;  // one line each: what was ignored, corrected or assumed
 };
 
@@ -133,8 +138,8 @@ struct Scene {
 CLGI_API Bounds bounds(const Scene& scene);
 
 // Throws InputError naming the first array, index and value that violates Scene's contract:
-// array lengths, indices in range, finite positions, unit-length normals, materials, lights and
-// environment in their ranges.
+// array lengths, indices in range, finite positions, unit-length normals, materials, lights,
+// environment and animation in their ranges.
 CLGI_API void validate(const Scene& scene);
 
 // A camera for files that have none, in front of an object or inside a room.

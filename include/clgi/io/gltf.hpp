@@ -11,12 +11,14 @@ namespace clgi::io {
 struct GltfOptions {
     int scene = -1;  // index of the scene; -1: the file's default, else its first
     bool lightmaps = false;  // keeps texture coordinates without a texture
+    bool animation = true;   // fills Scene::animation if the file has any that moves something
     std::size_t max_triangles = std::size_t{1} << 26;  // of all instances; more is an InputError
     std::size_t max_texels = std::size_t{1} << 28;     // of all textures together
 };
 
 // Reads a .gltf or .glb file (recognised by content) and flattens it: nodes, skins and morph
-// targets in their rest pose, strips and fans, every instance of a mesh in world space.
+// targets in their rest pose, strips and fans, every instance of a mesh in world space. What moves
+// by the file's animations is in Scene::animation besides.
 // The file is not trusted: every index, offset, count and number is checked before use.
 //
 // Throws InputError with one line "file: what is wrong and where" for a file that is invalid or
@@ -25,7 +27,7 @@ struct GltfOptions {
 CLGI_API Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 // Writes a self-contained .glb: geometry, materials, textures (as PNG), lights, cameras.
-// Positions are stored as float32 relative to a node at the scene's centre.
+// Positions are stored as float32 relative to a node at the scene's centre; animation is left out.
 // Either the complete file is written or none. Throws InputError when it cannot be written.
 CLGI_API void save_glb(const Scene& scene, const std::filesystem::path& path);
 

@@ -20,6 +20,20 @@ struct MoveBuffers {
     cl::Buffer status;        // [MOVE_STATUS_WORDS] uint, only added to
 };
 
+// What poses are made from and where they go. Vertices: PoseParams.
+struct PoseBuffers {
+    cl::Buffer ranges;          // [range_count] PoseRange
+    cl::Buffer rest_positions;  // [vertex_count] uint4: bits of xyz, range
+    cl::Buffer rest_normals;    // [vertex_count] float4
+    cl::Buffer influences;      // [influence_count] uint2: joint of the range, bits of its weight
+    cl::Buffer differences;     // [difference_count] three floats
+    cl::Buffer matrices;        // [matrix_count] PoseMatrix
+    cl::Buffer weights;         // [weight_count] float
+    cl::Buffer triangles;       // [triangle_count] uint4, of flat ranges
+    cl::Buffer positions;       // written: [given_count] float4, metres
+    cl::Buffer normals;         // written: [given_count] float4
+};
+
 // For vertices first .. first + count - 1 of the scene's file. origin: the world point, in metres,
 // that positions in the buffer are relative to.
 CLGI_API MoveParams move_params(const DeviceScene& scene, std::uint32_t first, std::uint32_t count,
@@ -41,8 +55,17 @@ public:
     cl::Event clusters(const cl::CommandQueue& queue, DeviceScene& scene,
                        const WaitList& wait = {}) const;
 
+    // Posed vertices get positions and, unless their range is flat, normals. Indices in the buffers
+    // are not checked.
+    cl::Event pose(const cl::CommandQueue& queue, const PoseParams& params,
+                   const PoseBuffers& buffers, const WaitList& wait = {}) const;
+
+    // Vertices of flat triangles get the normals of their planes, from buffers.positions.
+    cl::Event flatten(const cl::CommandQueue& queue, const PoseParams& params,
+                      const PoseBuffers& buffers, const WaitList& wait = {}) const;
+
 private:
-    PassKernel move_, clusters_;
+    PassKernel move_, clusters_, pose_, flatten_;
 };
 
 }  // namespace clgi

@@ -98,6 +98,44 @@ enum {
     MOVE_STATUS_WORDS = 2
 };
 
+// Vertices that nodes, skins and morph targets place. Numbers of everything that is read.
+typedef struct {
+    uint vertex_count;  // posed
+    uint given_count;   // vertices of the buffers that are written
+    uint range_count;
+    uint influence_count;
+    uint difference_count;
+    uint matrix_count;
+    uint weight_count;
+    uint triangle_count;  // of flat ranges
+} PoseParams;
+
+// Consecutive vertices that are placed in the same way.
+typedef struct {
+    uint first;   // of the posed vertices
+    uint count;
+    uint given;   // the first one's place in the buffers that are written
+    uint flags;   // POSE_...
+    uint matrix;  // the first; that of what follows no joint is matrix + joints
+    uint influences;        // of each vertex; 0: all follow the first matrix
+    uint first_influence;   // [influences][count]
+    uint targets;
+    uint first_weight;      // [targets]
+    uint first_difference;  // [targets][count] positions, then normals with POSE_MORPHS_NORMALS
+    uint pad0_;
+    uint pad1_;
+} PoseRange;
+
+enum {
+    POSE_MORPHS_NORMALS = 1,
+    POSE_FLAT = 2  // normals are those of the triangles, scene_flatten writes them
+};
+
+// From rest positions to metres from the origin of positions written; rows of [linear | translation].
+typedef struct {
+    float4 row[3];
+} PoseMatrix;
+
 CLGI_SHARED_END
 
 #endif

@@ -1,0 +1,39 @@
+// Normals of triangles whose mesh has none: those of the plane, up for a triangle without area.
+// [derived: glTF 2.0, section 3.7.2.1, flat normals where there are none]
+//
+// Cost         60 B read and 48 B written a triangle
+// Work size    1D, one work-item a triangle; any local size; tail guarded
+// Writes       the normals of its three vertices, which no other triangle has
+// SPDX-License-Identifier: MIT
+#include "clgi/shared/scene.h"
+
+// The largest number is brought to 1 first: squares of the others neither overflow nor vanish.
+static float3 unit_or_zero(float3 v) {
+    float largest = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
+    if (!(largest > 0.0f)) return (float3)(0.0f);
+    v /= largest;
+    return v * (1.0f / sqrt(dot(v, v)));
+}
+
+static float largest_of(float3 v) { return fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z)); }
+
+kernel void scene_flatten(
+    const uint             triangle_count,
+    global const uint4*    restrict triangles,  // [triangle_count] three vertices in their order
+    global const float4*   restrict positions,  // [given_count] xyz metres
+    global float4*         restrict normals)    // [given_count] xyz unit
+{
+    uint triangle = (uint)get_global_id(0);
+    if (triangle >= triangle_count) return;
+    uint4 corner = triangles[triangle];
+    float3 a = positions[corner.x].xyz;
+    float3 b = positions[corner.y].xyz - a;
+    float3 c = positions[corner.z].xyz - a;
+    // Sides of small triangles too: their product would be too small for a float.
+    float side = fmax(largest_of(b), largest_of(c));
+    float3 normal = side > 0.0f ? unit_or_zero(cross(b / side, c / side)) : (float3)(0.0f);
+    if (normal.x == 0.0f && normal.y == 0.0f && normal.z == 0.0f) normal.y = 1.0f;
+    normals[corner.x] = (float4)(normal, 0.0f);
+    normals[corner.y] = (float4)(normal, 0.0f);
+    normals[corner.z] = (float4)(normal, 0.0f);
+}

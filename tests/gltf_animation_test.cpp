@@ -1,0 +1,188 @@
+// From a file's animations to poses: joints, morph targets, lights and cameras; files whose
+// animations are broken load as they did before, with a line that says why they stand still.
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include "posing.hpp"
+
+namespace clgi {
+namespace {
+
+using test::GltfDraft;
+using test::json;
+using test::posed_at;
+using test::strip_draft;
+
+const double half = std::sqrt(0.5);
+constexpr double near = 2e-7;  // rotations and weights are floats
+
+TEST(GltfAnimation, AJointTurnsWhatFollowsIt) {
+    const Scene bent = posed_at(strip_draft().load(), 1.0);
+    EXPECT_VEC_NEAR(bent.positions[0], glm::dvec3(0, 0, 0), near);
+    EXPECT_VEC_NEAR(bent.positions[2], glm::dvec3(1, 0, 0), near);  // on the axis
+    EXPECT_VEC_NEAR(bent.positions[4], glm::dvec3(1, 1, 0), near);
+    EXPECT_VEC_NEAR(bent.positions[5], glm::dvec3(1, 1, -1), near);
+    EXPECT_VEC_NEAR(bent.normals[0], glm::dvec3(0, 1, 0), near);
+    EXPECT_VEC_NEAR(bent.normals[2], glm::dvec3(-half, half, 0), near);
+    EXPECT_VEC_NEAR(bent.normals[4], glm::dvec3(-1, 0, 0), near);
+    const Scene eighth = posed_at(strip_draft().load(), 0.5);
+    EXPECT_VEC_NEAR(eighth.positions[4], glm::dvec3(1 + half, half, 0), near);
+}
+
+TEST(GltfAnimation, TargetsMoveVerticesBeforeJointsDo) {
+    GltfDraft draft = strip_draft();
+    draft.document["nodes"][0]["weights"] = {2.0};
+    const Scene bent = posed_at(draft.load(), 1.0);
+    EXPECT_VEC_NEAR(bent.positions[5], glm::dvec3(-1, 1, -1), 2 * near);
+    EXPECT_VEC_NEAR(bent.positions[1], glm::dvec3(0, 2, -1), 2 * near);
+}
+
+TEST(GltfAnimation, WeightsAreMadeToSumToOneAndMayBeZero) {
+    // Halved; none at all, for the pair between; a weight that is not finite.
+    const Scene scene =
+        strip_draft("JOINTS_0", "WEIGHTS_0", {0.5f, 0, 0, 0, 0.5f, 0,    0, 0, 0,   0,    0, 0,
+                                              0,    0, 0, 0, 0,    0.5f, 0, 0, NAN, 3.0f, 0, 0})
+            .load();
+    const Scene bent = posed_at(scene, 1.0);
+    EXPECT_VEC_NEAR(bent.positions[4], glm::dvec3(1, 1, 0), near);
+    EXPECT_VEC_NEAR(bent.positions[5], glm::dvec3(1, 1, -1), near);
+    EXPECT_VEC_NEAR(bent.positions[2], glm::dvec3(1, 0, 0), near);  // stays with the node
+    EXPECT_VEC_NEAR(bent.normals[2], glm::dvec3(0, 1, 0), near);
+    EXPECT_EQ(scene.animation->ranges[0].influence_count, 1u);
+}
+
+// The same weights, the second four joints of which are in a set of their own.
+TEST(GltfAnimation, FourMoreJointsAreReadWhereThereAreAny) {
+    GltfDraft draft = strip_draft();
+    json& attributes = draft.document["meshes"][0]["primitives"][0]["attributes"];
+    std::vector<std::uint8_t> root(24, 0), second(24, 1);
+    std::vector<float> zero(24, 0.0f), more(24, 0.0f);
+    for (std::size_t v = 0; v < 6; ++v) {
+        zero[4 * v] = v < 4 ? 1.0f : 0.0f;
+        more[4 * v + 3] = v < 2 ? 0.0f : 1.0f;
+    }
+    attributes["JOINTS_0"] = draft.accessor(draft.view(root), 6, "VEC4", test::uint8_type);
+    attributes["WEIGHTS_0"] = test::vec4s(draft, zero);
+    attributes["JOINTS_1"] = draft.accessor(draft.view(second), 6, "VEC4", test::uint8_type);
+    attributes["WEIGHTS_1"] = test::vec4s(draft, more);
+    const Scene bent = posed_at(draft.load(), 1.0), one_set = posed_at(strip_draft().load(), 1.0);
+    for (std::size_t v = 0; v < 6; ++v) {
+        EXPECT_VEC_NEAR(bent.positions[v], one_set.positions[v], near) << v;
+        EXPECT_VEC_NEAR(bent.normals[v], one_set.normals[v], near) << v;
+    }
+}
+
+TEST(GltfAnimation, NormalsFollowTheInverseTranspose) {
+    GltfDraft draft;
+    draft.show({{"attributes",
+                 {{"POSITION", draft.vec3({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})},
+                  {"NORMAL", draft.vec3(test::Floats3(3, {1, 1, 1}))}}}});
+    test::animate(draft, 0, "scale", test::scalars(draft, {0, 1, 2}),
+                  draft.vec3({{1, 1, 1}, {1, 2, 4}, {1, 2, 0}}));
+    const Scene scene = draft.load();
+    EXPECT_VEC_NEAR(posed_at(scene, 1.0).normals[0], glm::normalize(glm::dvec3(1, 0.5, 0.25)),
+                    1e-7);
+    EXPECT_VEC_NEAR(posed_at(scene, 2.0).normals[0], glm::dvec3(0, 0, 1), 1e-7);  // flat
+    EXPECT_NO_THROW(validate(posed_at(scene, 2.0)));
+}
+
+// A triangle without normals has that of its plane, in every pose.
+TEST(GltfAnimation, MissingNormalsStayFlat) {
+    GltfDraft draft = test::triangle_draft();
+    test::animate(draft, 0, "rotation", test::scalars(draft, {0, 1}),
+                  test::vec4s(draft, {0, 0, 0, 1, 1, 0, 0, 0}));
+    const Scene turned = posed_at(draft.load(), 0.5);
+    for (const glm::vec3& normal : turned.normals)
+        EXPECT_VEC_NEAR(normal, glm::dvec3(0, -1, 0), near);
+}
+
+TEST(GltfAnimation, LightsAndCamerasFollowTheirNodes) {
+    GltfDraft draft;
+    draft.document["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"spot", json::object()}}, {{"type", "point"}}};
+    draft.document["extensionsUsed"] = {"KHR_lights_punctual"};
+    draft.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+    draft.add("nodes", {{"children", {1, 2}}});
+    const json carried = {{"KHR_lights_punctual", {{"light", 0}}}};
+    draft.add("nodes", {{"extensions", carried}, {"translation", {1, 0, 0}}});
+    draft.add("nodes", {{"camera", 0}});
+    draft.add("nodes",
+              {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});  // stands still
+    const auto h = static_cast<float>(half);
+    test::animate(draft, 0, "rotation", test::scalars(draft, {0, 1}),
+                  test::vec4s(draft, {0, 0, 0, 1, 0, h, 0, h}));
+    const Scene scene = draft.load();
+    ASSERT_TRUE(scene.animation);
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.animation->lights.size(), 1u);
+    EXPECT_EQ(scene.animation->nodes.size(), 3u);
+    const Scene turned = posed_at(scene, 1.0);
+    const std::size_t spot = scene.lights[0].kind == Light::Kind::spot ? 0 : 1;
+    EXPECT_VEC_NEAR(turned.lights[spot].position, glm::dvec3(0, 0, -1), near);
+    EXPECT_VEC_NEAR(turned.lights[spot].direction, glm::dvec3(-1, 0, 0), near);
+    EXPECT_VEC_NEAR(turned.cameras[0].forward, glm::dvec3(-1, 0, 0), near);
+    EXPECT_VEC_NEAR(turned.cameras[0].right, glm::dvec3(0, 0, -1), near);
+    EXPECT_FALSE(motion_bounds(scene, 0));
+}
+
+TEST(GltfAnimation, IsNotThereWhereNothingMoves) {
+    EXPECT_FALSE(test::triangle_draft().load().animation);
+    GltfDraft other = test::triangle_draft();
+    other.add("nodes", json::object());  // carries nothing
+    test::animate(other, 1, "scale", test::scalars(other, {0, 1}),
+                  other.vec3({{1, 1, 1}, {2, 2, 2}}));
+    EXPECT_FALSE(other.load().animation);
+    EXPECT_FALSE(strip_draft().load({.animation = false}).animation);
+    EXPECT_TRUE(strip_draft().load().animation);
+}
+
+TEST(GltfAnimation, CopiesMoveWithTheirNode) {
+    GltfDraft draft;
+    json node;
+    node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+        draft.vec3({{0, 0, 0}, {0, 0, 3}});
+    draft.show({{"attributes", {{"POSITION", draft.vec3(test::one_triangle)}}}}, node);
+    test::animate(draft, 0, "scale", test::scalars(draft, {0, 1}),
+                  draft.vec3({{1, 1, 1}, {2, 2, 2}}));
+    const Scene grown = posed_at(draft.load(), 1.0);
+    EXPECT_VEC_NEAR(test::corner(grown, 1, 1), glm::dvec3(2, 0, 6), 1e-6);
+}
+
+// What a broken animation says; the scene is loaded as if there were none.
+std::string left_out(const GltfDraft& draft) {
+    const Scene scene = draft.load();
+    EXPECT_FALSE(scene.animation);
+    EXPECT_EQ(scene.triangles.size(), 4u);
+    return scene.warnings.empty() ? "" : scene.warnings.back();
+}
+
+TEST(GltfAnimation, BrokenOnesAreLeftOutWithALine) {
+    GltfDraft draft = strip_draft();
+    json& sampler = draft.document["animations"][0]["samplers"][0];
+    sampler["input"] = test::scalars(draft, {1, 1});
+    EXPECT_EQ(left_out(draft),
+              "animation is left out: animation: clip 0, curve 0 has key times "
+              "that do not rise at key 1");
+    sampler["input"] = test::scalars(draft, {0, 1});
+    sampler["interpolation"] = "BEZIER";
+    EXPECT_EQ(left_out(draft),
+              "animation is left out: clip 0: interpolation is BEZIER, none of "
+              "LINEAR, STEP, CUBICSPLINE");
+    sampler["interpolation"] = "LINEAR";
+    draft.document["nodes"][2] = {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1}}};
+    EXPECT_EQ(left_out(draft), "an animation channel of a node that has a matrix is left out");
+}
+
+// 2^20 keys that 200 samplers share: more numbers than the file has bytes.
+TEST(GltfAnimation, HasABudgetOfNumbers) {
+    GltfDraft draft = strip_draft();
+    std::vector<float> times(std::size_t{1} << 20);
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<float>(i);
+    const int input = test::scalars(draft, times);
+    const int output = draft.accessor(-1, times.size(), "VEC3", test::float_type);
+    for (int clip = 0; clip < 40; ++clip) test::animate(draft, 2, "scale", input, output);
+    EXPECT_EQ(left_out(draft), "animation is left out: it has more than 134217728 numbers");
+}
+
+}  // namespace
+}  // namespace clgi
