@@ -111,7 +111,8 @@ Seen see_blocks(const World& in, const Batch& batch, const AtlasBlocks& blocks,
     BlockBuffers buffers;
     buffers.planes = test::upload_points(listed, listed_stride, GBUFFER_GEOMETRIC + 3);
     std::vector<cl_uint> alone(blocks.list.begin(), blocks.list.begin() + blocks.unblocked);
-    alone.push_back(0);
+    // What lies behind the places, were it read, would write beside the texels.
+    alone.resize(alone.size() + 16, static_cast<cl_uint>(in.texels.size()));
     buffers.places = test::upload(alone);
     buffers.seen = test::upload(std::vector<cl_uchar>(listed_bytes, untouched));
     buffers.blocks = test::upload(blocks.blocks);
