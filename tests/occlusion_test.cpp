@@ -39,6 +39,12 @@ Scene walls_and_heap() {
     Scene scene = test::plain_scene();
     add_wall(scene, random, 48, 0.0, 12);
     add_wall(scene, random, 30, -0.5, 3);
+    // Bars with slits between them that are narrower than most pixels.
+    for (int i = 0; i < 300; ++i) {
+        const glm::dvec3 from(-1.2 + 0.008 * i, -1.2, -0.02);
+        test::add_quad(scene, {from, from + glm::dvec3(0.0065, 0, 0),
+                               from + glm::dvec3(0.0065, 2.4, 0), from + glm::dvec3(0, 2.4, 0)});
+    }
     for (int i = 0; i < 5000; ++i) {
         const glm::dvec3 at(test::random_vec3(random, -1.1, 1.1));
         const double size = i % 40 ? 0.05 : 0.6;
@@ -52,7 +58,7 @@ std::vector<View> views_of(const DeviceScene& scene) {
     std::vector<View> out;
     test::Random random(8);
     const int sizes[][2] = {{97, 33}, {41, 77}, {300, 210}, {64, 64}};
-    for (int i = 0; i < 16; ++i) {
+    for (int i = 0; i < 48; ++i) {
         const glm::dvec3 eye(random(-0.9, 0.9), random(-0.9, 0.9), random(0.05, i % 2 ? 2.0 : 0.6));
         Camera camera = test::camera_at(eye, glm::dvec3(random(-0.5, 0.5), random(-0.5, 0.5), -0.6),
                                         static_cast<float>(random(0.5, 1.4)));
