@@ -5,6 +5,7 @@
 #include "opencl/launch.hpp"
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
+#include "opencl/variants.hpp"
 
 namespace clgi {
 namespace {
@@ -59,20 +60,16 @@ std::size_t hemicube_bytes(const MeshParams& params) {
 
 AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
     : storage_(options.storage) {
-    BuildOptions full = options;
-    full.storage = Storage::full;
-    BuildOptions scalar = full;
-    scalar.packet_width = 1;
-    see_ = programs.kernel("atlas", "see", full);
-    flat_ = programs.kernel("atlas", "flat", scalar);
-    see_listed_ = programs.kernel("atlas", "see_listed", full);
-    see_blocks_ = programs.kernel("atlas", "see_blocks", full);
-    gather_ = programs.kernel("atlas", "gather", full);
-    geometry_ = programs.kernel("atlas", "geometry", scalar);
-    replicate_ = programs.kernel("atlas", "replicate", scalar);
-    project_ = programs.kernel("atlas", "project", scalar);
-    nearest_ = programs.kernel("atlas", "nearest", full);
-    complete_ = programs.kernel("atlas", "complete", full);
+    see_ = programs.kernel("atlas", "see", full(options));
+    flat_ = programs.kernel("atlas", "flat", scalar(options));
+    see_listed_ = programs.kernel("atlas", "see_listed", full(options));
+    see_blocks_ = programs.kernel("atlas", "see_blocks", full(options));
+    gather_ = programs.kernel("atlas", "gather", full(options));
+    geometry_ = programs.kernel("atlas", "geometry", scalar(options));
+    replicate_ = programs.kernel("atlas", "replicate", scalar(options));
+    project_ = programs.kernel("atlas", "project", scalar(options));
+    nearest_ = programs.kernel("atlas", "nearest", full(options));
+    complete_ = programs.kernel("atlas", "complete", full(options));
     show_ = programs.kernel("atlas", "show", options);
 }
 

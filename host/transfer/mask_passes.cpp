@@ -7,6 +7,7 @@
 #include "opencl/launch.hpp"
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
+#include "opencl/variants.hpp"
 
 namespace clgi {
 namespace {
@@ -24,16 +25,6 @@ MaskOptions checked(const MaskOptions& options) {
         throw Error("masks: block is " + std::to_string(options.block) + ", 1, 2, 4 or 8 needed");
     need_range("masks", "bands", options.bands, 1, sh::most_bands);
     return options;
-}
-
-BuildOptions full(BuildOptions options) {
-    options.storage = Storage::full;
-    return options;
-}
-
-BuildOptions scalar(BuildOptions options) {
-    options.packet_width = 1;
-    return full(options);
 }
 
 void need_receivers(const PassKernel& pass, const ReceiverBuffers& r) {

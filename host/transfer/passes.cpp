@@ -4,6 +4,7 @@
 
 #include "opencl/launch.hpp"
 #include "opencl/program.hpp"
+#include "opencl/variants.hpp"
 #include "transfer/sh_check.hpp"
 
 namespace clgi {
@@ -77,18 +78,14 @@ void need_environment(const PassKernel& pass, const ProjectParams& params, int b
 TransferPasses::TransferPasses(const Programs& programs, const BuildOptions& options, int bands)
     : bands_(bands) {
     sh::need_bands(bands);
-    BuildOptions full = options;  // planes of the room are float, whatever storage others have
-    full.storage = Storage::full;
     const std::string defines = "-DCLGI_SH_BANDS=" + std::to_string(bands);
-    BuildOptions scalar = full;
-    scalar.packet_width = 1;
     const auto kernel = [&](const char* pass, const BuildOptions& how) {
         return in_small_groups(programs.kernel("transfer", pass, how, defines), programs.device(),
                                options);
     };
-    project_rows_ = kernel("project_rows", full);
-    project_columns_ = kernel("project_columns", scalar);
-    project_environment_ = kernel("project_environment", scalar);
+    project_rows_ = kernel("project_rows", full(options));
+    project_columns_ = kernel("project_columns", scalar(options));
+    project_environment_ = kernel("project_environment", scalar(options));
 }
 
 void TransferPasses::build(std::initializer_list<const char*> passes) const {

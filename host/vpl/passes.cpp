@@ -9,22 +9,12 @@
 #include "opencl/launch.hpp"
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
+#include "opencl/variants.hpp"
 
 namespace clgi {
 namespace {
 
 constexpr std::size_t word = sizeof(float);
-
-// Planes of the room are float, whatever storage others have.
-BuildOptions full(BuildOptions options) {
-    options.storage = Storage::full;
-    return options;
-}
-
-BuildOptions scalar(BuildOptions options) {
-    options.packet_width = 1;
-    return full(options);
-}
 
 SiteParams site_params(const SiteBuffers& b) {
     return {b.site_count, b.stride, b.sample_count, b.sample_stride};
