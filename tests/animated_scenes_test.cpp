@@ -3,11 +3,10 @@
 #include "gltf_truth.hpp"  // before headers that bring io's tinygltf, if any
 
 #include <gtest/gtest.h>
-#include <chrono>
 #include <clgi/io/gltf.hpp>
 #include <clgi/scene_animator.hpp>
 
-#include "device.hpp"
+#include "read_back.hpp"
 
 namespace clgi {
 namespace {
@@ -69,20 +68,6 @@ void expect_true(const Scene& scene, const std::vector<TrueCorner>& truth, doubl
     EXPECT_LE(worst_normal, normal_near) << where;
 }
 
-// The scene with what the device has of it.
-Scene read_back(Scene scene, const DeviceScene& device) {
-    const std::size_t count = device.info().vertex_count;
-    const auto positions = test::download<glm::vec4>(device.positions(), count);
-    const auto normals = test::download<glm::vec4>(device.normals(), count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t vertex = device.vertex_order()[i];
-        scene.positions[vertex] =
-            device.frame().origin + glm::dvec3(positions[i]) / device.frame().scale;
-        scene.normals[vertex] = glm::vec3(normals[i]);
-    }
-    return scene;
-}
-
 TEST(AnimatedScenes, AreWhereTheFormulasSay) {
     if (!std::filesystem::exists(scenes)) GTEST_SKIP() << "no scenes in " << scenes;
     for (const char* file : files) {
@@ -108,7 +93,7 @@ TEST(AnimatedScenes, AreWhereTheFormulasSay) {
                 animator.animate(clip, time).done.wait();
                 // A dozen roundings of numbers as large as the radius; normals of thin triangles
                 // lose more, the thinner they are.
-                expect_true(read_back(scene, device), corners, 16 * 0x1p-24 * radius, 2e-4, where);
+                expect_true(test::read_back(scene, device), corners, 16 * 0x1p-24 * radius, 2e-4, where);
                 const MoveStatus status = animator.status();
                 EXPECT_EQ(status.not_finite, 0u) << where;
                 EXPECT_TRUE(status.fits) << where;
@@ -153,34 +138,6 @@ TEST(AnimatedScenes, AtRestAreAsLoaded) {
             ASSERT_LE(glm::length(rest.normals[v] - scene.normals[v]), 2e-6f) << file << " " << v;
         }
         EXPECT_FALSE(rest.animation);
-    }
-}
-
-// Not a check: the figures of docs/benchmarks.md.
-TEST(AnimatedScenes, DISABLED_TakeSoLong) {
-    for (const char* file : {"bunny/bunny-skinned.glb", "animated/CesiumMan.glb",
-                             "animated/MorphStressTest.gltf", "animated/Fox.glb"}) {
-        const Scene scene = io::load_gltf(scenes / file);
-        DeviceScene device = test::on_device(scene);
-        SceneAnimator animator(test::device().queue, scene, device);
-        std::vector<double> host, whole;
-        const double duration = scene.animation->clips[0].duration;
-        for (int i = 0; i < 210; ++i) {
-            const auto start = std::chrono::steady_clock::now();
-            const Pose pose = pose_at(*scene.animation, 0, duration * i / 210);
-            const auto sampled = std::chrono::steady_clock::now();
-            animator.show(pose);
-            test::device().queue.finish();
-            const auto end = std::chrono::steady_clock::now();
-            if (i < 10) continue;
-            host.push_back(std::chrono::duration<double, std::micro>(sampled - start).count());
-            whole.push_back(std::chrono::duration<double, std::micro>(end - start).count());
-        }
-        std::sort(host.begin(), host.end());
-        std::sort(whole.begin(), whole.end());
-        std::printf("%s: %zu vertices, host %.1f us, all %.0f us (least %.0f), %.1f ns a vertex\n",
-                    file, scene.positions.size(), host[100], whole[100], whole[0],
-                    1e3 * whole[100] / static_cast<double>(scene.positions.size()));
     }
 }
 

@@ -99,4 +99,18 @@ TEST_F(AnimationProgram, RefusesWhatItCannotPlay) {
     EXPECT_NE(run("render " + scene + " --quiet --fps 0" + o).code, 0);
 }
 
+TEST_F(AnimationProgram, AStepsCostIsTold) {
+    const std::string strip = keep(clgi::test::strip_draft());
+    const Outcome outcome = run("bench animation --repeats 3 --json --quiet --scene " + strip);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto rows = nlohmann::json::parse(outcome.out).at("rows");
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].at("scene"), "strip");
+    EXPECT_EQ(rows[0].at("vertices"), 6);
+    EXPECT_GT(rows[0].at("step_us"), 0.0);
+    EXPECT_EQ(run("bench animation --quiet").err, "clgi: error: bench: animation needs --scene\n");
+    const std::string still = make("box");
+    EXPECT_EQ(run("bench animation --quiet --scene " + still).code, 1);
+}
+
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "frames.hpp"
 #include "posing.hpp"
+#include "read_back.hpp"
 #include "refusals.hpp"
 #include "turning.hpp"
 
@@ -23,20 +24,6 @@ SceneAnimator animator_of(const Scene& scene, DeviceScene& device,
     return SceneAnimator(test::device().queue, scene, device, options);
 }
 
-Scene read_back(Scene scene, const DeviceScene& device) {
-    const std::size_t count = device.info().vertex_count;
-    const auto positions = test::download<glm::vec4>(device.positions(), count);
-    const auto normals = test::download<glm::vec4>(device.normals(), count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t vertex = device.vertex_order()[i];
-        scene.positions[vertex] =
-            device.frame().origin + glm::dvec3(positions[i]) / device.frame().scale;
-        scene.normals[vertex] = glm::vec3(normals[i]);
-    }
-    scene.animation.reset();
-    return scene;
-}
-
 // The device has the host's pose. A dozen roundings of numbers as large as the scene; normals are
 // of a few numbers near 1.
 void expect_as_on_the_host(const Scene& source, double time, const std::string& where,
@@ -46,7 +33,7 @@ void expect_as_on_the_host(const Scene& source, double time, const std::string& 
     DeviceScene device = test::on_device(scene);
     SceneAnimator animator(test::device().queue, scene, device, options);
     animator.animate(0, time).done.wait();
-    const Scene found = read_back(scene, device), wanted = posed_at(scene, time);
+    const Scene found = test::read_back(scene, device), wanted = posed_at(scene, time);
     const double radius = device.frame().radius / device.frame().scale;
     for (std::size_t v = 0; v < wanted.positions.size(); ++v) {
         EXPECT_LE(glm::length(found.positions[v] - wanted.positions[v]), 16 * 0x1p-24 * radius)
@@ -224,7 +211,7 @@ TEST(SceneAnimator, GivesThePictureOfAFreshLoad) {
 
         const Scene host = posed_at(scene, time);
         Scene fresh = host;
-        const Scene found_there = read_back(scene, device);
+        const Scene found_there = test::read_back(scene, device);
         for (const PosedRange& range : scene.animation->ranges)
             for (std::uint32_t v = range.first_vertex; v < range.first_vertex + range.vertex_count;
                  ++v) {

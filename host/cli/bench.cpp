@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cctype>
+#include <clgi/error.hpp>
 #include <clgi/io/gltf.hpp>
 #include <clgi/procedural.hpp>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "cli/commands.hpp"
 #include "cli/session.hpp"
 #include "report/bench.hpp"
+#include "report/bench_animation.hpp"
 #include "report/bench_layer.hpp"
 #include "report/bench_schaerfig.hpp"
 #include "report/bench_views.hpp"
@@ -89,6 +91,43 @@ void run_layer(const BenchFlags& flags, const Session& session) {
     for (const report::LayerRow& row : rows)
         fmt::print("{:<20}{:>14.4f}{:>14.4f}{:>9.3f}\n", row.name, row.by_hand_ms, row.library_ms,
                    row.ratio);
+}
+
+void run_animation(const BenchFlags& flags, const Session& session) {
+    if (flags.scenes.empty()) throw Error("bench: animation needs --scene");
+    catch_interrupts();
+    const auto bar = progress_bar(flags.table, flags.device.quiet);
+    std::vector<std::pair<std::string, Scene>> scenes;
+    for (const std::string& file : flags.scenes)
+        scenes.emplace_back(std::filesystem::path(file).stem().string(), io::load_gltf(file));
+    report::AnimationSetup setup;
+    setup.queue = session.queue;
+    setup.build = build_of(flags.device);
+    setup.repeats = flags.repeats;
+    setup.progress = [&](double done) {
+        if (!bar(done)) throw Interrupted();
+        return true;
+    };
+    const auto rows = report::bench_animation(setup, scenes);
+    bar(1.0);
+    if (flags.json) {
+        nlohmann::ordered_json out = {{"table", "animation"},
+                                      {"device", describe(session.device)},
+                                      {"rows", nlohmann::ordered_json::array()}};
+        for (const report::AnimationRow& row : rows)
+            out["rows"].push_back({{"scene", row.scene},
+                                   {"vertices", row.vertices},
+                                   {"curves_us", row.curves_us},
+                                   {"step_us", row.step_us},
+                                   {"ns_per_vertex", row.ns_per_vertex}});
+        fmt::print("{}\n", out.dump(2));
+        return;
+    }
+    fmt::print("animation on {}\n\n{:<24}{:>10}{:>12}{:>10}{:>14}\n", describe(session.device),
+               "scene", "vertices", "curves us", "step us", "ns a vertex");
+    for (const report::AnimationRow& row : rows)
+        fmt::print("{:<24}{:>10}{:>12.1f}{:>10.0f}{:>14.1f}\n", row.scene, row.vertices,
+                   row.curves_us, row.step_us, row.ns_per_vertex);
 }
 
 void run_views(const BenchFlags& flags, const Session& session) {
@@ -203,6 +242,7 @@ void run_bench(const BenchFlags& flags) {
     if (flags.table == "schaerfig1") return run_schaerfig(flags, session);
     if (flags.table == "layer") return run_layer(flags, session);
     if (flags.table == "views") return run_views(flags, session);
+    if (flags.table == "animation") return run_animation(flags, session);
     report::BenchSetup setup;
     setup.queue = session.queue;
     setup.scene = flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh));
@@ -232,14 +272,16 @@ void add_bench(CLI::App& app) {
                      "cochran2: share of low resolution against error and frame rate; "
                      "schaerfig1: seconds of bakes against numbers of VPLs; "
                      "views: hemicubes per second; "
+                     "animation: time of a step of animated scenes; "
                      "layer: passes against the same kernels enqueued by hand")
         ->required()
         ->type_name("TABLE")
-        ->check(CLI::IsMember({"cochran1", "cochran2", "schaerfig1", "views", "layer"}));
+        ->check(CLI::IsMember({"cochran1", "cochran2", "schaerfig1", "views", "animation",
+                                "layer"}));
     command->add_option("--mesh", flags->mesh, "Mesh in the box, such as the Stanford bunny")
         ->type_name("FILE")
         ->default_str("a generated solid");
-    command->add_option("--scene", flags->scenes, "schaerfig1, views: one more scene; may be repeated")
+    command->add_option("--scene", flags->scenes, "schaerfig1, views, animation: one more scene; may be repeated")
         ->type_name("FILE")
         ->default_str("none");
     command
