@@ -51,8 +51,8 @@ struct Baked {
     std::vector<glm::vec3> picture(const LightAtlasViewOptions& options, const Camera& camera) {
         LightAtlasView view(test::programs(), test::device().queue, on_device, layout, options);
         view.render(camera, solver->irradiance_planes(), solver->stride()).wait();
-        EXPECT_EQ(view.non_finite(), 0u);
-        return test::vectors(test::device().queue, view.radiance(), view.stride(),
+        EXPECT_EQ(view.picture().non_finite(), 0u);
+        return test::vectors(test::device().queue, view.picture().radiance(), view.picture().stride(),
                              std::size_t(options.width) * std::size_t(options.height));
     }
 

@@ -15,10 +15,10 @@
 namespace clgi::cli {
 namespace {
 
-std::vector<std::string> effects_of(const DeviceScene& scene, const LightAtlasView& view) {
+std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& picture) {
     std::vector<std::string> out;
-    const bool direct = view.options().direct;
-    if (direct && !view.emitters().emitters.empty()) out.push_back("direct");
+    const bool direct = picture.options().direct;
+    if (direct && !picture.emitters().emitters.empty()) out.push_back("direct");
     if (direct && scene.has_lobes()) out.push_back("glossy-direct");
     if (direct && !scene.emissive().empty()) out.push_back("emission");
     if (direct && scene.environment()) out.push_back("environment");
@@ -81,10 +81,7 @@ void run_atlas(RenderFlags flags) {
     // The first picture warms up and is not timed.
     const Camera camera = scene.cameras[static_cast<std::size_t>(flags.camera)];
     view.render(camera, solver.irradiance_planes(), solver.stride()).wait();
-    const auto picture = [&] {
-        return report::radiance_picture(session.queue, view.radiance(), view.options().width,
-                                        view.options().height, view.stride());
-    };
+    const auto picture = [&] { return report::radiance_picture(session.queue, view.picture()); };
     for (int frame = 0; frame < flags.frames; ++frame) {
         const Stopwatch frame_watch;
         const Motion::Step step = motion.at(frame);
@@ -97,13 +94,13 @@ void run_atlas(RenderFlags flags) {
         view.render(step.camera, solver.irradiance_planes(), solver.stride());
         session.queue.finish();
         record.frame_ms.push_back(1e3 * frame_watch.seconds());
-        record.passes.push_back(report::pass_times(view.events()));
+        record.passes.push_back(report::pass_times(view.picture().events()));
         if (flags.fps) save_picture(picture(), numbered(flags.picture, frame));
         if (interrupted()) throw Interrupted();
     }
     if (!flags.fps) save_picture(picture(), flags.picture);
 
-    record.status.non_finite = view.non_finite() + solver.status().non_finite;
+    record.status.non_finite = view.picture().non_finite() + solver.status().non_finite;
     if (record.status.non_finite > 0)
         notice(false, fmt::format("warning: {} packets of pixels or texels held numbers that were "
                                   "not finite",
@@ -117,12 +114,12 @@ void run_atlas(RenderFlags flags) {
     }
     if (flags.stats.empty()) return;
     record.device = session.device;
-    record.build = view.options().build;
+    record.build = view.picture().options().build;
     record.method = "atlas";
     record.triangles = scene.triangles.size();
-    record.lights = view.emitters().emitters.size();
-    record.effects = effects_of(device_scene, view);
-    record.bytes = device_scene.bytes() + solver.bytes() + view.bytes();
+    record.lights = view.picture().emitters().emitters.size();
+    record.effects = effects_of(device_scene, view.picture());
+    record.bytes = device_scene.bytes() + solver.bytes() + view.picture().bytes();
     record.warnings = scene.warnings;
     record.bake = bake;
     save_stats(record, flags.stats);

@@ -15,15 +15,9 @@ std::uint8_t encoded(float linear) {
     return static_cast<std::uint8_t>(s * 255.0f + 0.5f);
 }
 
-}  // namespace
-
-io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
-    return radiance_picture(queue, solver.radiance(), solver.options().width,
-                            solver.options().height, solver.stride());
-}
-
-io::Image radiance_picture(const cl::CommandQueue& queue, const cl::Buffer& radiance, int width,
-                           int height, std::size_t stride) {
+// Planes of radiance, stride floats apart.
+io::Image planes_as_picture(const cl::CommandQueue& queue, const cl::Buffer& radiance, int width,
+                            int height, std::size_t stride) {
     io::Image image;
     image.width = width;
     image.height = height;
@@ -37,6 +31,19 @@ io::Image radiance_picture(const cl::CommandQueue& queue, const cl::Buffer& radi
     }
     return image;
 }
+
+}  // namespace
+
+io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
+    return planes_as_picture(queue, solver.radiance(), solver.options().width,
+                             solver.options().height, solver.stride());
+}
+
+io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture) {
+    return planes_as_picture(queue, picture.radiance(), picture.options().width,
+                             picture.options().height, picture.stride());
+}
+
 
 float preview_exposure(const io::Image& picture) {
     std::vector<double> luminance = luminance_of(picture);

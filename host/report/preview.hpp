@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/io/image.hpp>
+#include <clgi/kit/picture.hpp>
 #include <clgi/solvers/second_order.hpp>
 #include <cstdint>
 #include <vector>
@@ -12,9 +13,7 @@ namespace clgi::report {
 // The solver's radiance as a picture with planes R, G and B. Waits for the queue.
 io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver);
 
-// The same of planes of radiance, stride floats apart.
-io::Image radiance_picture(const cl::CommandQueue& queue, const cl::Buffer& radiance, int width,
-                           int height, std::size_t stride);
+io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture);
 
 // A factor that leaves all but three in a hundred of the pixels that are not black below white.
 float preview_exposure(const io::Image& picture);

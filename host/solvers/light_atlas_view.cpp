@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/error.hpp>
-#include <clgi/kit/draw.hpp>
-#include <clgi/kit/emitters.hpp>
 #include <clgi/passes/atlas.hpp>
-#include <clgi/passes/image.hpp>
-#include <clgi/planes.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
-
-#include "opencl/check.hpp"
 
 namespace clgi {
 namespace {
-
-LightAtlasViewOptions checked(LightAtlasViewOptions options, const DeviceScene& scene) {
-    need_range<double>("light-atlas-view", "width", options.width, 1, 16384);
-    need_range<double>("light-atlas-view", "height", options.height, 1, 16384);
-    options.build.textures = options.build.textures && scene.needs_textures();
-    return options;
-}
 
 void check(const AtlasLayout& atlas, const DeviceScene& scene) {
     const std::size_t triangles = scene.triangle_order().size();
@@ -37,62 +23,31 @@ void check(const AtlasLayout& atlas, const DeviceScene& scene) {
 }  // namespace
 
 struct LightAtlasView::State {
-    State(const Programs& programs, const cl::CommandQueue& on, const DeviceScene& of,
-          const AtlasLayout& layout, const LightAtlasViewOptions& wanted)
-        : queue(on),
-          scene(of),
-          options(checked(wanted, of)),
-          gbuffer(programs, options.build),
-          atlas(programs, options.build),
-          image(programs, options.build),
-          emitters(scene, options.emitters, Pixels::depth),
-          record(queue, "light-atlas-view") {
+    State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,
+          const AtlasLayout& layout, const LightAtlasViewOptions& options)
+        : scene(of),
+          picture(programs, queue, of, options, "light-atlas-view"),
+          atlas(programs, picture.options().build) {
         check(layout, scene);
-        const BufferTable all = table(layout);
-        all.check(queue.getInfo<CL_QUEUE_DEVICE>(), options.memory_budget, scene.bytes());
-        all.allocate(record);
-        bytes = all.bytes();
-        build_draw(gbuffer, scene, emitters.set().views.size());
-        gbuffer.build({"clear", "raster", "raster_large", "raster_views"}, Pixels::depth);
+        BufferTable all = picture.table();
+        add_to(all, layout);
+        picture.allocate(all);
         atlas.build({"show"});
-        image.build({"combine"});
-        if (options.direct && scene.environment()) image.build({"environment"});
-        emitters.write(record);
-        record.fill(seen.planes, 0);  // emission is written where there is some
         upload(layout);
     }
 
-    std::size_t pixels() const {
-        return static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-    }
-
-    BufferTable table(const AtlasLayout& layout) {
-        const char* picture = "width and height";
+    void add_to(BufferTable& table, const AtlasLayout& layout) {
         const char* size = "the size of the atlas";
         const std::size_t word = sizeof(std::uint32_t), triangles = layout.triangle_page.size();
-        const Storage storage = options.build.storage;
-        seen.stride = plane_stride(pixels());
-        seen.storage = storage;
         map.size = static_cast<std::uint32_t>(layout.size);
         map.pages = static_cast<std::uint32_t>(layout.pages);
         map.texel_count = static_cast<std::uint32_t>(layout.texels.size());
-        BufferTable t("light-atlas-view");
-        emitters.add_to(t);
-        add_raster_lists(t, raster, scene);
-        t.add(raster.pixels, "the camera's visibility", picture, pixels() * sizeof(std::uint64_t));
-        t.add(view_buffer, "the camera's view", picture, sizeof(View));
-        t.add(seen.planes, "planes", picture, gbuffer_bytes(storage, seen.stride));
-        t.add(seen.ids, "ids", picture, GBUFFER_ID_PLANES * seen.stride * word);
-        t.add(irradiance, "irradiance", picture, irradiance_bytes(storage, seen.stride));
-        t.add(radiance, "radiance", picture, RADIANCE_PLANES * seen.stride * sizeof(float));
-        t.add(map.corners, "corners in the atlas", "the scene's triangles",
-              3 * triangles * sizeof(glm::vec2));
-        t.add(map.charts, "charts of triangles", "the scene's triangles", 2 * triangles * word);
-        t.add(map.map, "the atlas's map", size,
-              std::size_t{map.pages} * map.size * map.size * word);
-        t.add(map.chart_of, "charts of texels", size, map.texel_count * word);
-        t.add_word(bad, "counters", 0);
-        return t;
+        table.add(map.corners, "corners in the atlas", "the scene's triangles",
+                  3 * triangles * sizeof(glm::vec2));
+        table.add(map.charts, "charts of triangles", "the scene's triangles", 2 * triangles * word);
+        table.add(map.map, "the atlas's map", size,
+                  std::size_t{map.pages} * map.size * map.size * word);
+        table.add(map.chart_of, "charts of texels", size, map.texel_count * word);
     }
 
     void upload(const AtlasLayout& layout) {
@@ -111,7 +66,7 @@ struct LightAtlasView::State {
         }
         const auto write = [&](const cl::Buffer& buffer, const auto& values) {
             if (!values.empty())
-                record.write(buffer, values.data(), values.size() * sizeof(values[0]));
+                picture.record().write(buffer, values.data(), values.size() * sizeof(values[0]));
         };
         write(map.corners, corners);
         write(map.charts, charts);
@@ -120,62 +75,24 @@ struct LightAtlasView::State {
     }
 
     void show(const cl::Buffer& light, std::uint32_t light_stride) {
-        const ShowParams params{static_cast<std::uint32_t>(pixels()),
-                                seen.stride,
+        const ShowParams params{static_cast<std::uint32_t>(picture.pixels()),
+                                picture.stride(),
                                 scene.info().triangle_count,
                                 map.texel_count,
                                 light_stride,
                                 map.size,
                                 map.pages,
                                 0};
-        record("atlas.show", pixels(), [&](const WaitList& wait) {
-            return atlas.show(queue, params, scene, seen, map, light, irradiance, wait);
+        picture.record()("atlas.show", picture.pixels(), [&](const WaitList& wait) {
+            return atlas.show(picture.record().queue(), params, scene, picture.gbuffer(), map,
+                              light, picture.irradiance(), wait);
         });
     }
 
-    void combine(const View& view) {
-        CombineParams params =
-            combine_params(scene, view, seen.stride, emitters.set().emitters.size(), Pixels::depth);
-        params.effects |= COMBINE_INDIRECT;
-        if (options.direct) {
-            params.effects |= COMBINE_DIRECT | COMBINE_EMISSION;
-            if (scene.has_lobes()) params.effects |= COMBINE_SPECULAR;
-        }
-        record("image.combine", pixels(), [&](const WaitList& wait) {
-            return image.combine(queue, params, view, scene,
-                                 {emitters.buffers(), seen, irradiance, radiance, bad}, wait);
-        });
-    }
-
-    cl::Event render(const Camera& camera, const cl::Buffer& light, std::uint32_t light_stride,
-                     const WaitList& wait) {
-        const View view = make_view(camera, scene.frame(), options.width, options.height);
-        record.begin(wait);
-        if (options.direct) emitters.draw(record, gbuffer, raster);
-        draw_gbuffer(record, gbuffer, scene, view, view_buffer, raster, seen, RESOLVE_TRIANGLE);
-        show(light, light_stride);
-        combine(view);
-        if (options.direct && scene.environment())
-            record("image.environment", pixels(), [&](const WaitList& before) {
-                return image.environment(queue, environment_params(scene, seen.stride), view,
-                                         scene.environment_texels(), seen.planes, radiance, before);
-            });
-        return record.last();
-    }
-
-    cl::CommandQueue queue;
     const DeviceScene& scene;
-    LightAtlasViewOptions options;
-    GBufferPasses gbuffer;
+    Picture picture;
     AtlasPasses atlas;
-    ImagePasses image;
-    Emitters emitters;
-    mutable Recorder record;
-    RasterBuffers raster;
-    GBuffer seen;
     AtlasMap map;
-    cl::Buffer view_buffer, irradiance, radiance, bad;
-    std::size_t bytes = 0;
 };
 
 LightAtlasView::LightAtlasView(const Programs& programs, const cl::CommandQueue& queue,
@@ -185,29 +102,17 @@ LightAtlasView::LightAtlasView(const Programs& programs, const cl::CommandQueue&
 
 LightAtlasView::~LightAtlasView() = default;
 
-void LightAtlasView::lights_changed() {
-    State& s = *state_;
-    if (!s.emitters.update(s.options.emitters))
-        throw Error("light-atlas-view: a light needs more views than before; make another view");
-    s.record.forget_failed();
-    s.emitters.write(s.record);
-}
+void LightAtlasView::lights_changed() { state_->picture.lights_changed(); }
 
 cl::Event LightAtlasView::render(const Camera& camera, const cl::Buffer& light,
                                  std::uint32_t light_stride, const WaitList& wait) {
-    return state_->render(camera, light, light_stride, wait);
+    State& s = *state_;
+    const View view = s.picture.begin(camera, wait);
+    s.show(light, light_stride);
+    s.picture.combine(view);
+    return s.picture.end(view);
 }
 
-std::uint32_t LightAtlasView::non_finite() const { return state_->record.read_word(state_->bad); }
-
-const std::vector<PassEvent>& LightAtlasView::events() const { return state_->record.events(); }
-Interval LightAtlasView::interval() const { return state_->record.interval(); }
-const LightAtlasViewOptions& LightAtlasView::options() const { return state_->options; }
-const EmitterSet& LightAtlasView::emitters() const { return state_->emitters.set(); }
-std::size_t LightAtlasView::bytes() const { return state_->bytes; }
-std::uint32_t LightAtlasView::stride() const { return state_->seen.stride; }
-const cl::Buffer& LightAtlasView::radiance() const { return state_->radiance; }
-const cl::Buffer& LightAtlasView::irradiance() const { return state_->irradiance; }
-const GBuffer& LightAtlasView::gbuffer() const { return state_->seen; }
+const Picture& LightAtlasView::picture() const { return state_->picture; }
 
 }  // namespace clgi

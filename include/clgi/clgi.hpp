@@ -16,6 +16,7 @@
 #include <clgi/kit/buffer_table.hpp>
 #include <clgi/kit/draw.hpp>
 #include <clgi/kit/emitters.hpp>
+#include <clgi/kit/picture.hpp>
 #include <clgi/kit/recorder.hpp>
 #include <clgi/mask_weights.hpp>
 #include <clgi/passes/atlas.hpp>

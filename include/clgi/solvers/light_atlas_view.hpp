@@ -5,25 +5,13 @@
 
 #include <clgi/atlas_layout.hpp>
 #include <clgi/device_scene.hpp>
-#include <clgi/emitters.hpp>
-#include <clgi/interval.hpp>
-#include <clgi/kit/recorder.hpp>
-#include <clgi/passes/gbuffer.hpp>
+#include <clgi/kit/picture.hpp>
 #include <clgi/programs.hpp>
 #include <memory>
-#include <vector>
 
 namespace clgi {
 
-struct LightAtlasViewOptions {
-    int width = 640;  // pixels
-    int height = 480;
-    EmitterOptions emitters;  // for direct light; emitters.vpls is not used
-    bool direct = true;       // with its gloss, emission and the environment
-    // Bytes that the buffers may take together; 0: what the device has beside the scene.
-    std::size_t memory_budget = 0;
-    BuildOptions build;
-};
+using LightAtlasViewOptions = PictureOptions;
 
 // Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
 // outlive this object; the layout is not needed afterwards. One thread at a time.
@@ -50,20 +38,8 @@ public:
     cl::Event render(const Camera& camera, const cl::Buffer& light, std::uint32_t light_stride,
                      const WaitList& wait = {});
 
-    // Waits for the last picture. Packets of pixels with numbers that were not finite and were
-    // replaced, since the start.
-    std::uint32_t non_finite() const;
-
-    // As SecondOrderSolver has them.
-    const std::vector<PassEvent>& events() const;
-    Interval interval() const;
-    const LightAtlasViewOptions& options() const;
-    const EmitterSet& emitters() const;
-    std::size_t bytes() const;
-    std::uint32_t stride() const;
-    const cl::Buffer& radiance() const;    // [RADIANCE_PLANES][stride()] cd/m^2
-    const cl::Buffer& irradiance() const;  // [IRRADIANCE_PLANES][stride()], of the atlas, exposed
-    const GBuffer& gbuffer() const;
+    // What was drawn last, with its buffers, passes and times.
+    const Picture& picture() const;
 
 private:
     struct State;
