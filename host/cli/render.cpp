@@ -196,12 +196,18 @@ void run_second_order(RenderFlags flags) {
 }
 
 void run_render(RenderFlags flags) {
-    const bool atlas = flags.method == "atlas";
-    const std::vector<std::string>& foreign = atlas ? flags.second_order_only : flags.atlas_only;
-    if (!foreign.empty())
-        throw Error(fmt::format("render: {} goes {}with --method atlas", foreign.front(),
-                                atlas ? "not " : "only "));
-    atlas ? run_atlas(std::move(flags)) : run_second_order(std::move(flags));
+    const bool atlas = flags.method == "atlas", transfer = flags.method == "transfer";
+    const auto refuse = [](bool wrong, const std::vector<std::string>& given,
+                           const std::string& why) {
+        if (wrong && !given.empty()) throw Error("render: " + given.front() + " goes " + why);
+    };
+    refuse(atlas || transfer, flags.second_order_only, "not with --method " + flags.method);
+    refuse(!atlas, flags.atlas_only, "only with --method atlas");
+    refuse(!transfer, flags.transfer_only, "only with --method transfer");
+    refuse(transfer, flags.not_transfer, "not with --method transfer");
+    if (atlas) return run_atlas(std::move(flags));
+    if (transfer) return run_transfer(std::move(flags));
+    run_second_order(std::move(flags));
 }
 
 }  // namespace
@@ -216,10 +222,10 @@ void add_render(CLI::App& app) {
     add_picture_flags(*command, flags->picture, options.width, options.height);
     command
         ->add_option("--method", flags->method,
-                     "auto is second-order; atlas: many bounces, baked first; direct: no indirect "
-                     "light")
+                     "auto is second-order; atlas: many bounces, baked first; transfer: light of the "
+                     "environment with its shadows; direct: no indirect light")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"auto", "second-order", "atlas", "direct"}));
+        ->check(CLI::IsMember({"auto", "second-order", "atlas", "transfer", "direct"}));
     add_place_options(*command, flags->scene_index, flags->camera);
     command->add_option("--vpls", options.emitters.vpls, "VPLs of all emitters together")
         ->type_name("N")
@@ -247,6 +253,7 @@ void add_render(CLI::App& app) {
             "atlas, with --spin-light: change of a VPL's power that lights texels anew, of "
             "the mean power of VPLs")
         ->type_name("X");
+    add_transfer_flags(*command, flags->transfer);
     command->add_option("--gbuffer", flags->gbuffer, "What rasterises the camera's view")
         ->type_name("WHAT")
         ->check(CLI::IsMember({"cl", "gl"}));
@@ -283,6 +290,9 @@ void add_render(CLI::App& app) {
         flags->atlas_only =
             given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--refine",
                              "--least-change"});
+        flags->transfer_only = given(*command, {"--sh-order", "--mask", "--table", "--mask-block",
+                                                "--sh-window", "--per-pixel", "--probe-step"});
+        flags->not_transfer = given(*command, {"--vpls", "--no-direct", "--environment-lights"});
         flags->atlas.bake.emitters = flags->options.emitters;
         if (command->count("--shadow-size") == 0)
             flags->atlas.bake.emitters.shadow_size = bake_emitters().shadow_size;

@@ -23,6 +23,16 @@ struct AtlasFlags {
     std::string least_change = "0.1%";  // that a VPL sends on, of the mean power of VPLs
 };
 
+// How --method transfer finds the environment's light.
+struct TransferFlags {
+    DynamicTransferOptions solver;
+    int order = sh::default_bands - 1;
+    int table = 0;  // of half-planes; 0: exact ones
+    std::string window = "none";
+    std::string per_pixel = "0.1";
+    int probe_step = 8;
+};
+
 struct RenderFlags {
     DeviceFlags device;
     PictureFlags picture;
@@ -44,11 +54,16 @@ struct RenderFlags {
     bool no_direct = false;
     SecondOrderOptions options;
     AtlasFlags atlas;
-    // Flags given that go with one kind of method alone.
-    std::vector<std::string> second_order_only, atlas_only;
+    TransferFlags transfer;
+    // Flags given that go with one kind of method alone, and those that do not go with transfer.
+    std::vector<std::string> second_order_only, atlas_only, transfer_only, not_transfer;
 };
 
 // Bakes an atlas and shows the scene with it.
 void run_atlas(RenderFlags flags);
+
+// Finds the light of the environment at vertices and pixels.
+void run_transfer(RenderFlags flags);
+void add_transfer_flags(CLI::App& command, TransferFlags& flags);
 
 }  // namespace clgi::cli

@@ -71,6 +71,11 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                        {"pages", record.bake->pages},
                        {"layout_ms", record.bake->layout_ms},
                        {"bake_ms", record.bake->bake_ms}};
+    if (record.transfer)
+        out["transfer"] = {{"receivers", record.transfer->receivers},
+                           {"triangles", record.transfer->triangles},
+                           {"terms", record.transfer->terms},
+                           {"receiver_pixels", record.transfer->receiver_pixels}};
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
     io::AtomicFile file(path);
     const std::string text = out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

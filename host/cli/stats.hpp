@@ -24,6 +24,14 @@ struct BakeSummary {
     double bake_ms = 0.0;
 };
 
+// What --method transfer works on.
+struct TransferSummary {
+    std::uint32_t receivers = 0;  // vertices and their other sides
+    std::uint32_t triangles = 0;  // that block
+    int terms = 0;
+    std::uint32_t receiver_pixels = 0;  // of the last picture
+};
+
 struct RenderRecord {
     cl::Device device;
     BuildOptions build;
@@ -42,6 +50,7 @@ struct RenderRecord {
     std::optional<report::Replicates> replicates;
     std::optional<AskRecord> ask;  // where a result was asked for
     std::optional<BakeSummary> bake;
+    std::optional<TransferSummary> transfer;
     std::vector<std::string> warnings;
 };
 

@@ -16,6 +16,7 @@
 #include <clgi/kit/buffer_table.hpp>
 #include <clgi/kit/draw.hpp>
 #include <clgi/kit/emitters.hpp>
+#include <clgi/kit/environment_light.hpp>
 #include <clgi/kit/picture.hpp>
 #include <clgi/kit/recorder.hpp>
 #include <clgi/mask_weights.hpp>
@@ -26,6 +27,7 @@
 #include <clgi/passes/lights.hpp>
 #include <clgi/passes/masks.hpp>
 #include <clgi/passes/parallel.hpp>
+#include <clgi/passes/receivers.hpp>
 #include <clgi/passes/scene.hpp>
 #include <clgi/passes/transfer.hpp>
 #include <clgi/passes/vpl.hpp>
@@ -37,6 +39,8 @@
 #include <clgi/scene_mover.hpp>
 #include <clgi/sh.hpp>
 #include <clgi/slice.hpp>
+#include <clgi/solvers/dynamic_transfer.hpp>
+#include <clgi/solvers/dynamic_transfer_view.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
 #include <clgi/solvers/second_order.hpp>

@@ -13,9 +13,9 @@
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/atlas.h"
 #include "clgi/shared/gbuffer.h"
+#include "finite.clh"
+#include "gbuffer/barycentric.clh"
 #include "planes.clh"
-
-static int show_finite(float value) { return (as_uint(value) & 0x7fffffffu) < NOT_FINITE; }
 
 // Where a point of a triangle lies in its page, texels.
 static float2 show_place(float3 point, uint4 corners, global const float4* positions,
@@ -23,14 +23,8 @@ static float2 show_place(float3 point, uint4 corners, global const float4* posit
     float3 first = positions[corners.x].xyz;
     float3 e1 = positions[corners.y].xyz - first;
     float3 e2 = positions[corners.z].xyz - first;
-    float3 normal = cross(e1, e2);
-    float scale = dot(normal, normal);
-    scale = scale > 0.0f ? 1.0f / scale : 0.0f;
-    float3 to = point - first;
-    // A pixel's point may lie a little beside the triangle that it shows.
-    float b1 = clamp(dot(cross(to, e2), normal) * scale, 0.0f, 1.0f);
-    float b2 = clamp(dot(cross(e1, to), normal) * scale, 0.0f, 1.0f - b1);
-    return texels[0] + b1 * (texels[1] - texels[0]) + b2 * (texels[2] - texels[0]);
+    float2 b = barycentric(point - first, e1, e2, cross(e1, e2));
+    return texels[0] + b.x * (texels[1] - texels[0]) + b.y * (texels[2] - texels[0]);
 }
 
 kernel void atlas_show(
@@ -59,7 +53,7 @@ kernel void atlas_show(
                                 row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), at),
                                 row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), at));
         float2 place = show_place(point, triangles[triangle], positions, corners + 3 * triangle);
-        if (!show_finite(point.x) || !show_finite(point.y) || !show_finite(point.z)) {
+        if (!is_finite3(point)) {
             for (int c = 0; c < 3; ++c) sum[c] = as_float(0x7fc00000u);
             weight = 1.0f;
             place = (float2)(0.0f);

@@ -9,12 +9,7 @@
 // Writes       corners and box of its cluster; adds to status
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/masks.h"
-#include "packet.clh"
-
-CLGI_INLINE int is_finite3(float3 v) {
-    return (as_uint(v.x) & 0x7fffffffu) < NOT_FINITE && (as_uint(v.y) & 0x7fffffffu) < NOT_FINITE &&
-           (as_uint(v.z) & 0x7fffffffu) < NOT_FINITE;
-}
+#include "finite.clh"
 
 kernel void transfer_blockers(
     const BlockerParams     params,

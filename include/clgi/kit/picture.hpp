@@ -60,6 +60,9 @@ public:
     // replaced, since the start.
     std::uint32_t non_finite() const { return record_.read_word(bad_); }
 
+    // Waits for the last picture, and reads the first word of a buffer.
+    std::uint32_t read_word(const cl::Buffer& buffer) const { return record_.read_word(buffer); }
+
     // As SecondOrderSolver has them.
     const std::vector<PassEvent>& events() const { return record_.events(); }
     Interval interval() const { return record_.interval(); }

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <clgi/passes/parallel.hpp>
+#include <clgi/passes/receivers.hpp>
+#include <clgi/planes.hpp>
+#include <clgi/solvers/dynamic_transfer_view.hpp>
+#include <cmath>
+#include <vector>
+
+#include "opencl/check.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::size_t word = sizeof(std::uint32_t);
+constexpr const char* owner = "dynamic-transfer-view";
+
+// Pixels that are receivers at a time.
+constexpr std::uint32_t batch = 32768;
+
+// From a surface to the receiver at a pixel, of the scene's radius: more than positions of pixels
+// are rounded by, and less than anything that casts a shadow one can see.
+constexpr float lift = 1.52587890625e-5f;  // 2^-16
+
+PictureOptions without_sky(PictureOptions options) {
+    options.emitters.environment_lights = 0;
+    return options;
+}
+
+}  // namespace
+
+struct DynamicTransferView::State {
+    State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,
+          DynamicTransferSolver& from, const DynamicTransferViewOptions& options)
+        : scene(of),
+          solver(from),
+          picture(programs, queue, of, without_sky(options.picture), owner),
+          passes(programs, picture.options().build),
+          parallel(programs, picture.options().build),
+          threshold(options.threshold) {
+        if (!(threshold >= 0.0f))
+            throw Error("dynamic-transfer-view: threshold is " + std::to_string(threshold) +
+                        ", at least 0 needed");
+        need_range(owner, "probe_step", options.probe_step, 2, 64);
+        probe(static_cast<std::uint32_t>(options.probe_step));
+        BufferTable all = picture.table();
+        add_to(all);
+        picture.allocate(all);
+        passes.build({"show"});
+        if (solver.glossy()) passes.build({"add_gloss"});
+        if (some_pixels()) passes.build({"pixels", "place", "compare_probes", "undersampled"});
+        write();
+    }
+
+    bool some_pixels() const { return !std::isinf(threshold); }
+    bool all_pixels() const { return threshold == 0.0f; }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(picture.pixels()); }
+
+    void probe(std::uint32_t step) {
+        const auto width = static_cast<std::uint32_t>(picture.options().width);
+        const auto height = static_cast<std::uint32_t>(picture.options().height);
+        probing.width = width;
+        probing.height = height;
+        probing.threshold = threshold;
+        // A picture that is smaller than a step has a probe all the same.
+        probing.step = std::clamp(std::min(width, height), 2u, step);
+        if (width < 2 || height < 2) return;
+        const auto across = [&](std::uint32_t size) {
+            return (size - probing.step / 2 + probing.step - 1) / probing.step;
+        };
+        probing.columns = across(width);
+        probing.rows = across(height);
+        for (std::uint32_t row = 0; row < probing.rows; ++row)
+            for (std::uint32_t column = 0; column < probing.columns; ++column)
+                probes.push_back((row * probing.step + probing.step / 2) * width +
+                                 column * probing.step + probing.step / 2);
+    }
+
+    void add_to(BufferTable& t) {
+        const char* size = "width and height";
+        const std::size_t pixels = picture.pixels();
+        probing.pixel_stride = plane_stride(pixels);
+        if (solver.glossy())
+            t.add(gloss, "gloss", size,
+                  irradiance_bytes(picture.options().build.storage, probing.pixel_stride));
+        if (!some_pixels()) return;
+        const MaskOptions& masks = solver.options().masks;
+        const auto terms = static_cast<std::size_t>(sh::terms(masks.bands));
+        receivers.stride = plane_stride(
+            std::max<std::size_t>(probes.size(), std::min<std::size_t>(batch, pixels)));
+        probing.probe_stride = receivers.stride;
+        const std::size_t stride = receivers.stride;
+        t.add(receivers.planes, "receivers", size, RECEIVER_PLANES * stride * word);
+        t.add(receivers.masks, "masks", size,
+              static_cast<std::size_t>(MASK_WORDS(masks.size)) * stride * word);
+        t.add(receivers.transfer, "transfer vectors", size, terms * stride * word);
+        t.add(arriving, "irradiance of receivers", size, 3 * stride * word);
+        t.add(exponents, "exponents of lobes", size, stride * word);
+        t.add(probe_list.pixels, "probes", size, probes.size() * word);
+        t.add(probe_list.listed, "probes", size, word);
+        t.add(states, "probes", size, probes.size() * word);
+        // Runs of a list end at whole batches.
+        t.add(list.pixels, "listed pixels", size, (pixels + batch) * word);
+        t.add(list.listed, "listed pixels", size, word);
+        t.add(flags, "flags of pixels", size, pixels);
+        t.add(scratch, "listed pixels", size, scan_scratch_bytes(pixels));
+    }
+
+    void write() {
+        if (!some_pixels()) return;
+        const auto put = [&](const cl::Buffer& buffer, const std::vector<std::uint32_t>& values) {
+            if (!values.empty())
+                picture.record().write(buffer, values.data(), values.size() * word);
+        };
+        put(probe_list.pixels, probes);
+        put(probe_list.listed, {static_cast<std::uint32_t>(probes.size())});
+        if (!all_pixels()) return;
+        std::vector<std::uint32_t> all(count());
+        for (std::uint32_t i = 0; i < count(); ++i) all[i] = i;
+        put(list.pixels, all);
+        put(list.listed, {count()});
+    }
+
+    // Receivers at a run of pixels, and what arrives at them.
+    void light_pixels(const PixelParams& run, const PixelList& of) {
+        Recorder& record = picture.record();
+        const cl::CommandQueue& queue = record.queue();
+        receivers.count = run.count;
+        record("transfer.pixels", run.count, [&](const WaitList& wait) {
+            return passes.pixels(queue, run, of, scene, picture.gbuffer(), receivers, exponents,
+                                 wait);
+        });
+        record("transfer.mask", run.count, [&](const WaitList& wait) {
+            return solver.passes().mask(queue, receivers, solver.blockers(), solver.drawn(), wait);
+        });
+        record("transfer.integrate", run.count, [&](const WaitList& wait) {
+            return solver.passes().integrate(queue, receivers, solver.weights(),
+                                             solver.directions(), wait);
+        });
+        shade();
+    }
+
+    void shade() {
+        Recorder& record = picture.record();
+        record("transfer.shade", receivers.count, [&](const WaitList& wait) {
+            return solver.passes().shade(record.queue(), receivers, receivers.transfer,
+                                         solver.environment(), SHADE_CLAMP, arriving,
+                                         picture.counter(), wait);
+        });
+    }
+
+    void place(const PixelParams& run, const cl::Buffer& shown) {
+        Recorder& record = picture.record();
+        record("transfer.place", run.count, [&](const WaitList& wait) {
+            return passes.place(record.queue(), run, list, arriving, shown, wait);
+        });
+    }
+
+    PixelParams run_of(std::uint32_t first, std::uint32_t length) const {
+        return {
+            first, length, probing.pixel_stride, receivers.stride, lift * scene.frame().radius, 0,
+            0,     0};
+    }
+
+    void show(const View& view, const cl::Buffer& light, const cl::Buffer& shown) {
+        Recorder& record = picture.record();
+        const glm::vec4 eye =
+            view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
+        const ShowVerticesParams params{eye, count(), probing.pixel_stride,
+                                        scene.info().triangle_count, solver.receivers().stride};
+        record("transfer.show", count(), [&](const WaitList& wait) {
+            return passes.show(record.queue(), params, scene, solver.other_side(),
+                               picture.gbuffer(), light, shown, wait);
+        });
+    }
+
+    // Lists the pixels at which probes differ from what is shown.
+    void list_undersampled() {
+        Recorder& record = picture.record();
+        const auto number = static_cast<std::uint32_t>(probes.size());
+        light_pixels(run_of(0, number), probe_list);
+        record("transfer.compare_probes", number, [&](const WaitList& wait) {
+            return passes.compare_probes(record.queue(), probing, picture.gbuffer(),
+                                         picture.irradiance(), arriving, states, wait);
+        });
+        record("transfer.undersampled", count(), [&](const WaitList& wait) {
+            return passes.undersampled(record.queue(), probing, picture.gbuffer(), arriving, states,
+                                       picture.irradiance(), flags, wait);
+        });
+        record("parallel.list", count(), [&](const WaitList& wait) {
+            return parallel.list(record.queue(), count(), flags, list.pixels, list.listed, scratch,
+                                 wait);
+        });
+    }
+
+    void light_listed(const View& view) {
+        Recorder& record = picture.record();
+        for (std::uint32_t first = 0; first < count(); first += batch) {
+            const PixelParams run = run_of(first, std::min(batch, count() - first));
+            light_pixels(run, list);
+            place(run, picture.irradiance());
+            if (!solver.glossy()) continue;
+            record("transfer.integrate_gloss", run.count, [&](const WaitList& wait) {
+                return solver.passes().integrate_gloss(
+                    record.queue(), receivers, solver.weights(), solver.directions(), exponents,
+                    glm::vec3(view.eye), receivers.transfer, wait);
+            });
+            shade();
+            place(run, gloss);
+        }
+    }
+
+    cl::Event render(const Camera& camera, const WaitList& wait) {
+        const glm::vec3 eye = scene.frame().to_local(camera.position);
+        const WaitList ready = {solver.glossy() ? solver.reflect(eye, wait) : cl::Event()};
+        const View view = picture.begin(camera, solver.glossy() ? ready : wait);
+        if (!all_pixels()) {
+            show(view, solver.irradiance(), picture.irradiance());
+            if (solver.glossy()) show(view, solver.gloss(), gloss);
+        }
+        if (some_pixels() && !all_pixels() && !probes.empty()) list_undersampled();
+        if (some_pixels()) light_listed(view);
+        picture.combine(view);
+        if (solver.glossy()) {
+            Recorder& record = picture.record();
+            const AddGlossParams params{count(), probing.pixel_stride,
+                                        static_cast<float>(scene.frame().exposure), 0};
+            record("transfer.add_gloss", count(), [&](const WaitList& before) {
+                return passes.add_gloss(record.queue(), params, scene, picture.gbuffer(), gloss,
+                                        picture.radiance(), picture.counter(), before);
+            });
+        }
+        return picture.end(view);
+    }
+
+    const DeviceScene& scene;
+    DynamicTransferSolver& solver;
+    Picture picture;
+    ReceiverPasses passes;
+    ParallelPasses parallel;
+    float threshold;
+    ProbeParams probing{};
+    std::vector<std::uint32_t> probes;  // pixels
+    ReceiverBuffers receivers;          // at pixels
+    PixelList probe_list, list;
+    cl::Buffer gloss, arriving, exponents, states, flags, scratch;
+};
+
+DynamicTransferView::DynamicTransferView(const Programs& programs, const cl::CommandQueue& queue,
+                                         const DeviceScene& scene, DynamicTransferSolver& solver,
+                                         const DynamicTransferViewOptions& options)
+    : state_(std::make_unique<State>(programs, queue, scene, solver, options)) {}
+
+DynamicTransferView::~DynamicTransferView() = default;
+
+void DynamicTransferView::lights_changed() { state_->picture.lights_changed(); }
+
+cl::Event DynamicTransferView::render(const Camera& camera, const WaitList& wait) {
+    return state_->render(camera, wait);
+}
+
+const Picture& DynamicTransferView::picture() const { return state_->picture; }
+
+std::uint32_t DynamicTransferView::receiver_pixels() const {
+    const State& s = *state_;
+    return s.some_pixels() ? s.picture.read_word(s.list.listed) : 0;
+}
+
+std::size_t DynamicTransferView::bytes() const { return state_->picture.bytes(); }
+
+}  // namespace clgi

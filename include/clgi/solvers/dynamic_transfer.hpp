@@ -1,0 +1,107 @@
+// Self-shadowed light of an environment, without precomputation: for every vertex a mask of the
+// directions in which triangles block the view, integrated to a transfer vector, times the light.
+//                                                                                      [Kautz04]
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+#include <clgi/interval.hpp>
+#include <clgi/kit/buffer_table.hpp>
+#include <clgi/kit/recorder.hpp>
+#include <clgi/mask_weights.hpp>
+#include <clgi/passes/masks.hpp>
+#include <clgi/passes/transfer.hpp>
+#include <clgi/programs.hpp>
+#include <clgi/scene.hpp>
+#include <memory>
+#include <vector>
+
+namespace clgi {
+
+struct DynamicTransferOptions {
+    MaskOptions masks;
+    CellIntegral cells = CellIntegral::exact;
+    sh::Window window = sh::Window::none;  // of transfer vectors, against ringing
+    bool gloss = true;                     // the Phong lobes of materials, where the scene has some
+    bool directional = false;              // directional lights are part of the environment
+    // Bytes that the buffers may take together; 0: what the device has beside the scene.
+    std::size_t memory_budget = 0;
+    BuildOptions build;
+};
+
+// What masks, vectors and light found out, since the start.
+struct TransferStatus {
+    std::uint32_t bad_receivers = 0;  // whose position or normal is not finite
+    std::uint32_t bad_blockers = 0;   // triangles that are not finite; they block nothing
+    std::uint32_t bad_texels = 0;     // floats of the environment that are not finite, read as 0
+    std::uint32_t non_finite = 0;     // packets of receivers whose light is not finite
+};
+
+// Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
+// outlive the solver. One thread at a time.
+//
+// Receivers 0 to vertex_count - 1 are the vertices of the device, in its order. Behind them are the
+// other sides of those on double-sided surfaces. Surfaces with an alpha mask block as a whole.
+class CLGI_API DynamicTransferSolver {
+public:
+    // Builds kernels and allocates. scene: what `device` was made from; it is not needed
+    // afterwards. Throws Error for options out of range, DeviceError when memory does not suffice.
+    DynamicTransferSolver(const Programs& programs, const cl::CommandQueue& queue,
+                          const Scene& scene, const DeviceScene& device,
+                          const DynamicTransferOptions& options = {});
+    ~DynamicTransferSolver();
+    DynamicTransferSolver(const DynamicTransferSolver&) = delete;
+    DynamicTransferSolver& operator=(const DynamicTransferSolver&) = delete;
+
+    // Reads directional lights again, after DeviceScene::set_light, for the next light().
+    void lights_changed();
+
+    // Turns the environment about +Y, radians, beside its own rotation, for the next light().
+    void turn_environment(double angle);
+
+    // Enqueues masks and transfer vectors of the geometry as it is now. Vectors stay good as long
+    // as no vertex moves.
+    cl::Event transfer(const WaitList& wait = {});
+
+    // Enqueues the projection of the environment and what arrives: irradiance().
+    cl::Event light(const WaitList& wait = {});
+
+    // Enqueues what the lobes of materials reflect to an eye, local frame: gloss(). For a scene
+    // without lobes, and without DynamicTransferOptions::gloss, no kernel is enqueued.
+    cl::Event reflect(const glm::vec3& eye, const WaitList& wait = {});
+
+    // transfer() and light(); false if progress cancelled. Waits after each part.
+    bool run(const Progress& progress = nullptr);
+
+    // Waits for what was enqueued.
+    TransferStatus status() const;
+
+    // Passes since the last transfer(), light() or reflect() that was not enqueued behind another.
+    const std::vector<PassEvent>& events() const;
+    Interval interval() const;
+
+    const DynamicTransferOptions& options() const;
+    bool glossy() const;  // there are lobes, and they are wanted
+    std::size_t bytes() const;
+
+    // Results, valid when the event is complete.
+    const ReceiverBuffers& receivers() const;  // with masks and transfer vectors
+    const cl::Buffer& irradiance() const;      // [3][receivers().stride] exposed lux
+    const cl::Buffer& gloss() const;           // [3][receivers().stride] exposed cd/m^2
+    const cl::Buffer& other_side() const;      // [vertex_count] uint: receiver or RECEIVER_NONE
+    const cl::Buffer& environment() const;     // [terms] float4: exposed cd/m^2 sr
+
+    // What masks of other receivers of this scene are made with.
+    const MaskPasses& passes() const;
+    const BlockerBuffers& blockers() const;  // all triangles at full detail, one list
+    const cl::Buffer& drawn() const;         // what MaskPasses::mask draws with
+    const cl::Buffer& weights() const;       // of MaskWeights
+    const cl::Buffer& directions() const;    // of MaskWeights
+    const cl::Buffer& counter() const;       // [1] uint, of TransferStatus::non_finite
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace clgi

@@ -1,0 +1,43 @@
+// Adds to a picture what the lobes of its surfaces make of the light.
+//
+//   L = (coat + lobe share * base colour) * light,  light: of the lobe of transfer/integrate.cl
+//                                          [Kautz04, Eq. 1; derived: docs/materials.md, two shares]
+//
+// Values that are not finite are counted and left out.
+//
+// Work size    1D, one work-item a pixel; any local size; tail guarded
+// Writes       radiance of its own pixel; adds to non_finite
+// SPDX-License-Identifier: MIT
+#include "clgi/shared/gbuffer.h"
+#include "clgi/shared/receivers.h"
+#include "clgi/shared/scene.h"
+#include "finite.clh"
+#include "planes.clh"
+
+kernel void transfer_add_gloss(
+    const AddGlossParams           params,
+    global const MaterialRecord*   restrict materials,
+    global const float*            restrict planes,    // [GBUFFER_PLANES][pixel_stride]
+    global const int*              restrict ids,       // [GBUFFER_ID_PLANES][pixel_stride]
+    global const float*            restrict light,     // [3][pixel_stride] of the lobes, exposed
+    global float*                  restrict radiance,  // [3][pixel_stride] cd/m^2
+    global uint*                   restrict non_finite) // [1]
+{
+    uint pixel = (uint)get_global_id(0);
+    if (pixel >= params.pixel_count) return;
+    uint stride = params.pixel_stride;
+    int material = ids[GBUFFER_MATERIAL * stride + pixel];
+    if (material < 0) return;
+    float4 reflectance = materials[material].reflectance;
+    if (!(reflectance.y + reflectance.z > 0.0f)) return;
+    for (int c = 0; c < 3; ++c) {
+        float base = row_load_one(gbuffer_row(planes, GBUFFER_BASE + c, stride), pixel);
+        float arrives = row_load_one(irradiance_row(light, c, stride), pixel);
+        float sum = fma(fma(reflectance.z, base, reflectance.y) * params.exposure,
+                        arrives > 0.0f ? arrives : 0.0f, radiance[c * stride + pixel]);
+        if (is_finite(arrives) && is_finite(sum))
+            radiance[c * stride + pixel] = sum;
+        else
+            atomic_inc(non_finite);
+    }
+}
