@@ -81,8 +81,10 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
     receivers_ = programs.kernel("transfer", "receivers", scalar(options));
     blockers_ = few("blockers", scalar(options), "");
     planes_ = programs.kernel("transfer", "planes", full(options), size);
-    mask_ = few("mask", full(options),
-                masks_.planes == EdgePlanes::table ? size + " -DCLGI_TABLE" : size);
+    const std::string drawn = masks_.planes == EdgePlanes::table ? size + " -DCLGI_TABLE" : size;
+    mask_ = few("mask", full(options), drawn);
+    mask_near_ = few("mask", full(options), drawn + " -DCLGI_NEAR");
+    mask_near_.name = "transfer.mask_near";
     const std::string bands = " -DCLGI_SH_BANDS=" + std::to_string(masks_.bands);
     const std::string cells = size + " -DCLGI_BLOCK=" + std::to_string(masks_.block) + bands;
     integrate_ = few("integrate", full(options), cells);
@@ -92,8 +94,9 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
 }
 
 void MaskPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({receivers_, blockers_, planes_, mask_, integrate_, integrate_gloss_, shade_},
-                passes);
+    build_named(
+        {receivers_, blockers_, planes_, mask_, mask_near_, integrate_, integrate_gloss_, shade_},
+        passes);
 }
 
 cl::Event MaskPasses::receivers(const cl::CommandQueue& queue, const cl::Buffer& positions,
@@ -134,16 +137,18 @@ cl::Event MaskPasses::planes(const cl::CommandQueue& queue, const cl::Buffer& he
 cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                            const BlockerBuffers& b, const cl::Buffer& drawn,
                            const WaitList& wait) const {
-    need_receivers(mask_, r);
-    need_blockers(mask_, b);
+    const bool singles = b.near_lists() || b.near();
+    const PassKernel& pass = singles ? mask_near_ : mask_;
+    need_receivers(pass, r);
+    need_blockers(pass, b);
     if (b.receivers_per_list == 0)
-        throw Error("transfer.mask: receivers_per_list is 0, at least 1 needed");
+        throw Error(pass.name + ": receivers_per_list is 0, at least 1 needed");
     const std::size_t lists =
         (std::size_t{r.count} + b.receivers_per_list - 1) / b.receivers_per_list;
-    need(mask_, "lists", b.lists, (lists + 1) * word);
-    need(mask_, "ranges", b.ranges, 2 * word);
-    need(mask_, "drawn", drawn, mask_table_bytes(masks_));
-    need(mask_, "masks", r.masks,
+    need(pass, "lists", b.lists, (lists + 1) * word);
+    need(pass, "ranges", b.ranges, 2 * word);
+    need(pass, "drawn", drawn, mask_table_bytes(masks_));
+    need(pass, "masks", r.masks,
          std::size_t{MASK_WORDS(static_cast<std::size_t>(masks_.size))} * r.stride * word);
     const MaskParams params{r.count,
                             r.stride,
@@ -153,8 +158,13 @@ cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers&
                             0,
                             0,
                             0};
-    return launch(mask_, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
-                  b.corners, drawn, r.masks);
+    if (!singles)
+        return launch(pass, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
+                      b.corners, drawn, r.masks);
+    need(pass, "near_lists", b.near_lists, (std::size_t{r.count} + 1) * word);
+    need(pass, "near", b.near, word);
+    return launch(pass, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
+                  b.corners, drawn, b.near_lists, b.near, r.masks);
 }
 
 std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,

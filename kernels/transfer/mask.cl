@@ -8,12 +8,17 @@
 // the planes of their edges are evaluated at every pixel of the box. With CLGI_TABLE three masks of
 // the table of planes are combined instead, as in the paper.
 //
+// With CLGI_NEAR every receiver has a list of single triangles besides: those near it, where a coarse
+// mesh stands for the rest [Kautz04, section 3.2]. The corners of a packet are gathered; the last
+// packet of a list repeats its last triangle, which changes nothing.
+//
 // Differences from the paper: planes are exact without CLGI_TABLE; no triangle is clipped
 // (transfer/cone.clh); triangles are seen from both sides.
 //
 // Cost         some 150 operations a packet of triangles, and 10 for each row of 1 packet of columns
 //              in the box of a triangle that is drawn; 36 bytes a triangle, read from cache. With
-//              the table 3 x 4 bytes a column instead, whatever the box.
+//              the table 3 x 4 bytes a column instead, whatever the box. A single triangle takes
+//              9 loads of 4 bytes more.
 // Work size    1D, one work-item a receiver; any local size; tail guarded
 // Writes       its own mask
 // SPDX-License-Identifier: MIT
@@ -106,6 +111,22 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
 }
 #endif
 
+CLGI_INLINE void draw_packet(Receiver r, global const float* corners, uint stride,
+                             const uint* triangle, uint table_size,
+#ifdef CLGI_TABLE
+                             global const uint* restrict drawn,
+#else
+                             global const float* restrict drawn,
+#endif
+                             Mask* mask) {
+    Cones cones;
+    if (!make_cones(r, corners, stride, triangle, &cones)) return;
+    Lanes lanes;
+    to_lanes(&cones, table_size, &lanes);
+    for (int k = 0; k < CLGI_WIDTH; ++k)
+        if (lanes.alive[k]) draw(&lanes, k, drawn, mask);
+}
+
 kernel void transfer_mask(
     const MaskParams         params,
     global const float*      restrict receivers,  // [RECEIVER_PLANES][receiver_stride]
@@ -117,6 +138,10 @@ kernel void transfer_mask(
     global const uint*       restrict drawn,      // the table of planes
 #else
     global const float*      restrict drawn,      // [CLGI_MASK][MASK_COLUMNS] z of pixels
+#endif
+#ifdef CLGI_NEAR
+    global const uint*       restrict near_lists, // [receiver_count + 1] where lists begin in near
+    global const uint*       restrict near_ones,  // single triangles of the lists
 #endif
     global uint*             restrict masks)      // [MASK_WORDS][receiver_stride]
 {
@@ -132,16 +157,19 @@ kernel void transfer_mask(
         for (uint cluster = range.x; cluster < range.x + range.y; ++cluster) {
             if (below_horizon(r, boxes[cluster])) continue;
             uint first = cluster * BLOCKER_CLUSTER;
-            for (uint t = first; t < first + BLOCKER_CLUSTER; t += CLGI_WIDTH) {
-                Cones cones;
-                if (!make_cones(r, corners + t, params.blocker_stride, &cones)) continue;
-                Lanes lanes;
-                to_lanes(&cones, params.table_size, &lanes);
-                for (int k = 0; k < CLGI_WIDTH; ++k)
-                    if (lanes.alive[k]) draw(&lanes, k, drawn, &mask);
-            }
+            for (uint t = first; t < first + BLOCKER_CLUSTER; t += CLGI_WIDTH)
+                draw_packet(r, corners + t, params.blocker_stride, 0, params.table_size, drawn,
+                            &mask);
         }
     }
+#ifdef CLGI_NEAR
+    uint end = near_lists[receiver + 1];
+    for (uint i = near_lists[receiver]; i < end; i += CLGI_WIDTH) {
+        uint triangle[CLGI_WIDTH];
+        for (int k = 0; k < CLGI_WIDTH; ++k) triangle[k] = near_ones[min(i + k, end - 1)];
+        draw_packet(r, corners, params.blocker_stride, triangle, params.table_size, drawn, &mask);
+    }
+#endif
     for (int word = 0; word < ROW_WORDS; ++word)
         for (int packet = 0; packet < COLUMN_PACKETS; ++packet) {
             uint bits[CLGI_WIDTH];
