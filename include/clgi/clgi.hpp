@@ -1,4 +1,5 @@
-// All headers of clgi::clgi. Those of clgi::io, clgi::gl and clgi::reference are separate.
+// All headers of clgi::clgi. Those of clgi::io, clgi::gl, clgi::mesh and clgi::reference are
+// separate.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,6 +8,7 @@
 #include <clgi/atlas_layout.hpp>
 #include <clgi/atlas_light.hpp>
 #include <clgi/bake_layout.hpp>
+#include <clgi/blocker_levels.hpp>
 #include <clgi/device.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/emitters.hpp>

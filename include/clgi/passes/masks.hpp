@@ -37,7 +37,7 @@ struct ReceiverBuffers {
 };
 
 // Triangles that block, and for each list of receivers the clusters of them that it looks at. Every
-// receiver may have a list of single triangles besides.
+// receiver may have a list of single triangles besides (clgi/blocker_levels.hpp).
 struct BlockerBuffers {
     cl::Buffer corners;  // [BLOCKER_PLANES][stride], local frame
     cl::Buffer boxes;    // [stride / BLOCKER_CLUSTER] BlockerBox
