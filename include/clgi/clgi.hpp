@@ -41,4 +41,5 @@
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
 #include <clgi/solvers/second_order.hpp>
+#include <clgi/visible_sets.hpp>
 #include <clgi/vpl_layout.hpp>

@@ -22,45 +22,11 @@
 // Work size    1D, one work-item a receiver; any local size; tail guarded
 // Writes       its own mask
 // SPDX-License-Identifier: MIT
-#include "transfer/cone.clh"
-#include "transfer/half_plane.clh"
+#include "transfer/lanes.clh"
 
 typedef struct {
     uintp word[ROW_WORDS * COLUMN_PACKETS];
 } Mask;
-
-// What is drawn of a packet of triangles, lane by lane.
-typedef struct {
-#ifdef CLGI_TABLE
-    int entry[3][CLGI_WIDTH];
-    uint complement[3][CLGI_WIDTH];
-#else
-    float normal[9][CLGI_WIDTH];
-#endif
-    int first_column[CLGI_WIDTH], last_column[CLGI_WIDTH];
-    int first_row[CLGI_WIDTH], last_row[CLGI_WIDTH];
-    int alive[CLGI_WIDTH];
-} Lanes;
-
-CLGI_INLINE void to_lanes(const Cones* cones, uint table_size, Lanes* lanes) {
-    for (int e = 0; e < 3; ++e) {
-        floatp x = cones->normal[e][0], y = cones->normal[e][1], z = cones->normal[e][2];
-#ifdef CLGI_TABLE
-        uintp complement;
-        packet_store(plane_entry(x, y, z, (int)table_size, &complement), lanes->entry[e]);
-        packet_store(complement, lanes->complement[e]);
-#else
-        packet_store(x, lanes->normal[3 * e]);
-        packet_store(y, lanes->normal[3 * e + 1]);
-        packet_store(z, lanes->normal[3 * e + 2]);
-#endif
-    }
-    packet_store(cones->first_column, lanes->first_column);
-    packet_store(cones->last_column, lanes->last_column);
-    packet_store(cones->first_row, lanes->first_row);
-    packet_store(cones->last_row, lanes->last_row);
-    packet_store(cones->alive, lanes->alive);
-}
 
 #ifdef CLGI_TABLE
 CLGI_INLINE void draw(const Lanes* lanes, int k, global const uint* restrict table, Mask* mask) {
@@ -81,16 +47,11 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
     int first_row = lanes->first_row[k], last_row = lanes->last_row[k];
     int first_packet = lanes->first_column[k] / CLGI_WIDTH;
     int last_packet = lanes->last_column[k] / CLGI_WIDTH;
-    float nx[3], ny[3], nz[3];
-    for (int e = 0; e < 3; ++e) {
-        nx[e] = lanes->normal[3 * e][k];
-        ny[e] = lanes->normal[3 * e + 1][k];
-        nz[e] = lanes->normal[3 * e + 2][k];
-    }
+    Edges edges = lane_edges(lanes, k);
     for (int packet = first_packet; packet <= last_packet; ++packet) {
         floatp x = column_x(packet);
         floatp along[3];
-        for (int e = 0; e < 3; ++e) along[e] = packet_splat(nx[e]) * x;
+        for (int e = 0; e < 3; ++e) along[e] = packet_splat(edges.x[e]) * x;
         for (int word = first_row / 32; word <= last_row / 32; ++word) {
             int at = word * COLUMN_PACKETS + packet;
             uintp bits = mask->word[at];
@@ -98,11 +59,7 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
             for (int row = max(first_row, 32 * word); row <= last; ++row) {
                 floatp z = packet_load(heights + row * MASK_COLUMNS(CLGI_MASK) +
                                        packet * CLGI_WIDTH);
-                floatp y = packet_splat(row_y(row));
-                intp inside = (intp)(-1);
-                for (int e = 0; e < 3; ++e)
-                    inside &= fma(packet_splat(nz[e]), z,
-                                  fma(packet_splat(ny[e]), y, along[e])) >= packet_zero;
+                intp inside = inside_edges(edges, along, packet_splat(row_y(row)), z);
                 bits |= packet_select((uintp)(0), (uintp)(1u << (row & 31)), inside);
             }
             mask->word[at] = bits;

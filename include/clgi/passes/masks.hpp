@@ -45,7 +45,7 @@ struct BlockerBuffers {
     cl::Buffer ranges;   // uint pairs: first cluster and number of clusters
     cl::Buffer near_lists;  // [count + 1] uint: where each receiver's singles begin in near, and
                             // the end of the last; none: no singles
-    cl::Buffer near;  // uint: triangles; not empty, even if every list is
+    cl::Buffer near;        // uint: triangles; not empty, even if every list is
     std::uint32_t triangle_count = 0;
     std::uint32_t stride = 0;                // blocker_stride(triangle_count)
     std::uint32_t receivers_per_list = ~0u;  // ~0u: one list for all
@@ -93,6 +93,13 @@ public:
                    const BlockerBuffers& blockers, const cl::Buffer& drawn,
                    const WaitList& wait = {}) const;
 
+    // The triangles of the receivers' clusters that are the nearest in some pixel of their masks ->
+    // bits of seen [visible_words(triangle_count)][stride] uint (clgi/visible_sets.hpp). Bits that
+    // are set already stay. heights: pixel_heights of the masks' size; planes are always exact.
+    cl::Event visible(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
+                      const BlockerBuffers& blockers, const cl::Buffer& heights,
+                      const cl::Buffer& seen, const WaitList& wait = {}) const;
+
     // Transfer vectors from masks -> transfer. weights, directions: MaskWeights::values and
     // directions, of the same size, block and bands.
     cl::Event integrate(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
@@ -124,8 +131,8 @@ private:
                               const cl::Buffer& transfer) const;
 
     MaskOptions masks_;
-    PassKernel receivers_, blockers_, planes_, mask_, mask_near_, integrate_, integrate_gloss_,
-        shade_;
+    PassKernel receivers_, blockers_, planes_, mask_, mask_near_, visible_, integrate_,
+        integrate_gloss_, shade_;
 };
 
 }  // namespace clgi
