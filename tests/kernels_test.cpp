@@ -84,6 +84,8 @@ TEST(Kernels, BuildSixteenLanesWide) {
     }
 }
 
+TEST(Kernels, BuildWithNearLists) { expect_content("-Werror -DCLGI_WIDTH=4 -DCLGI_NEAR"); }
+
 TEST(Kernels, BuildWith64BitAtomics) {
     if (!has_atomics64()) GTEST_SKIP() << "the device has no cl_khr_int64_extended_atomics";
     expect_content("-Werror -DCLGI_WIDTH=4 -DCLGI_ATOMIC64");

@@ -26,7 +26,8 @@ struct Blockers {
     std::vector<glm::vec4> positions;
     std::vector<glm::uvec4> triangles;
     std::vector<cl_uint> lists{0, 1};
-    std::vector<cl_uint> ranges;  // all clusters, where empty
+    std::vector<cl_uint> ranges;            // all clusters, where empty
+    std::vector<cl_uint> near_lists, near;  // no singles, where both are empty
     std::uint32_t receivers_per_list = ~0u;
 
     Blockers() = default;
@@ -39,6 +40,19 @@ struct Blockers {
         triangles.emplace_back(first, first + 1, first + 2, 0);
     }
 };
+
+inline Triangle random_triangle(Random& random) {
+    const auto normal = [&] {  // of three uniform ones: near enough
+        return random(-1, 1) + random(-1, 1) + random(-1, 1);
+    };
+    glm::dvec3 middle(normal(), normal(), normal());
+    middle *= random(0.5, 3.0) / glm::length(middle);
+    const double size = random(0.05, 1.0);
+    Triangle out;
+    for (glm::dvec3& p : out)
+        p = glm::dvec3(glm::vec3(middle + size * glm::dvec3(normal(), normal(), normal())));
+    return out;
+}
 
 // Each triangle alone in a cluster, for a receiver of its own.
 inline Blockers one_each(const std::vector<Triangle>& all) {
@@ -135,6 +149,10 @@ inline Drawn draw_masks(const Blockers& blockers, const Eyes& eyes = {},
     b.ranges = upload(blockers.ranges.empty() ? std::vector<cl_uint>{0, b.stride / BLOCKER_CLUSTER}
                                               : blockers.ranges);
     b.receivers_per_list = blockers.receivers_per_list;
+    if (!blockers.near_lists.empty()) {
+        b.near_lists = upload(blockers.near_lists);
+        b.near = blockers.near.empty() ? empty<cl_uint>(1) : upload(blockers.near);
+    }
     out.status = upload(std::vector<cl_uint>(MASK_STATUS_WORDS));
     passes.receivers(queue, upload(eyes.positions), upload(eyes.normals), r, out.status);
     const bool none = blockers.triangles.empty();
@@ -143,6 +161,34 @@ inline Drawn draw_masks(const Blockers& blockers, const Eyes& eyes = {},
     passes.mask(queue, r, b, mask_table(masks));
     out.words = download<cl_uint>(r.masks, words);
     return out;
+}
+
+// 37 receivers with a normal each, among 200 triangles.
+struct Heap {
+    explicit Heap(std::uint64_t seed = 5, double scale = 1.0) {
+        Random random(seed);
+        for (int i = 0; i < 200; ++i) {
+            Triangle t = random_triangle(random);
+            for (glm::dvec3& p : t) p *= scale;
+            blockers.add(t);
+        }
+        eyes.positions.clear();
+        eyes.normals.clear();
+        for (int i = 0; i < 37; ++i) {
+            const auto s = static_cast<float>(scale);
+            eyes.positions.emplace_back(s * static_cast<float>(random(-1, 1)),
+                                        s * static_cast<float>(random(-1, 1)),
+                                        s * static_cast<float>(random(-1, 1)), 1);
+            eyes.normals.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), 0);
+        }
+    }
+    Blockers blockers;
+    Eyes eyes;
+};
+
+inline void expect_same_masks(const Drawn& a, const Drawn& b, const std::string& what) {
+    for (std::uint32_t i = 0; i < a.receivers.count; ++i)
+        ASSERT_EQ(a.mask(i), b.mask(i)) << what << ", receiver " << i;
 }
 
 // Transfer vectors [receiver][term] of masks that were drawn.
@@ -256,19 +302,6 @@ inline std::vector<Triangle> placed(std::vector<Triangle> triangles, double scal
     for (Triangle& t : triangles)
         for (glm::dvec3& p : t) p = scale * p + at;
     return triangles;
-}
-
-inline Triangle random_triangle(Random& random) {
-    const auto normal = [&] {  // of three uniform ones: near enough
-        return random(-1, 1) + random(-1, 1) + random(-1, 1);
-    };
-    glm::dvec3 middle(normal(), normal(), normal());
-    middle *= random(0.5, 3.0) / glm::length(middle);
-    const double size = random(0.05, 1.0);
-    Triangle out;
-    for (glm::dvec3& p : out)
-        p = glm::dvec3(glm::vec3(middle + size * glm::dvec3(normal(), normal(), normal())));
-    return out;
 }
 
 }  // namespace clgi::test

@@ -12,39 +12,13 @@ namespace {
 
 using test::Blockers;
 using test::Drawn;
+using test::expect_same_masks;
 using test::Eyes;
+using test::Heap;
 using test::Triangle;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-// 37 receivers with a normal each, among 200 triangles.
-struct Heap {
-    explicit Heap(std::uint64_t seed = 5, double scale = 1.0) {
-        test::Random random(seed);
-        for (int i = 0; i < 200; ++i) {
-            Triangle t = test::random_triangle(random);
-            for (glm::dvec3& p : t) p *= scale;
-            blockers.add(t);
-        }
-        eyes.positions.clear();
-        eyes.normals.clear();
-        for (int i = 0; i < 37; ++i) {
-            const auto s = static_cast<float>(scale);
-            eyes.positions.emplace_back(s * static_cast<float>(random(-1, 1)),
-                                        s * static_cast<float>(random(-1, 1)),
-                                        s * static_cast<float>(random(-1, 1)), 1);
-            eyes.normals.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), 0);
-        }
-    }
-    Blockers blockers;
-    Eyes eyes;
-};
-
-void expect_same_masks(const Drawn& a, const Drawn& b, const std::string& what) {
-    for (std::uint32_t i = 0; i < a.receivers.count; ++i)
-        ASSERT_EQ(a.mask(i), b.mask(i)) << what << ", receiver " << i;
-}
 
 TEST(TransferSameness, OfEveryWidthAndGroup) {
     const Heap heap;

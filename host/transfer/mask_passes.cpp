@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/passes/masks.hpp>
+#include <clgi/visible_sets.hpp>
 #include <cmath>
 
 #include "opencl/check.hpp"
@@ -40,6 +41,15 @@ void need_blockers(const PassKernel& pass, const BlockerBuffers& b) {
     need(pass, "boxes", b.boxes, b.stride / BLOCKER_CLUSTER * sizeof(BlockerBox));
 }
 
+void need_lists(const PassKernel& pass, const ReceiverBuffers& r, const BlockerBuffers& b) {
+    if (b.receivers_per_list == 0)
+        throw Error(pass.name + ": receivers_per_list is 0, at least 1 needed");
+    const std::size_t lists =
+        (std::size_t{r.count} + b.receivers_per_list - 1) / b.receivers_per_list;
+    need(pass, "lists", b.lists, (lists + 1) * word);
+    need(pass, "ranges", b.ranges, 2 * word);
+}
+
 }  // namespace
 
 std::size_t mask_table_bytes(const MaskOptions& options) {
@@ -72,8 +82,11 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
     receivers_ = programs.kernel("transfer", "receivers", scalar(options));
     blockers_ = few("blockers", scalar(options), "");
     planes_ = programs.kernel("transfer", "planes", full(options), size);
-    mask_ = few("mask", full(options),
-                masks_.planes == EdgePlanes::table ? size + " -DCLGI_TABLE" : size);
+    const std::string drawn = masks_.planes == EdgePlanes::table ? size + " -DCLGI_TABLE" : size;
+    mask_ = few("mask", full(options), drawn);
+    mask_near_ = few("mask", full(options), drawn + " -DCLGI_NEAR");
+    mask_near_.name = "transfer.mask_near";
+    visible_ = few("visible", full(options), size);
     const std::string bands = " -DCLGI_SH_BANDS=" + std::to_string(masks_.bands);
     const std::string cells = size + " -DCLGI_BLOCK=" + std::to_string(masks_.block) + bands;
     integrate_ = few("integrate", full(options), cells);
@@ -83,7 +96,8 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
 }
 
 void MaskPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({receivers_, blockers_, planes_, mask_, integrate_, integrate_gloss_, shade_},
+    build_named({receivers_, blockers_, planes_, mask_, mask_near_, visible_, integrate_,
+                 integrate_gloss_, shade_},
                 passes);
 }
 
@@ -125,27 +139,39 @@ cl::Event MaskPasses::planes(const cl::CommandQueue& queue, const cl::Buffer& he
 cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                            const BlockerBuffers& b, const cl::Buffer& drawn,
                            const WaitList& wait) const {
-    need_receivers(mask_, r);
-    need_blockers(mask_, b);
-    if (b.receivers_per_list == 0)
-        throw Error("transfer.mask: receivers_per_list is 0, at least 1 needed");
-    const std::size_t lists =
-        (std::size_t{r.count} + b.receivers_per_list - 1) / b.receivers_per_list;
-    need(mask_, "lists", b.lists, (lists + 1) * word);
-    need(mask_, "ranges", b.ranges, 2 * word);
-    need(mask_, "drawn", drawn, mask_table_bytes(masks_));
-    need(mask_, "masks", r.masks,
+    const bool singles = b.near_lists() || b.near();
+    const PassKernel& pass = singles ? mask_near_ : mask_;
+    need_receivers(pass, r);
+    need_blockers(pass, b);
+    need_lists(pass, r, b);
+    need(pass, "drawn", drawn, mask_table_bytes(masks_));
+    need(pass, "masks", r.masks,
          std::size_t{MASK_WORDS(static_cast<std::size_t>(masks_.size))} * r.stride * word);
-    const MaskParams params{r.count,
-                            r.stride,
-                            b.stride,
-                            b.receivers_per_list,
-                            static_cast<std::uint32_t>(masks_.table_size),
-                            0,
-                            0,
-                            0};
-    return launch(mask_, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
-                  b.corners, drawn, r.masks);
+    const auto table_size = static_cast<std::uint32_t>(masks_.table_size);
+    const MaskParams params{r.count, r.stride, b.stride, b.receivers_per_list, table_size, 0, 0, 0};
+    if (!singles)
+        return launch(pass, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
+                      b.corners, drawn, r.masks);
+    need(pass, "near_lists", b.near_lists, (std::size_t{r.count} + 1) * word);
+    need(pass, "near", b.near, word);
+    return launch(pass, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
+                  b.corners, drawn, b.near_lists, b.near, r.masks);
+}
+
+cl::Event MaskPasses::visible(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                              const BlockerBuffers& b, const cl::Buffer& heights,
+                              const cl::Buffer& seen, const WaitList& wait) const {
+    need_receivers(visible_, r);
+    need_blockers(visible_, b);
+    need_lists(visible_, r, b);
+    MaskOptions exact = masks_;
+    exact.planes = EdgePlanes::exact;
+    need(visible_, "heights", heights, mask_table_bytes(exact));
+    need(visible_, "seen", seen, visible_words(b.triangle_count) * r.stride * word);
+    const std::size_t columns = packets(visible_, MASK_COLUMNS(masks_.size));
+    return launch(visible_, queue, r.count * columns, wait,
+                  MaskParams{r.count, r.stride, b.stride, b.receivers_per_list, 0, 0, 0, 0},
+                  r.planes, b.lists, b.ranges, b.boxes, b.corners, heights, seen);
 }
 
 std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,

@@ -1,4 +1,5 @@
-// All headers of clgi::clgi. Those of clgi::io, clgi::gl and clgi::reference are separate.
+// All headers of clgi::clgi. Those of clgi::io, clgi::gl, clgi::mesh and clgi::reference are
+// separate.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,6 +8,7 @@
 #include <clgi/atlas_layout.hpp>
 #include <clgi/atlas_light.hpp>
 #include <clgi/bake_layout.hpp>
+#include <clgi/blocker_levels.hpp>
 #include <clgi/device.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/emitters.hpp>
@@ -44,4 +46,5 @@
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
 #include <clgi/solvers/second_order.hpp>
+#include <clgi/visible_sets.hpp>
 #include <clgi/vpl_layout.hpp>

@@ -8,54 +8,25 @@
 // the planes of their edges are evaluated at every pixel of the box. With CLGI_TABLE three masks of
 // the table of planes are combined instead, as in the paper.
 //
+// With CLGI_NEAR every receiver has a list of single triangles besides: those near it, where a coarse
+// mesh stands for the rest [Kautz04, section 3.2]. The corners of a packet are gathered; the last
+// packet of a list repeats its last triangle, which changes nothing.
+//
 // Differences from the paper: planes are exact without CLGI_TABLE; no triangle is clipped
 // (transfer/cone.clh); triangles are seen from both sides.
 //
 // Cost         some 150 operations a packet of triangles, and 10 for each row of 1 packet of columns
 //              in the box of a triangle that is drawn; 36 bytes a triangle, read from cache. With
-//              the table 3 x 4 bytes a column instead, whatever the box.
+//              the table 3 x 4 bytes a column instead, whatever the box. A single triangle takes
+//              9 loads of 4 bytes more.
 // Work size    1D, one work-item a receiver; any local size; tail guarded
 // Writes       its own mask
 // SPDX-License-Identifier: MIT
-#include "transfer/cone.clh"
-#include "transfer/half_plane.clh"
+#include "transfer/lanes.clh"
 
 typedef struct {
     uintp word[ROW_WORDS * COLUMN_PACKETS];
 } Mask;
-
-// What is drawn of a packet of triangles, lane by lane.
-typedef struct {
-#ifdef CLGI_TABLE
-    int entry[3][CLGI_WIDTH];
-    uint complement[3][CLGI_WIDTH];
-#else
-    float normal[9][CLGI_WIDTH];
-#endif
-    int first_column[CLGI_WIDTH], last_column[CLGI_WIDTH];
-    int first_row[CLGI_WIDTH], last_row[CLGI_WIDTH];
-    int alive[CLGI_WIDTH];
-} Lanes;
-
-CLGI_INLINE void to_lanes(const Cones* cones, uint table_size, Lanes* lanes) {
-    for (int e = 0; e < 3; ++e) {
-        floatp x = cones->normal[e][0], y = cones->normal[e][1], z = cones->normal[e][2];
-#ifdef CLGI_TABLE
-        uintp complement;
-        packet_store(plane_entry(x, y, z, (int)table_size, &complement), lanes->entry[e]);
-        packet_store(complement, lanes->complement[e]);
-#else
-        packet_store(x, lanes->normal[3 * e]);
-        packet_store(y, lanes->normal[3 * e + 1]);
-        packet_store(z, lanes->normal[3 * e + 2]);
-#endif
-    }
-    packet_store(cones->first_column, lanes->first_column);
-    packet_store(cones->last_column, lanes->last_column);
-    packet_store(cones->first_row, lanes->first_row);
-    packet_store(cones->last_row, lanes->last_row);
-    packet_store(cones->alive, lanes->alive);
-}
 
 #ifdef CLGI_TABLE
 CLGI_INLINE void draw(const Lanes* lanes, int k, global const uint* restrict table, Mask* mask) {
@@ -76,16 +47,11 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
     int first_row = lanes->first_row[k], last_row = lanes->last_row[k];
     int first_packet = lanes->first_column[k] / CLGI_WIDTH;
     int last_packet = lanes->last_column[k] / CLGI_WIDTH;
-    float nx[3], ny[3], nz[3];
-    for (int e = 0; e < 3; ++e) {
-        nx[e] = lanes->normal[3 * e][k];
-        ny[e] = lanes->normal[3 * e + 1][k];
-        nz[e] = lanes->normal[3 * e + 2][k];
-    }
+    Edges edges = lane_edges(lanes, k);
     for (int packet = first_packet; packet <= last_packet; ++packet) {
         floatp x = column_x(packet);
         floatp along[3];
-        for (int e = 0; e < 3; ++e) along[e] = packet_splat(nx[e]) * x;
+        for (int e = 0; e < 3; ++e) along[e] = packet_splat(edges.x[e]) * x;
         for (int word = first_row / 32; word <= last_row / 32; ++word) {
             int at = word * COLUMN_PACKETS + packet;
             uintp bits = mask->word[at];
@@ -93,11 +59,7 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
             for (int row = max(first_row, 32 * word); row <= last; ++row) {
                 floatp z = packet_load(heights + row * MASK_COLUMNS(CLGI_MASK) +
                                        packet * CLGI_WIDTH);
-                floatp y = packet_splat(row_y(row));
-                intp inside = (intp)(-1);
-                for (int e = 0; e < 3; ++e)
-                    inside &= fma(packet_splat(nz[e]), z,
-                                  fma(packet_splat(ny[e]), y, along[e])) >= packet_zero;
+                intp inside = inside_edges(edges, along, packet_splat(row_y(row)), z);
                 bits |= packet_select((uintp)(0), (uintp)(1u << (row & 31)), inside);
             }
             mask->word[at] = bits;
@@ -105,6 +67,22 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
     }
 }
 #endif
+
+CLGI_INLINE void draw_packet(Receiver r, global const float* corners, uint stride,
+                             const uint* triangle, uint table_size,
+#ifdef CLGI_TABLE
+                             global const uint* restrict drawn,
+#else
+                             global const float* restrict drawn,
+#endif
+                             Mask* mask) {
+    Cones cones;
+    if (!make_cones(r, corners, stride, triangle, &cones)) return;
+    Lanes lanes;
+    to_lanes(&cones, table_size, &lanes);
+    for (int k = 0; k < CLGI_WIDTH; ++k)
+        if (lanes.alive[k]) draw(&lanes, k, drawn, mask);
+}
 
 kernel void transfer_mask(
     const MaskParams         params,
@@ -117,6 +95,10 @@ kernel void transfer_mask(
     global const uint*       restrict drawn,      // the table of planes
 #else
     global const float*      restrict drawn,      // [CLGI_MASK][MASK_COLUMNS] z of pixels
+#endif
+#ifdef CLGI_NEAR
+    global const uint*       restrict near_lists, // [receiver_count + 1] where lists begin in near
+    global const uint*       restrict near_ones,  // single triangles of the lists
 #endif
     global uint*             restrict masks)      // [MASK_WORDS][receiver_stride]
 {
@@ -132,16 +114,19 @@ kernel void transfer_mask(
         for (uint cluster = range.x; cluster < range.x + range.y; ++cluster) {
             if (below_horizon(r, boxes[cluster])) continue;
             uint first = cluster * BLOCKER_CLUSTER;
-            for (uint t = first; t < first + BLOCKER_CLUSTER; t += CLGI_WIDTH) {
-                Cones cones;
-                if (!make_cones(r, corners + t, params.blocker_stride, &cones)) continue;
-                Lanes lanes;
-                to_lanes(&cones, params.table_size, &lanes);
-                for (int k = 0; k < CLGI_WIDTH; ++k)
-                    if (lanes.alive[k]) draw(&lanes, k, drawn, &mask);
-            }
+            for (uint t = first; t < first + BLOCKER_CLUSTER; t += CLGI_WIDTH)
+                draw_packet(r, corners + t, params.blocker_stride, 0, params.table_size, drawn,
+                            &mask);
         }
     }
+#ifdef CLGI_NEAR
+    uint end = near_lists[receiver + 1];
+    for (uint i = near_lists[receiver]; i < end; i += CLGI_WIDTH) {
+        uint triangle[CLGI_WIDTH];
+        for (int k = 0; k < CLGI_WIDTH; ++k) triangle[k] = near_ones[min(i + k, end - 1)];
+        draw_packet(r, corners, params.blocker_stride, triangle, params.table_size, drawn, &mask);
+    }
+#endif
     for (int word = 0; word < ROW_WORDS; ++word)
         for (int packet = 0; packet < COLUMN_PACKETS; ++packet) {
             uint bits[CLGI_WIDTH];

@@ -36,12 +36,16 @@ struct ReceiverBuffers {
     std::uint32_t stride = 0;  // plane_stride(count)
 };
 
-// Triangles that block, and for each list of receivers the clusters of them that it looks at.
+// Triangles that block, and for each list of receivers the clusters of them that it looks at. Every
+// receiver may have a list of single triangles besides (clgi/blocker_levels.hpp).
 struct BlockerBuffers {
     cl::Buffer corners;  // [BLOCKER_PLANES][stride], local frame
     cl::Buffer boxes;    // [stride / BLOCKER_CLUSTER] BlockerBox
     cl::Buffer lists;    // [lists + 1] uint: the first range of each list, and one behind the last
     cl::Buffer ranges;   // uint pairs: first cluster and number of clusters
+    cl::Buffer near_lists;  // [count + 1] uint: where each receiver's singles begin in near, and
+                            // the end of the last; none: no singles
+    cl::Buffer near;        // uint: triangles; not empty, even if every list is
     std::uint32_t triangle_count = 0;
     std::uint32_t stride = 0;                // blocker_stride(triangle_count)
     std::uint32_t receivers_per_list = ~0u;  // ~0u: one list for all
@@ -82,10 +86,19 @@ public:
     cl::Event planes(const cl::CommandQueue& queue, const cl::Buffer& heights,
                      const cl::Buffer& table, const WaitList& wait = {}) const;
 
-    // Masks of all receivers. drawn: the table of planes, or with EdgePlanes::exact the heights.
+    // Masks of all receivers, from clusters, and singles if there are lists of them (a kernel of
+    // its own: build names it mask_near). drawn: the table of planes, or with EdgePlanes::exact the
+    // heights.
     cl::Event mask(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
                    const BlockerBuffers& blockers, const cl::Buffer& drawn,
                    const WaitList& wait = {}) const;
+
+    // The triangles of the receivers' clusters that are the nearest in some pixel of their masks ->
+    // bits of seen [visible_words(triangle_count)][stride] uint (clgi/visible_sets.hpp). Bits that
+    // are set already stay. heights: pixel_heights of the masks' size; planes are always exact.
+    cl::Event visible(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
+                      const BlockerBuffers& blockers, const cl::Buffer& heights,
+                      const cl::Buffer& seen, const WaitList& wait = {}) const;
 
     // Transfer vectors from masks -> transfer. weights, directions: MaskWeights::values and
     // directions, of the same size, block and bands.
@@ -118,7 +131,8 @@ private:
                               const cl::Buffer& transfer) const;
 
     MaskOptions masks_;
-    PassKernel receivers_, blockers_, planes_, mask_, integrate_, integrate_gloss_, shade_;
+    PassKernel receivers_, blockers_, planes_, mask_, mask_near_, visible_, integrate_,
+        integrate_gloss_, shade_;
 };
 
 }  // namespace clgi
