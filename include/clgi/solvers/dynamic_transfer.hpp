@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/blocker_levels.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/interval.hpp>
 #include <clgi/kit/buffer_table.hpp>
@@ -13,6 +14,7 @@
 #include <clgi/passes/transfer.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
+#include <clgi/visible_sets.hpp>
 #include <memory>
 #include <vector>
 
@@ -24,6 +26,10 @@ struct DynamicTransferOptions {
     sh::Window window = sh::Window::none;  // of transfer vectors, against ringing
     bool gloss = true;                     // the Phong lobes of materials, where the scene has some
     bool directional = false;              // directional lights are part of the environment
+    // Far from a vertex these triangles block, near it those of the scene (clgi/blocker_levels.hpp):
+    // vertices of the scene, such as mesh::simplify makes. None: all of the scene block everywhere.
+    std::vector<glm::uvec3> coarse;
+    int rings = 1;  // near a vertex: triangles with a corner at most so many edges away, 0 to 2
     // Bytes that the buffers may take together; 0: what the device has beside the scene.
     std::size_t memory_budget = 0;
     BuildOptions build;
@@ -59,6 +65,15 @@ public:
     // Turns the environment about +Y, radians, beside its own rotation, for the next light().
     void turn_environment(double angle);
 
+    // Potentially visible sets of an animation known before [Kautz04, section 3.2]. look() enqueues
+    // the search for the triangles that receivers see of the geometry as it is now; sets() waits
+    // and has those of all looks since it was called last, and the near triangles. After
+    // restrict(), masks look at such sets alone; they are bit for bit those of before in the frames
+    // that were looked at, with exact planes. look() itself always sees everything.
+    cl::Event look(const WaitList& wait = {});
+    VisibleSets sets();
+    void restrict(const VisibleSets& sets);
+
     // Enqueues masks and transfer vectors of the geometry as it is now. Vectors stay good as long
     // as no vertex moves.
     cl::Event transfer(const WaitList& wait = {});
@@ -93,7 +108,8 @@ public:
 
     // What masks of other receivers of this scene are made with.
     const MaskPasses& passes() const;
-    const BlockerBuffers& blockers() const;  // all triangles at full detail, one list
+    const BlockerBuffers& blockers() const;  // the scene's own triangles, one list
+    double triangles_per_receiver() const;   // that masks look at, before any is culled
     const cl::Buffer& drawn() const;         // what MaskPasses::mask draws with
     const cl::Buffer& weights() const;       // of MaskWeights
     const cl::Buffer& directions() const;    // of MaskWeights

@@ -1,0 +1,46 @@
+// Which receivers a scene has.
+// SPDX-License-Identifier: MIT
+#include "solvers/dynamic_transfer_state.hpp"
+
+namespace clgi {
+
+SceneReceivers::SceneReceivers(const Scene& scene, const DeviceScene& device)
+    : other_side(device.info().vertex_count, RECEIVER_NONE),
+      exponents(device.info().vertex_count, 0.0f) {
+    if (scene.positions.size() != device.file_vertex_count())
+        throw Error("dynamic-transfer: the scene has " + std::to_string(scene.positions.size()) +
+                    " vertices, that of the device has " +
+                    std::to_string(device.file_vertex_count()));
+    std::vector<std::uint32_t> of_file(scene.positions.size(), 0);
+    for (std::uint32_t v = 0; v < other_side.size(); ++v) of_file[device.vertex_order()[v]] = v;
+    std::vector<bool> double_sided(other_side.size(), false);
+    for (const SceneTriangle& triangle : scene.triangles) {
+        const Material& material = scene.materials[triangle.material];
+        const float exponent = reflectance(material.metallic, material.roughness).exponent;
+        for (const std::uint32_t corner : triangle.vertex) {
+            exponents[of_file[corner]] = exponent;
+            if (material.double_sided) double_sided[of_file[corner]] = true;
+        }
+    }
+    for (std::uint32_t v = 0; v < other_side.size(); ++v)
+        if (double_sided[v]) {
+            other_side[v] = count();
+            fronts.push_back(v);
+            exponents.push_back(exponents[v]);
+        }
+}
+
+VisibleSets SceneReceivers::lists(const BlockerLevels& levels) const {
+    VisibleSets out;
+    if (levels.near_lists.empty()) return out;
+    out.near_lists = levels.near_lists;
+    out.near = levels.near;
+    for (const std::uint32_t v : fronts) {
+        out.near.insert(out.near.end(), levels.near.begin() + levels.near_lists[v],
+                        levels.near.begin() + levels.near_lists[v + 1]);
+        out.near_lists.push_back(static_cast<std::uint32_t>(out.near.size()));
+    }
+    return out;
+}
+
+}  // namespace clgi

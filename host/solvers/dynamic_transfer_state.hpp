@@ -1,0 +1,70 @@
+// What DynamicTransferSolver consists of.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/kit/environment_light.hpp>
+#include <clgi/passes/receivers.hpp>
+#include <clgi/solvers/dynamic_transfer.hpp>
+
+namespace clgi {
+
+// The receivers of a scene: its vertices, and the other sides of some.
+struct SceneReceivers {
+    SceneReceivers(const Scene& scene, const DeviceScene& device);
+
+    std::uint32_t count() const { return static_cast<std::uint32_t>(exponents.size()); }
+    // Lists of vertices as lists of receivers.
+    VisibleSets lists(const BlockerLevels& levels) const;
+
+    std::vector<std::uint32_t> other_side;  // [vertices] receiver or RECEIVER_NONE
+    std::vector<std::uint32_t> fronts;      // [other sides] vertex
+    std::vector<float> exponents;           // [receivers] of the lobes
+};
+
+struct DynamicTransferSolver::State {
+    State(const Programs& programs, const cl::CommandQueue& on, const Scene& file,
+          const DeviceScene& of, const DynamicTransferOptions& wanted);
+
+    BufferTable table();
+    void build() const;
+    void write();
+
+    template <typename T>
+    void put(const cl::Buffer& buffer, const std::vector<T>& values) {
+        if (!values.empty()) record.write(buffer, values.data(), values.size() * sizeof(T));
+    }
+
+    void place_receivers();
+    void transfer();
+    void shade(const cl::Buffer& vectors, const cl::Buffer& out);
+    void light();
+    void reflect(const glm::vec3& eye);
+
+    cl::Event look(const WaitList& wait);
+    VisibleSets sets();
+    void restrict(const VisibleSets& sets);
+
+    cl::CommandQueue queue;
+    const DeviceScene& scene;
+    DynamicTransferOptions options;
+    bool glossy;
+    SceneReceivers vertices;
+    BlockerLevels levels;
+    VisibleSets near;  // the near level, by receiver; empty: none
+    MaskPasses masks;
+    ReceiverPasses sides;
+    TransferPasses projection;
+    EnvironmentLight sky;
+    mutable Recorder record;
+    MaskWeights cells;
+    ReceiverBuffers receivers;
+    BlockerBuffers blockers;                            // of receivers: two levels, or sets
+    BlockerBuffers all;                                 // both levels, for look()
+    BlockerBuffers fine;                                // the scene's triangles alone
+    std::size_t far_triangles = 0, near_triangles = 0;  // of all receivers together
+    cl::Buffer triangles, irradiance, gloss, lobes, exponents, other_side, fronts, drawn, heights,
+        weights, directions, status, bad, seen;
+    std::size_t bytes = 0;
+};
+
+}  // namespace clgi
