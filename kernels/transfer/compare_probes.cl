@@ -9,6 +9,7 @@
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/receivers.h"
+#include "finite.clh"
 #include "planes.clh"
 
 kernel void transfer_compare_probes(
@@ -33,6 +34,7 @@ kernel void transfer_compare_probes(
         whole_b += fabs(b);
         probes[c * params.probe_stride + probe] = b - a;
     }
-    uint state = apart <= params.threshold * fmax(whole_a, whole_b) ? PROBE_AGREES : PROBE_FAILS;
+    int agrees = is_finite(apart) && apart <= params.threshold * fmax(whole_a, whole_b);
+    uint state = agrees ? PROBE_AGREES : PROBE_FAILS;
     states[probe] = ids[GBUFFER_TRIANGLE * stride + pixel] >= 0 ? state : PROBE_NOWHERE;
 }

@@ -1,0 +1,378 @@
+// Receivers at pixels and other sides, and their light brought to pixels, number by number.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <clgi/planes.hpp>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+#include <limits>
+
+#include "device.hpp"
+#include "math_modes.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr std::uint32_t stride = 16;
+
+CLGI_IN_BOTH_MATHS(TransferReceivers);
+
+const ReceiverPasses& passes(Math math) { return test::shared_passes<ReceiverPasses>(math); }
+
+// A tilted triangle, and a second one that has another material.
+Scene two_triangles() {
+    Scene scene = test::plain_scene();
+    Material glossy;
+    glossy.metallic = 0.6f;
+    glossy.roughness = 0.5f;
+    test::add_material(scene, glossy);
+    test::add_triangle(scene, {0, 0, 0}, {1, 0, 0.25}, {0, 1, 0.5});
+    test::add_triangle(scene, {1, 1, 0}, {0, 1, 0.5}, {1, 0, 0.25}, 1);
+    return scene;
+}
+
+// Planes of a few pixels, each a function of the pixel.
+struct Pixels {
+    Pixels() : planes(GBUFFER_PLANES * stride, 0.0f), ids(GBUFFER_ID_PLANES * stride, -1) {}
+    void set(int plane, std::uint32_t pixel, const glm::vec3& value) {
+        for (int c = 0; c < 3; ++c)
+            planes[static_cast<std::size_t>(plane + c) * stride + pixel] = value[c];
+    }
+    GBuffer buffer() const {
+        GBuffer out;
+        out.planes = test::upload(planes);
+        out.ids = test::upload(ids);
+        out.stride = stride;
+        return out;
+    }
+    std::vector<float> planes;
+    std::vector<int> ids;
+};
+
+ReceiverBuffers receivers(const std::vector<float>& planes) {
+    ReceiverBuffers out;
+    out.stride = stride;
+    out.planes = test::upload(planes);
+    return out;
+}
+
+glm::vec3 row(const std::vector<float>& planes, int plane, std::size_t at) {
+    const auto p = static_cast<std::size_t>(plane);
+    return {planes[p * stride + at], planes[(p + 1) * stride + at], planes[(p + 2) * stride + at]};
+}
+
+TEST_P(TransferReceivers, OfOtherSidesAreTurnedRound) {
+    std::vector<float> planes(RECEIVER_PLANES * stride);
+    for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = static_cast<float>(i) + 1.0f;
+    const ReceiverBuffers buffers = receivers(planes);
+    passes(GetParam())
+        .other_sides(test::device().queue, {6, 2, stride, 0},
+                     test::upload(std::vector<cl_uint>{4, 1}), buffers);
+    const auto found = test::download<float>(buffers.planes, planes.size());
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t front = i == 0 ? 4 : 1;
+        EXPECT_EQ(row(found, RECEIVER_POSITION, 6 + i), row(planes, RECEIVER_POSITION, front));
+        EXPECT_EQ(row(found, RECEIVER_TANGENT, 6 + i), row(planes, RECEIVER_BITANGENT, front));
+        EXPECT_EQ(row(found, RECEIVER_BITANGENT, 6 + i), row(planes, RECEIVER_TANGENT, front));
+        EXPECT_EQ(row(found, RECEIVER_NORMAL, 6 + i), -row(planes, RECEIVER_NORMAL, front));
+    }
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        if (k % stride == 6 || k % stride == 7) continue;
+        EXPECT_EQ(found[k], planes[k]) << k;
+    }
+}
+
+TEST_P(TransferReceivers, AtPixelsStandAboveTheSurface) {
+    const DeviceScene scene = test::on_device(two_triangles());
+    Pixels seen;
+    const glm::vec3 normal(0.6f, -0.64f, 0.48f), flat(0, 0.6f, 0.8f);
+    for (const std::uint32_t pixel : {2u, 5u, 7u, 11u}) {
+        seen.set(GBUFFER_POSITION, pixel, glm::vec3(0.25f, 0.5f, 0.125f) * float(pixel));
+        seen.set(GBUFFER_NORMAL, pixel, pixel == 11 ? glm::vec3(nan, 0, 1) : normal);
+        seen.set(GBUFFER_GEOMETRIC, pixel, flat);
+        seen.ids[GBUFFER_MATERIAL * stride + pixel] = pixel == 5 ? 1 : 0;
+    }
+    const std::vector<cl_uint> pixels = {9, 7, 5, 0, 11, 2, 0, 0};
+    const ReceiverBuffers out = receivers(std::vector<float>(RECEIVER_PLANES * stride, 7.0f));
+    const cl::Buffer exponents = test::upload(std::vector<float>(stride, 7.0f));
+    // From the second place on; pixel 0 shows nothing, and after 2 the list ends.
+    passes(GetParam())
+        .pixels(test::device().queue, {1, 7, stride, stride, 0.5f, 0, 0, 0},
+                {test::upload(pixels), test::upload(std::vector<cl_uint>{6})}, scene, seen.buffer(),
+                out, exponents);
+    const auto planes = test::download<float>(out.planes, RECEIVER_PLANES * stride);
+    const auto lobes = test::download<float>(exponents, stride);
+    const float glossy = reflectance(0.6f, 0.5f).exponent;
+    EXPECT_GT(glossy, 1.0f);
+    const std::uint32_t listed[] = {7, 5, 0, 11, 2};
+    for (std::size_t i = 0; i < 7; ++i) {
+        const std::uint32_t pixel = i < 5 ? listed[i] : 0;
+        const glm::vec3 n = row(planes, RECEIVER_NORMAL, i), t = row(planes, RECEIVER_TANGENT, i),
+                        b = row(planes, RECEIVER_BITANGENT, i);
+        EXPECT_EQ(lobes[i], i == 1 ? glossy : 0.0f) << i;
+        if (pixel == 0) {
+            for (int plane = 0; plane < RECEIVER_PLANES; ++plane)
+                EXPECT_EQ(planes[static_cast<std::size_t>(plane) * stride + i], 0.0f) << i;
+            continue;
+        }
+        if (pixel == 11) {
+            for (const glm::vec3& v : {n, t, b}) EXPECT_TRUE(std::isnan(v.x + v.y + v.z));
+            continue;
+        }
+        const glm::vec3 wanted = glm::vec3(0.25f, 0.5f, 0.125f) * float(pixel) + 0.5f * flat;
+        const glm::vec3 position = row(planes, RECEIVER_POSITION, i);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(position[c], wanted[c], 1e-6f);
+            EXPECT_NEAR(n[c], normal[c], 1e-6f);
+            EXPECT_NEAR(glm::cross(t, b)[c], normal[c], 1e-6f);
+        }
+        EXPECT_NEAR(glm::dot(t, b), 0.0f, 1e-6f);
+        EXPECT_NEAR(glm::length(t), 1.0f, 1e-6f);
+    }
+    for (std::size_t i = 7; i < stride; ++i) EXPECT_EQ(planes[i], 7.0f);
+}
+
+TEST_P(TransferReceivers, ArePutWhereTheirPixelsAre) {
+    std::vector<float> light(3 * stride);
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] = static_cast<float>(i);
+    for (const Storage storage : {Storage::full, Storage::half}) {
+        const ReceiverPasses some(test::programs(), {.math = GetParam(), .storage = storage});
+        const cl::Buffer shown = test::upload(std::vector<float>(3 * stride, 0.0f));
+        some.place(test::device().queue, {2, 5, stride, stride, 0, 0, 0, 0},
+                   {test::upload(std::vector<cl_uint>{1, 1, 9, 3, 0, 1, 1}),
+                    test::upload(std::vector<cl_uint>{5})},
+                   test::upload(light), shown);
+        const auto words = test::download<float>(shown, 3 * stride);
+        const auto halves = test::download<std::uint16_t>(shown, 3 * stride);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t pixel = 0; pixel < stride; ++pixel) {
+                const int place = pixel == 9 ? 0 : pixel == 3 ? 1 : pixel == 0 ? 2 : -1;
+                const float wanted = place < 0 ? 0.0f : light[c * stride + std::size_t(place)];
+                const std::size_t at = c * stride + pixel;
+                EXPECT_EQ(storage == Storage::half ? glm::unpackHalf1x16(halves[at]) : words[at],
+                          wanted)
+                    << pixel;
+            }
+    }
+}
+
+TEST_P(TransferReceivers, LightPixelsBetweenThem) {
+    const Scene world = two_triangles();
+    const DeviceScene scene = test::on_device(world);
+    const auto order = scene.vertex_order();
+    // Light is a linear function of the place, another one on the other side.
+    const auto front = [](const glm::dvec3& p) {
+        return glm::dvec3(1 + p.x, 2 + 3 * p.y, 0.5 + p.x - 0.25 * p.y);
+    };
+    const auto back = [](const glm::dvec3& p) {
+        return glm::dvec3(4 - p.x, 1 + 0.5 * p.x * 2, 3 - p.y);
+    };
+    std::vector<float> light(3 * stride, nan);
+    std::vector<cl_uint> other(6);
+    std::uint32_t next = 6;
+    for (std::size_t v = 0; v < 6; ++v) {
+        const glm::dvec3 p = world.positions[order[v]];
+        // The second triangle has one side.
+        other[v] = order[v] < 3 ? next++ : RECEIVER_NONE;
+        for (std::size_t c = 0; c < 3; ++c) {
+            light[c * stride + v] = static_cast<float>(front(p)[int(c)]);
+            if (other[v] != RECEIVER_NONE)
+                light[c * stride + other[v]] = static_cast<float>(back(p)[int(c)]);
+        }
+    }
+    Pixels seen;
+    std::vector<glm::dvec3> places(12);
+    for (std::uint32_t pixel = 0; pixel < 12; ++pixel) {
+        const std::size_t t = pixel % 2;
+        const double b1 = 0.05 * pixel, b2 = 0.3 - 0.02 * pixel;
+        const std::uint32_t on_device = static_cast<std::uint32_t>(
+            std::find(scene.triangle_order().begin(), scene.triangle_order().end(), t) -
+            scene.triangle_order().begin());
+        const auto& corner = world.triangles[t].vertex;
+        places[pixel] = (1 - b1 - b2) * world.positions[corner[0]] +
+                        b1 * world.positions[corner[1]] + b2 * world.positions[corner[2]];
+        seen.set(GBUFFER_POSITION, pixel, scene.frame().to_local(places[pixel]));
+        seen.ids[GBUFFER_TRIANGLE * stride + pixel] =
+            pixel == 11 ? -1 : static_cast<int>(on_device);
+    }
+    const GBuffer buffer = seen.buffer();
+    // Both triangles face z. From the front and the back, in perspective and not.
+    for (const glm::vec4 eye : {glm::vec4(0, 0, 9, 0), glm::vec4(0, 0, -9, 0),
+                                glm::vec4(0, 0, 1, 1), glm::vec4(0.2f, 0, -1, 1)}) {
+        const cl::Buffer shown = test::upload(std::vector<float>(3 * stride, nan));
+        passes(GetParam())
+            .show(test::device().queue, {eye, 12, stride, 2, stride}, scene, test::upload(other),
+                  buffer, test::upload(light), shown);
+        const auto found = test::download<float>(shown, 3 * stride);
+        for (std::size_t pixel = 0; pixel < 12; ++pixel) {
+            const bool behind = eye.z < 0 && pixel % 2 == 0;
+            glm::dvec3 wanted = behind ? back(places[pixel]) : front(places[pixel]);
+            if (pixel == 11) wanted = glm::dvec3(0.0);
+            for (std::size_t c = 0; c < 3; ++c)
+                EXPECT_NEAR(found[c * stride + pixel], wanted[int(c)], 2e-5)
+                    << pixel << ", " << eye.z;
+        }
+        EXPECT_TRUE(std::isnan(found[12]));
+    }
+}
+
+// 6 x 5 pixels, probes at (1, 1), (3, 1), (5, 1), (1, 3) and so on.
+constexpr std::uint32_t probe_stride = 16, picture_stride = 32;
+const ProbeParams probing{6, 5, picture_stride, probe_stride, 2, 3, 2, 0.25f};
+
+TEST_P(TransferReceivers, ComparesProbesWithWhatIsShown) {
+    std::vector<float> shown(3 * picture_stride), probes(3 * probe_stride);
+    std::vector<int> ids(2 * picture_stride, 3);
+    for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = static_cast<float>(i % 13) + 1.0f;
+    const std::size_t pixels[] = {7, 9, 11, 19, 21, 23};
+    for (std::size_t k = 0; k < 6; ++k)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float a = shown[c * picture_stride + pixels[k]];
+            // A fifth more, a third more; then channels that make up for each other; not a number.
+            const float by[] = {1.2f, 1.4f, c == 0 ? 1.5f : 0.5f, 0.8f, 0.7f, 1.0f};
+            probes[c * probe_stride + k] = k == 5 && c == 1 ? nan : a * by[k];
+        }
+    ids[GBUFFER_TRIANGLE * picture_stride + 21] = -1;
+    GBuffer seen;
+    seen.planes = test::empty<float>(GBUFFER_PLANES * picture_stride);
+    seen.ids = test::upload(ids);
+    seen.stride = picture_stride;
+    const cl::Buffer values = test::upload(probes);
+    const cl::Buffer states = test::upload(std::vector<cl_uint>(8, 9));
+    passes(GetParam())
+        .compare_probes(test::device().queue, probing, seen, test::upload(shown), values, states);
+    EXPECT_EQ(test::download<cl_uint>(states, 8),
+              (std::vector<cl_uint>{PROBE_AGREES, PROBE_FAILS, PROBE_FAILS, PROBE_AGREES,
+                                    PROBE_NOWHERE, PROBE_FAILS, 9, 9}));
+    const auto missing = test::download<float>(values, probes.size());
+    for (std::size_t k = 0; k < 5; ++k)
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(missing[c * probe_stride + k],
+                        probes[c * probe_stride + k] - shown[c * picture_stride + pixels[k]], 1e-6);
+}
+
+TEST_P(TransferReceivers, FlagsPixelsAroundProbesThatFailAndMendsTheOthers) {
+    // What is missing is a linear function of the place of the probe.
+    std::vector<float> missing(3 * probe_stride), shown(3 * picture_stride);
+    const auto lacks = [](double x, double y, std::size_t c) {
+        return static_cast<float>((1.0 + c) * x - 2.0 * y + 0.5 * c);
+    };
+    for (std::size_t k = 0; k < 6; ++k)
+        for (std::size_t c = 0; c < 3; ++c)
+            missing[c * probe_stride + k] = lacks(1 + 2.0 * (k % 3), 1 + 2.0 * (k / 3), c);
+    for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = static_cast<float>(i % 7);
+    std::vector<int> ids(2 * picture_stride, 0);
+    ids[GBUFFER_TRIANGLE * picture_stride + 8] = -1;
+    GBuffer seen;
+    seen.planes = test::empty<float>(GBUFFER_PLANES * picture_stride);
+    seen.ids = test::upload(ids);
+    seen.stride = picture_stride;
+    const cl::Buffer values = test::upload(shown);
+    const cl::Buffer flags = test::upload(std::vector<std::uint8_t>(32, 9));
+    // The probe at (5, 3) fails; the one at (1, 3) sees nothing.
+    const std::vector<cl_uint> states = {PROBE_AGREES,  PROBE_AGREES, PROBE_AGREES,
+                                         PROBE_NOWHERE, PROBE_AGREES, PROBE_FAILS};
+    passes(GetParam())
+        .undersampled(test::device().queue, probing, seen, test::upload(missing),
+                      test::upload(states), values, flags);
+    const auto marks = test::download<std::uint8_t>(flags, 32);
+    const auto found = test::download<float>(values, shown.size());
+    for (std::uint32_t pixel = 0; pixel < 30; ++pixel) {
+        const std::uint32_t x = pixel % 6, y = pixel / 6;
+        const bool flagged = x >= 3 && y >= 1 && pixel != 8;
+        EXPECT_EQ(marks[pixel], flagged ? 1 : 0) << pixel;
+        // Exact where all four probes around are seen and agree; beside the border the nearest do.
+        const double px = std::max(x, 1u), py = std::clamp(y, 1u, 3u);
+        if (x < 3 && y > 1) continue;  // one of them sees nothing
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t at = c * picture_stride + pixel;
+            const float mend = flagged || pixel == 8 ? 0.0f : lacks(px, py, c);
+            EXPECT_NEAR(found[at], shown[at] + mend, 1e-5) << pixel << ", " << c;
+        }
+    }
+    // (2, 2): half of the square's probes at (1, 1) and (3, 1), a quarter at (3, 3).
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float mean = (lacks(1, 1, c) + lacks(3, 1, c) + lacks(3, 3, c)) / 3.0f;
+        EXPECT_NEAR(found[c * picture_stride + 14], shown[c * picture_stride + 14] + mean, 1e-5);
+    }
+    EXPECT_EQ(marks[30], 9);
+}
+
+TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {
+    const DeviceScene scene = test::on_device(two_triangles());
+    const Reflectance r = reflectance(0.6f, 0.5f);
+    EXPECT_GT(r.coat * r.lobe, 0.0f);
+    Pixels seen;
+    std::vector<float> light(3 * stride), radiance(3 * stride);
+    for (std::uint32_t pixel = 0; pixel < 6; ++pixel) {
+        seen.set(GBUFFER_BASE, pixel, {0.2f, 0.5f, 0.8f});
+        seen.ids[GBUFFER_MATERIAL * stride + pixel] = pixel == 0 ? -1 : pixel == 1 ? 0 : 1;
+        for (std::size_t c = 0; c < 3; ++c) {
+            light[c * stride + pixel] = 1.0f + static_cast<float>(c + pixel);
+            radiance[c * stride + pixel] = 0.25f * static_cast<float>(c + 1);
+        }
+    }
+    light[3] = nan;
+    light[stride + 4] = -2.0f;
+    light[5] = std::numeric_limits<float>::infinity();
+    const cl::Buffer values = test::upload(radiance);
+    const cl::Buffer bad = test::upload(std::vector<cl_uint>{3});
+    passes(GetParam())
+        .add_gloss(test::device().queue, {6, stride, 8.0f, 0}, scene, seen.buffer(),
+                   test::upload(light), values, bad);
+    const auto found = test::download<float>(values, radiance.size());
+    EXPECT_EQ(test::download<cl_uint>(bad, 1)[0], 5u);
+    const float base[] = {0.2f, 0.5f, 0.8f};
+    for (std::size_t pixel = 0; pixel < 6; ++pixel)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t at = c * stride + pixel;
+            const bool none = pixel < 2 || (pixel == 3 && c == 0) || (pixel == 4 && c == 1) ||
+                              (pixel == 5 && c == 0);
+            const float gloss = none ? 0.0f : 8.0f * (r.coat + r.lobe * base[c]) * light[at];
+            EXPECT_NEAR(found[at], radiance[at] + gloss, 1e-5f * (1 + gloss)) << pixel << ", " << c;
+        }
+}
+
+TEST_P(TransferReceivers, RefuseWhatDoesNotFit) {
+    const DeviceScene scene = test::on_device(two_triangles());
+    const ReceiverPasses& p = passes(GetParam());
+    const cl::CommandQueue& queue = test::device().queue;
+    const Pixels pixels;
+    const GBuffer seen = pixels.buffer();
+    GBuffer other = seen;
+    other.stride = 32;
+    const cl::Buffer some = test::empty<float>(GBUFFER_PLANES * 32), one = test::empty<float>(1);
+    const PixelList list{some, some}, short_list{one, some};
+    const ReceiverBuffers out = receivers(std::vector<float>(RECEIVER_PLANES * stride));
+    const PixelParams run{0, 7, stride, stride, 0, 0, 0, 0};
+    EXPECT_NO_THROW(p.place(queue, run, list, some, some));
+    EXPECT_THROW(p.place(queue, run, short_list, some, some), Error);
+    EXPECT_THROW(p.place(queue, run, list, one, some), Error);
+    EXPECT_THROW(p.place(queue, run, list, some, one), Error);
+    EXPECT_THROW(p.pixels(queue, run, list, scene, other, out, some), Error);
+    EXPECT_THROW(p.pixels(queue, run, list, scene, seen, out, one), Error);
+    EXPECT_THROW(p.other_sides(queue, {10, 7, stride, 0}, some, out), Error);
+    EXPECT_THROW(p.other_sides(queue, {10, 6, stride, 0}, one, out), Error);
+    const ShowVerticesParams shows{glm::vec4(0), 12, stride, 2, stride};
+    EXPECT_THROW(p.show(queue, shows, scene, some, other, some, some), Error);
+    EXPECT_THROW(p.show(queue, shows, scene, one, seen, some, some), Error);
+    ShowVerticesParams many = shows;
+    many.triangle_count = 3;
+    EXPECT_THROW(p.show(queue, many, scene, some, seen, some, some), Error);
+    GBuffer wide = other;
+    wide.planes = wide.ids = some;
+    ProbeParams wrong = probing;
+    EXPECT_NO_THROW(p.compare_probes(queue, wrong, wide, some, some, some));
+    wrong.columns = 4;
+    EXPECT_THROW(p.compare_probes(queue, wrong, wide, some, some, some), Error);
+    wrong = probing;
+    wrong.step = 1;
+    EXPECT_THROW(p.undersampled(queue, wrong, wide, some, some, some, some), Error);
+    EXPECT_THROW(p.undersampled(queue, probing, wide, some, some, some, one), Error);
+    EXPECT_THROW(p.add_gloss(queue, {6, stride, 1, 0}, scene, seen, one, some, some), Error);
+    EXPECT_THROW(p.add_gloss(queue, {6, stride, 1, 0}, scene, other, some, some, some), Error);
+}
+
+}  // namespace
+}  // namespace clgi
