@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <string>
-#include <utility>
 
 #include "opencl/check.hpp"
 #include "scene/disjoint_sets.hpp"
 #include "scene/weld.hpp"
 #include "transfer/nearest_coarse.hpp"
+#include "transfer/rings.hpp"
 
 namespace clgi {
 namespace {
@@ -87,65 +87,6 @@ std::vector<std::uint32_t> cluster_order(const Scene& scene,
     order_in_clusters(order.data(), order.size(), centres);
     return order;
 }
-
-// Triangles around the vertices of a mesh.
-class Rings {
-public:
-    // corners: welded vertices of each triangle.
-    Rings(std::vector<glm::uvec3> corners, std::uint32_t vertices)
-        : corners_(std::move(corners)),
-          first_(vertices + std::size_t{1}, 0),
-          vertex_seen_(vertices, absent),
-          triangle_seen_(corners_.size(), absent) {
-        for (const glm::uvec3& t : corners_)
-            for (int k = 0; k < 3; ++k) ++first_[t[k] + std::size_t{1}];
-        for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-        around_.resize(first_.back());
-        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-        for (std::uint32_t t = 0; t < corners_.size(); ++t)
-            for (int k = 0; k < 3; ++k) around_[next[corners_[t][k]]++] = t;
-    }
-
-    // Triangles with a corner at most `rings` edges away, ascending.
-    std::vector<std::uint32_t> around(std::uint32_t vertex, int rings) {
-        std::vector<std::uint32_t> vertices{vertex}, out;
-        vertex_seen_[vertex] = vertex;
-        std::size_t begin = 0;
-        for (int ring = 0; ring <= rings; ++ring) {
-            const std::size_t end = vertices.size();
-            for (; begin < end; ++begin) add_triangles(vertices[begin], vertex, vertices, out);
-        }
-        std::sort(out.begin(), out.end());
-        return out;
-    }
-
-    bool touches(std::uint32_t triangle, std::uint32_t vertex) const {
-        const glm::uvec3& t = corners_[triangle];
-        return t.x == vertex || t.y == vertex || t.z == vertex;
-    }
-
-private:
-    // Triangles at `at` and their vertices that the search around `vertex` has not come to yet.
-    void add_triangles(std::uint32_t at, std::uint32_t vertex, std::vector<std::uint32_t>& vertices,
-                       std::vector<std::uint32_t>& out) {
-        for (std::uint32_t i = first_[at]; i < first_[at + std::size_t{1}]; ++i) {
-            const std::uint32_t t = around_[i];
-            if (triangle_seen_[t] == vertex) continue;
-            triangle_seen_[t] = vertex;
-            out.push_back(t);
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t other = corners_[t][k];
-                if (vertex_seen_[other] == vertex) continue;
-                vertex_seen_[other] = vertex;
-                vertices.push_back(other);
-            }
-        }
-    }
-
-    std::vector<glm::uvec3> corners_;
-    std::vector<std::uint32_t> first_, around_;               // triangles of each vertex
-    std::vector<std::uint32_t> vertex_seen_, triangle_seen_;  // by the search around this vertex
-};
 
 // [vertices of the scene] what triangles connect, by welded vertices.
 std::vector<std::uint32_t> connected(const Scene& scene, const std::vector<std::uint32_t>& welded,
