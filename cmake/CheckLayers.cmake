@@ -56,9 +56,9 @@ file(GLOB top RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/include/clgi/*.hpp")
 list(TRANSFORM top PREPEND "${SOURCE_DIR}/")
 list(APPEND core ${top})
 
-forbid("^(clgi/)?(io|cli|report|reference|gl)/" "the library knows no files, program or window"
+forbid("^(clgi/)?(io|cli|report|reference|gl|mesh)/" "the library knows no files, program or window"
        ${core})
-forbid("tiny_gltf|^stb_image|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/"
+forbid("tiny_gltf|^stb_image|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^meshoptimizer|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/"
        "the library stands on OpenCL and GLM alone" ${public} ${library})
 
 # A header without a library to it, compiled into one file.
@@ -76,6 +76,13 @@ forbid("^(clgi/)?(io|cli|report|reference)/|^clgi/reference\\.hpp|^(OpenEXR|nloh
 forbid("^(GL|EGL|GLES[0-9]?|GLFW|X11)/" "OpenGL and EGL are seen through epoxy" ${gl})
 forbid("^(clgi/)?gl/|^epoxy/" "only the program uses gl"
        "${SOURCE_DIR}/host/io/*" "${SOURCE_DIR}/host/report/*" "${SOURCE_DIR}/host/reference/*")
+
+# Meshes: the library below, and meshoptimizer nowhere else.
+forbid("^(clgi/)?(io|cli|report|reference|gl)/|^clgi/reference\\.hpp" "mesh stands on the library alone"
+       "${SOURCE_DIR}/host/mesh/*" "${SOURCE_DIR}/include/clgi/mesh/*.hpp")
+forbid("^meshoptimizer" "meshoptimizer is mesh's business" "${SOURCE_DIR}/host/io/*"
+       "${SOURCE_DIR}/host/gl/*" "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/host/report/*"
+       "${SOURCE_DIR}/host/cli/*")
 
 # Ground truth is no use where it shares a mistake with what it judges.
 forbid("^(clgi/)?(passes|solvers|shared|gbuffer|lights|image|opencl|io|report|cli)/|^clgi/(clgi|device_scene|emitters|device|pass)\\.hpp"

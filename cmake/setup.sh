@@ -10,6 +10,7 @@ clgi_packages=(
     ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers libglm-dev libstb-dev # clgi::clgi
     libopenexr-dev libpng-dev nlohmann-json3-dev libtinygltf-dev                 # clgi::io
     libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri                 # clgi::gl
+    libmeshoptimizer-dev                                                         # clgi::mesh
     libembree-dev libtbb-dev                                                     # clgi::reference
     libcli11-dev libfmt-dev                                                      # the program
     pocl-opencl-icd                                                              # OpenCL on CPUs

@@ -247,19 +247,6 @@ TEST_P(DynamicTransfer, WithTwoLevelsOfTheSameMeshIsThatOfOne) {
         const Lit two(scene, options);
         EXPECT_TRUE(masks_of(two.solver) == wanted) << rings;
     }
-    // Without its far level, what is near remains.
-    DynamicTransferOptions near = with(GetParam());
-    near.coarse = {triangles_of(scene)[0]};
-    near.rings = 2;
-    const Lit few(scene, near);
-    EXPECT_LT(few.solver.triangles_per_receiver(), 150.0);
-    std::size_t less = 0;
-    const auto found = masks_of(few.solver);
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        EXPECT_EQ(found[i] & ~wanted[i], 0u);
-        less += found[i] != wanted[i];
-    }
-    EXPECT_GT(less, 1000u);
 }
 
 // In the frames that were looked at, masks from visible sets are those of all triangles.

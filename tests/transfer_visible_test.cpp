@@ -158,6 +158,40 @@ TEST_P(TransferVisible, TrianglesDrawTheMasksOfAll) {
     }
 }
 
+// Singles are looked at like clusters: half of the triangles as these and half as those.
+TEST_P(TransferVisible, TrianglesMayBeSingles) {
+    Heap heap;
+    for (const int width : {1, 4, 16}) {
+        const BuildOptions how{.math = GetParam(), .packet_width = width};
+        heap.blockers.ranges.clear();
+        heap.blockers.near_lists.clear();
+        heap.blockers.near.clear();
+        const Drawn whole = test::draw_masks(heap.blockers, heap.eyes, {}, how);
+        const std::vector<cl_uint> wanted = add_seen(whole, {}, how);
+        heap.blockers.ranges = {0, 2};
+        heap.blockers.near_lists = {0};
+        for (cl_uint i = 0; i < 37; ++i) {
+            for (cl_uint t = 128; t < 200; ++t)
+                if (i % 3 != 0) heap.blockers.near.push_back(t);
+            heap.blockers.near_lists.push_back(static_cast<cl_uint>(heap.blockers.near.size()));
+        }
+        const Drawn half = test::draw_masks(heap.blockers, heap.eyes, {}, how);
+        const std::vector<cl_uint> found = add_seen(half, {}, how);
+        for (std::size_t word = 0; word < 7; ++word)
+            for (std::size_t i = 0; i < 37; ++i) {
+                const std::size_t at = word * whole.receivers.stride + i;
+                if (i % 3 != 0) {
+                    EXPECT_EQ(found[at], wanted[at]) << i;
+                } else if (word >= 4) {
+                    EXPECT_EQ(found[at], 0u) << i;
+                }
+            }
+        const VisibleSets sets = sets_of(half, found);
+        test::expect_same_masks(
+            test::draw_masks(singles_of(heap.blockers, sets), heap.eyes, {}, how), half, "singles");
+    }
+}
+
 // Ten receivers a list of clusters: what is in no list is not seen.
 TEST_P(TransferVisible, TrianglesAreThoseOfTheReceiversList) {
     const BuildOptions how{.math = GetParam()};
@@ -227,7 +261,7 @@ TEST(TransferVisibleInputs, OfTooFewBytesAreRefused) {
     const Drawn drawn = test::draw_masks(heap.blockers, heap.eyes);
     const MaskPasses& passes = test::mask_passes();
     const cl::CommandQueue& queue = test::device().queue;
-    const cl::Buffer scratch = test::empty<cl_uint>(1 << 16);
+    const cl::Buffer scratch = test::upload(std::vector<cl_uint>(1 << 16));
     const auto see = [&](const ReceiverBuffers& r, const BlockerBuffers& b) {
         passes.visible(queue, r, b, scratch, scratch);
     };
@@ -241,6 +275,14 @@ TEST(TransferVisibleInputs, OfTooFewBytesAreRefused) {
              passes.visible(queue, drawn.receivers, drawn.blockers, scratch, x);
          }},
     });
+    BlockerBuffers near = drawn.blockers;
+    near.near_lists = test::upload(std::vector<cl_uint>(38));
+    near.near = scratch;
+    EXPECT_NO_THROW(see(drawn.receivers, near));
+    near.near_lists = test::empty<cl_uint>(37);
+    EXPECT_THROW(see(drawn.receivers, near), Error);
+    near.near_lists = cl::Buffer();
+    EXPECT_THROW(see(drawn.receivers, near), Error);
     BlockerBuffers b = drawn.blockers;
     b.receivers_per_list = 0;
     EXPECT_THROW(see(drawn.receivers, b), Error);
@@ -257,7 +299,7 @@ TEST(TransferVisibleInputs, OfTooFewBytesAreRefused) {
     r.count = 0;
     r.stride = 0;
     EXPECT_NO_THROW(see(r, drawn.blockers));
-    EXPECT_NO_THROW(passes.build({"visible"}));
+    EXPECT_NO_THROW(passes.build({"visible", "visible_near"}));
 }
 
 // ---- lists of bits -----------------------------------------------------------------------------

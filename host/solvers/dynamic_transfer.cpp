@@ -31,7 +31,6 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
       glossy(wanted.gloss && of.has_lobes()),
       vertices(file, of),
       levels(blocker_levels(file, of, wanted.coarse, wanted.rings)),
-      near(vertices.lists(levels)),
       masks(programs, wanted.masks, wanted.build),
       sides(programs, wanted.build),
       projection(programs, wanted.build, wanted.masks.bands),
@@ -40,23 +39,21 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
       cells(windowed(
           mask_weights(wanted.masks.size, wanted.masks.block, wanted.masks.bands, wanted.cells),
           wanted.window)) {
+    vertices.add_other_sides(levels);
     receivers.count = vertices.count();
     receivers.stride = plane_stride(receivers.count);
-    blockers.triangle_count = static_cast<std::uint32_t>(levels.triangles.size());
-    blockers.stride = blocker_stride(blockers.triangle_count);
+    both.triangle_count = static_cast<std::uint32_t>(levels.triangles.size());
+    both.stride = blocker_stride(both.triangle_count);
+    both.receivers_per_list = levels.receivers_per_list;
     const BufferTable rows = table();
     rows.check(queue.getInfo<CL_QUEUE_DEVICE>(), options.memory_budget, scene.bytes());
     rows.allocate(record);
     bytes = rows.bytes();
-    const auto share = [&](BlockerBuffers& of_all) {
-        of_all.corners = blockers.corners;
-        of_all.boxes = blockers.boxes;
-        of_all.triangle_count = blockers.triangle_count;
-        of_all.stride = blockers.stride;
-    };
-    share(fine);
-    share(all);
-    all.lists = blockers.lists;
+    blockers = both;
+    fine.corners = both.corners;
+    fine.boxes = both.boxes;
+    fine.triangle_count = both.triangle_count;
+    fine.stride = both.stride;
     build();
     write();
 }
@@ -64,7 +61,7 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
 void DynamicTransferSolver::State::build() const {
     masks.build({"receivers", "blockers", "mask", "integrate", "shade"});
     projection.build({"project_rows", "project_columns", "project_environment"});
-    if (!near.near.empty()) masks.build({"mask_near"});
+    if (!levels.near.empty()) masks.build({"mask_near"});
     if (!vertices.fronts.empty()) sides.build({"other_sides"});
     if (options.masks.planes == EdgePlanes::table) masks.build({"planes"});
     if (glossy) masks.build({"integrate_gloss"});
@@ -90,17 +87,16 @@ BufferTable DynamicTransferSolver::State::table() {
     }
     t.add(triangles, "triangles that block", triangle,
           levels.triangles.size() * sizeof(glm::uvec4));
-    t.add(blockers.corners, "blockers", triangle, BLOCKER_PLANES * word * blockers.stride);
-    t.add(blockers.boxes, "boxes of blockers", triangle,
-          blockers.stride / BLOCKER_CLUSTER * sizeof(BlockerBox));
-    t.add(blockers.lists, "lists of blockers", triangle, levels.lists.size() * word);
-    t.add(blockers.ranges, "lists of blockers", triangle, levels.ranges.size() * word);
-    t.add(fine.lists, "lists of blockers", triangle, 2 * word);
-    t.add(fine.ranges, "lists of blockers", triangle, 2 * word);
-    t.add(all.ranges, "lists of blockers", triangle, levels.ranges.size() * word);
-    if (!near.near.empty()) {
-        t.add(blockers.near_lists, "lists of singles", triangle, near.near_lists.size() * word);
-        t.add(blockers.near, "lists of singles", triangle, near.near.size() * word);
+    t.add(both.corners, "blockers", triangle, BLOCKER_PLANES * word * both.stride);
+    t.add(both.boxes, "boxes of blockers", triangle,
+          both.stride / BLOCKER_CLUSTER * sizeof(BlockerBox));
+    t.add(both.lists, "lists of clusters", triangle, levels.lists.size() * word);
+    t.add(both.ranges, "lists of clusters", triangle, levels.ranges.size() * word);
+    t.add(fine.lists, "lists of clusters", triangle, 2 * word);
+    t.add(fine.ranges, "lists of clusters", triangle, 2 * word);
+    if (!levels.near.empty()) {
+        t.add(both.near_lists, "lists of singles", triangle, levels.near_lists.size() * word);
+        t.add(both.near, "lists of singles", triangle, levels.near.size() * word);
     }
     t.add(drawn, "the table of planes", "table size", mask_table_bytes(options.masks));
     t.add(weights, "weights of cells", "bands", cells.values.size() * word);
@@ -118,20 +114,18 @@ void DynamicTransferSolver::State::write() {
     put(fronts, vertices.fronts);
     if (glossy) put(exponents, vertices.exponents);
     put(triangles, levels.triangles);
-    put(blockers.lists, levels.lists);
-    put(blockers.ranges, levels.ranges);
-    put(all.ranges, levels.ranges);
+    put(both.lists, levels.lists);
+    put(both.ranges, levels.ranges);
+    put(both.near_lists, levels.near_lists);
+    put(both.near, levels.near);
     const std::uint32_t fine_clusters = blocker_stride(levels.fine_count) / BLOCKER_CLUSTER;
     put(fine.lists, std::vector<std::uint32_t>{0, 1});
     put(fine.ranges, std::vector<std::uint32_t>{0, fine_clusters});
+    const bool shared = levels.receivers_per_list != 1;
     for (std::size_t i = 1; i < levels.ranges.size(); i += 2)
-        far_triangles +=
-            std::size_t{levels.ranges[i]} * BLOCKER_CLUSTER * std::size_t{receivers.count};
-    near_triangles = near.near.size();
-    if (!near.near.empty()) {
-        put(blockers.near_lists, near.near_lists);
-        put(blockers.near, near.near);
-    }
+        listed_triangles +=
+            std::size_t{levels.ranges[i]} * BLOCKER_CLUSTER * (shared ? receivers.count : 1);
+    listed_triangles += levels.near.size();
     put(weights, cells.values);
     put(directions, cells.directions);
     sky.write(record);
@@ -163,8 +157,8 @@ void DynamicTransferSolver::State::place_receivers() {
                  static_cast<std::uint32_t>(vertices.fronts.size()), receivers.stride, 0},
                 fronts, receivers, wait);
         });
-    record("transfer.blockers", blockers.triangle_count, [&](const WaitList& wait) {
-        return masks.blockers(queue, triangles, scene.positions(), blockers, status, wait);
+    record("transfer.blockers", both.triangle_count, [&](const WaitList& wait) {
+        return masks.blockers(queue, triangles, scene.positions(), both, status, wait);
     });
 }
 
@@ -274,7 +268,7 @@ const cl::Buffer& DynamicTransferSolver::environment() const { return state_->sk
 const MaskPasses& DynamicTransferSolver::passes() const { return state_->masks; }
 const BlockerBuffers& DynamicTransferSolver::blockers() const { return state_->fine; }
 double DynamicTransferSolver::triangles_per_receiver() const {
-    const double all = static_cast<double>(state_->far_triangles + state_->near_triangles);
+    const double all = static_cast<double>(state_->listed_triangles);
     return all / std::max<std::uint32_t>(state_->receivers.count, 1);
 }
 const cl::Buffer& DynamicTransferSolver::drawn() const { return state_->drawn; }

@@ -30,17 +30,18 @@ SceneReceivers::SceneReceivers(const Scene& scene, const DeviceScene& device)
         }
 }
 
-VisibleSets SceneReceivers::lists(const BlockerLevels& levels) const {
-    VisibleSets out;
-    if (levels.near_lists.empty()) return out;
-    out.near_lists = levels.near_lists;
-    out.near = levels.near;
+void SceneReceivers::add_other_sides(BlockerLevels& levels) const {
+    if (levels.receivers_per_list != 1) return;
+    std::vector<std::uint32_t>&lists = levels.lists, &ranges = levels.ranges, &near = levels.near;
     for (const std::uint32_t v : fronts) {
-        out.near.insert(out.near.end(), levels.near.begin() + levels.near_lists[v],
-                        levels.near.begin() + levels.near_lists[v + 1]);
-        out.near_lists.push_back(static_cast<std::uint32_t>(out.near.size()));
+        for (std::uint32_t i = 2 * lists[v]; i < 2 * lists[v + 1]; ++i)
+            ranges.push_back(std::uint32_t{ranges[i]});
+        lists.push_back(static_cast<std::uint32_t>(ranges.size() / 2));
+        if (levels.near_lists.empty()) continue;
+        for (std::uint32_t i = levels.near_lists[v]; i < levels.near_lists[v + 1]; ++i)
+            near.push_back(std::uint32_t{near[i]});
+        levels.near_lists.push_back(static_cast<std::uint32_t>(near.size()));
     }
-    return out;
 }
 
 }  // namespace clgi

@@ -8,7 +8,7 @@ cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
     if (!seen()) {
         BufferTable t("dynamic-transfer");
         t.add(seen, "bits of visible sets", "the scene's vertices",
-              visible_words(all.triangle_count) * receivers.stride * sizeof(std::uint32_t));
+              visible_words(both.triangle_count) * receivers.stride * sizeof(std::uint32_t));
         t.add(heights, "heights of pixels", "mask size",
               pixel_heights(options.masks.size).size() * sizeof(float));
         t.check(queue.getInfo<CL_QUEUE_DEVICE>(), 0, scene.bytes() + bytes);
@@ -21,7 +21,7 @@ cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
     record.begin(wait);
     place_receivers();
     record("transfer.visible", receivers.count, [&](const WaitList& before) {
-        return masks.visible(queue, receivers, all, heights, seen, before);
+        return masks.visible(queue, receivers, both, heights, seen, before);
     });
     return record.last();
 }
@@ -29,10 +29,10 @@ cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
 VisibleSets DynamicTransferSolver::State::sets() {
     if (!seen()) throw Error("dynamic-transfer: sets before the first look");
     record.wait();
-    std::vector<std::uint32_t> words(visible_words(all.triangle_count) * receivers.stride);
+    std::vector<std::uint32_t> words(visible_words(both.triangle_count) * receivers.stride);
     queue.enqueueReadBuffer(seen, CL_TRUE, 0, words.size() * sizeof(words[0]), words.data());
     record.fill(seen, 0);
-    return visible_sets(words, receivers.count, receivers.stride, all.triangle_count, near);
+    return visible_sets(words, receivers.count, receivers.stride, both.triangle_count);
 }
 
 void DynamicTransferSolver::State::restrict(const VisibleSets& sets) {
@@ -44,7 +44,12 @@ void DynamicTransferSolver::State::restrict(const VisibleSets& sets) {
         if (triangle >= blockers.triangle_count)
             throw Error("dynamic-transfer: the sets name triangle " + std::to_string(triangle) +
                         ", there are " + std::to_string(blockers.triangle_count));
+    // Those of the hierarchy stay: look() goes on with them.
+    blockers.lists = blockers.ranges = blockers.near_lists = blockers.near = cl::Buffer();
+    blockers.receivers_per_list = ~0u;
     BufferTable t("dynamic-transfer");
+    t.add_word(blockers.lists, "lists of clusters", 0);
+    t.add_word(blockers.ranges, "lists of clusters", 0);
     t.add(blockers.near_lists, "lists of singles", "the scene's vertices",
           sets.near_lists.size() * sizeof(std::uint32_t));
     t.add(blockers.near, "lists of singles", "the scene's vertices",
@@ -53,10 +58,8 @@ void DynamicTransferSolver::State::restrict(const VisibleSets& sets) {
     t.allocate(record);
     put(blockers.near_lists, sets.near_lists);
     put(blockers.near, sets.near);
-    put(blockers.ranges, std::vector<std::uint32_t>{0, 0});
     masks.build({"mask_near"});
-    far_triangles = 0;
-    near_triangles = sets.near.size();
+    listed_triangles = sets.near.size();
 }
 
 }  // namespace clgi

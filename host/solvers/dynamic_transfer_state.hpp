@@ -13,8 +13,8 @@ struct SceneReceivers {
     SceneReceivers(const Scene& scene, const DeviceScene& device);
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(exponents.size()); }
-    // Lists of vertices as lists of receivers.
-    VisibleSets lists(const BlockerLevels& levels) const;
+    // Other sides look at what their vertices look at.
+    void add_other_sides(BlockerLevels& levels) const;
 
     std::vector<std::uint32_t> other_side;  // [vertices] receiver or RECEIVER_NONE
     std::vector<std::uint32_t> fronts;      // [other sides] vertex
@@ -50,7 +50,6 @@ struct DynamicTransferSolver::State {
     bool glossy;
     SceneReceivers vertices;
     BlockerLevels levels;
-    VisibleSets near;  // the near level, by receiver; empty: none
     MaskPasses masks;
     ReceiverPasses sides;
     TransferPasses projection;
@@ -58,10 +57,10 @@ struct DynamicTransferSolver::State {
     mutable Recorder record;
     MaskWeights cells;
     ReceiverBuffers receivers;
-    BlockerBuffers blockers;                            // of receivers: two levels, or sets
-    BlockerBuffers all;                                 // both levels, for look()
-    BlockerBuffers fine;                                // the scene's triangles alone
-    std::size_t far_triangles = 0, near_triangles = 0;  // of all receivers together
+    BlockerBuffers both;      // levels, with the lists of the hierarchy
+    BlockerBuffers blockers;  // with the lists that masks look at: the same, or visible sets
+    BlockerBuffers fine;      // the scene's triangles alone, one list
+    std::size_t listed_triangles = 0;  // of all receivers together
     cl::Buffer triangles, irradiance, gloss, lobes, exponents, other_side, fronts, drawn, heights,
         weights, directions, status, bad, seen;
     std::size_t bytes = 0;

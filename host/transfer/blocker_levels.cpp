@@ -7,7 +7,10 @@
 #include <string>
 
 #include "opencl/check.hpp"
+#include "scene/disjoint_sets.hpp"
 #include "scene/weld.hpp"
+#include "transfer/nearest_coarse.hpp"
+#include "transfer/rings.hpp"
 
 namespace clgi {
 namespace {
@@ -85,78 +88,101 @@ std::vector<std::uint32_t> cluster_order(const Scene& scene,
     return order;
 }
 
-// Triangles around the vertices of a mesh.
-class Rings {
+// [vertices of the scene] what triangles connect, by welded vertices.
+std::vector<std::uint32_t> connected(const Scene& scene, const std::vector<std::uint32_t>& welded,
+                                     std::uint32_t count) {
+    DisjointSets sets(count);
+    for (const SceneTriangle& t : scene.triangles)
+        for (int k = 1; k < 3; ++k) sets.join(welded[t.vertex[0]], welded[t.vertex[k]]);
+    const std::vector<std::uint32_t> number = sets.numbered();
+    std::vector<std::uint32_t> out;
+    for (const std::uint32_t w : welded) out.push_back(number[w]);
+    return out;
+}
+
+void sort_once(std::vector<std::uint32_t>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+// Both levels for one receiver.
+struct Listed {
+    std::vector<std::uint32_t> ranges, near;
+    bool known = false;
+};
+
+class Lists {
 public:
-    // corners: welded vertices of each triangle.
-    Rings(const std::vector<glm::uvec3>& corners, std::uint32_t vertices)
-        : corners_(corners),
-          first_(vertices + std::size_t{1}, 0),
-          vertex_seen_(vertices, absent),
-          triangle_seen_(corners.size(), absent) {
-        for (const glm::uvec3& t : corners)
-            for (int k = 0; k < 3; ++k) ++first_[t[k] + std::size_t{1}];
-        for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-        around_.resize(first_.back());
-        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-        for (std::uint32_t t = 0; t < corners.size(); ++t)
-            for (int k = 0; k < 3; ++k) around_[next[corners[t][k]]++] = t;
+    // fine, coarse: vertices of the scene, in the order of the device and of the clusters. behind:
+    // triangles before the coarse ones.
+    Lists(const Scene& scene, const std::vector<glm::uvec3>& fine,
+          const std::vector<glm::uvec3>& coarse, std::uint32_t behind)
+        : welded_(weld(scene.positions, scene.triangles)),
+          count_(welded_.empty() ? 0 : *std::max_element(welded_.begin(), welded_.end()) + 1),
+          rings_(on_welded(fine), count_),
+          coarse_of_(
+              nearest_coarse(scene.positions, connected(scene, welded_, count_), fine, coarse)),
+          fine_of_(coarse.size()),
+          behind_(behind),
+          listed_(count_) {
+        for (std::uint32_t t = 0; t < fine.size(); ++t)
+            if (coarse_of_[t] != absent) fine_of_[coarse_of_[t]].push_back(t);
     }
 
-    // Triangles with a corner at most `rings` edges away but not at the vertex itself, ascending.
-    std::vector<std::uint32_t> near(std::uint32_t vertex, int rings) {
-        std::vector<std::uint32_t> vertices{vertex}, out;
-        vertex_seen_[vertex] = vertex;
-        std::size_t begin = 0;
-        for (int ring = 0; ring <= rings; ++ring) {
-            const std::size_t end = vertices.size();
-            for (; begin < end; ++begin)
-                for (std::uint32_t i = first_[vertices[begin]]; i < first_[vertices[begin] + 1];
-                     ++i) {
-                    const std::uint32_t t = around_[i];
-                    if (triangle_seen_[t] == vertex) continue;
-                    triangle_seen_[t] = vertex;
-                    if (ring > 0) out.push_back(t);  // those of ring 0 touch the vertex
-                    for (int k = 0; k < 3; ++k) {
-                        const std::uint32_t other = corners_[t][k];
-                        if (vertex_seen_[other] == vertex) continue;
-                        vertex_seen_[other] = vertex;
-                        vertices.push_back(other);
-                    }
-                }
-        }
-        std::sort(out.begin(), out.end());
+    const Listed& of(std::uint32_t scene_vertex, int rings) {
+        const std::uint32_t vertex = welded_[scene_vertex];
+        Listed& out = listed_[vertex];
+        if (out.known) return out;
+        out.known = true;
+        std::vector<std::uint32_t> fine = rings_.around(vertex, rings), own;
+        for (const std::uint32_t t : fine)
+            if (coarse_of_[t] != absent) own.push_back(coarse_of_[t]);
+        sort_once(own);
+        for (const std::uint32_t c : own)
+            fine.insert(fine.end(), fine_of_[c].begin(), fine_of_[c].end());
+        sort_once(fine);
+        for (const std::uint32_t t : fine)
+            if (!rings_.touches(t, vertex)) out.near.push_back(t);
+        add_coarse(own, out);
         return out;
     }
 
 private:
-    const std::vector<glm::uvec3>& corners_;
-    std::vector<std::uint32_t> first_, around_;               // triangles of each vertex
-    std::vector<std::uint32_t> vertex_seen_, triangle_seen_;  // by the search around this vertex
-};
+    std::vector<glm::uvec3> on_welded(const std::vector<glm::uvec3>& triangles) const {
+        std::vector<glm::uvec3> out;
+        for (const glm::uvec3& t : triangles)
+            out.emplace_back(welded_[t.x], welded_[t.y], welded_[t.z]);
+        return out;
+    }
 
-void add_near(const Scene& scene, const DeviceScene& device_scene, int rings, BlockerLevels& out) {
-    const std::vector<std::uint32_t> welded = weld(scene.positions, scene.triangles);
-    const std::uint32_t count =
-        welded.empty() ? 0 : *std::max_element(welded.begin(), welded.end()) + 1;
-    std::vector<glm::uvec3> corners;
-    for (const std::uint32_t t : device_scene.triangle_order()) {
-        const std::uint32_t* v = scene.triangles[t].vertex;
-        corners.emplace_back(welded[v[0]], welded[v[1]], welded[v[2]]);
+    // All but its own: clusters where whole ones are left, else singles.
+    void add_coarse(const std::vector<std::uint32_t>& own, Listed& out) const {
+        const auto count = static_cast<std::uint32_t>(fine_of_.size());
+        for (std::uint32_t first = 0; first < count; first += BLOCKER_CLUSTER) {
+            const std::uint32_t end = std::min(first + BLOCKER_CLUSTER, count);
+            const auto from = std::lower_bound(own.begin(), own.end(), first);
+            if (from == own.end() || *from >= end) {
+                const std::uint32_t cluster = (behind_ + first) / BLOCKER_CLUSTER;
+                const std::size_t size = out.ranges.size();
+                if (size > 0 && out.ranges[size - 2] + out.ranges[size - 1] == cluster)
+                    ++out.ranges[size - 1];
+                else
+                    out.ranges.insert(out.ranges.end(), {cluster, 1});
+                continue;
+            }
+            for (std::uint32_t c = first; c < end; ++c)
+                if (!std::binary_search(own.begin(), own.end(), c)) out.near.push_back(behind_ + c);
+        }
     }
-    Rings mesh(corners, count);
-    std::vector<std::vector<std::uint32_t>> near(count);  // of each welded vertex
-    std::vector<bool> known(count, false);
-    out.near_lists.push_back(0);
-    for (const std::uint32_t vertex : device_scene.vertex_order()) {
-        const std::uint32_t w = welded[vertex];
-        if (!known[w]) near[w] = mesh.near(w, rings);
-        known[w] = true;
-        out.near.insert(out.near.end(), near[w].begin(), near[w].end());
-        out.near_lists.push_back(static_cast<std::uint32_t>(out.near.size()));
-    }
-    if (out.near.empty()) out.near_lists.clear();
-}
+
+    std::vector<std::uint32_t> welded_;
+    std::uint32_t count_;  // welded vertices
+    Rings rings_;
+    std::vector<std::uint32_t> coarse_of_;             // [fine]
+    std::vector<std::vector<std::uint32_t>> fine_of_;  // [coarse]
+    std::uint32_t behind_;
+    std::vector<Listed> listed_;  // [welded]
+};
 
 }  // namespace
 
@@ -168,26 +194,44 @@ BlockerLevels blocker_levels(const Scene& scene, const DeviceScene& device_scene
     check_coarse(coarse, place);
 
     BlockerLevels out;
+    std::vector<glm::uvec3> fine;  // vertices of the scene
+    const auto add = [&](const glm::uvec3& t) {
+        out.triangles.emplace_back(place[t.x], place[t.y], place[t.z], 0);
+    };
     for (const std::uint32_t t : device_scene.triangle_order()) {
         const std::uint32_t* v = scene.triangles[t].vertex;
-        out.triangles.emplace_back(place[v[0]], place[v[1]], place[v[2]], 0);
+        fine.emplace_back(v[0], v[1], v[2]);
+        add(fine.back());
     }
-    out.fine_count = static_cast<std::uint32_t>(out.triangles.size());
+    out.fine_count = static_cast<std::uint32_t>(fine.size());
     const std::uint32_t clusters = (out.fine_count + BLOCKER_CLUSTER - 1) / BLOCKER_CLUSTER;
-    out.lists = {0, 1};
     if (coarse.empty()) {
+        out.lists = {0, 1};
         out.ranges = {0, clusters};
         return out;
     }
     // Points at a corner of the last triangle: the box of its cluster stays as it is.
-    const std::uint32_t point = out.triangles.empty() ? 0 : out.triangles.back().x;
+    const std::uint32_t point = out.triangles.back().x;
     out.triangles.resize(std::size_t{clusters} * BLOCKER_CLUSTER,
                          glm::uvec4(point, point, point, 0));
-    for (const std::uint32_t t : cluster_order(scene, coarse))
-        out.triangles.emplace_back(place[coarse[t].x], place[coarse[t].y], place[coarse[t].z], 0);
-    const auto coarse_count = static_cast<std::uint32_t>(coarse.size());
-    out.ranges = {clusters, (coarse_count + BLOCKER_CLUSTER - 1) / BLOCKER_CLUSTER};
-    add_near(scene, device_scene, rings, out);
+    std::vector<glm::uvec3> ordered;
+    for (const std::uint32_t t : cluster_order(scene, coarse)) {
+        ordered.push_back(coarse[t]);
+        add(coarse[t]);
+    }
+    Lists lists(scene, fine, ordered, clusters * BLOCKER_CLUSTER);
+    out.receivers_per_list = 1;
+    out.lists = {0};
+    out.near_lists = {0};
+    for (const std::uint32_t vertex : device_scene.vertex_order()) {
+        const Listed& listed = lists.of(vertex, rings);
+        out.ranges.insert(out.ranges.end(), listed.ranges.begin(), listed.ranges.end());
+        out.lists.push_back(static_cast<std::uint32_t>(out.ranges.size() / 2));
+        out.near.insert(out.near.end(), listed.near.begin(), listed.near.end());
+        out.near_lists.push_back(static_cast<std::uint32_t>(out.near.size()));
+    }
+    if (out.ranges.empty()) out.ranges = {0, 0};
+    if (out.near.empty()) out.near_lists.clear();
     return out;
 }
 

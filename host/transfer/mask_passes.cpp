@@ -41,6 +41,8 @@ void need_blockers(const PassKernel& pass, const BlockerBuffers& b) {
     need(pass, "boxes", b.boxes, b.stride / BLOCKER_CLUSTER * sizeof(BlockerBox));
 }
 
+bool has_singles(const BlockerBuffers& b) { return b.near_lists() || b.near(); }
+
 void need_lists(const PassKernel& pass, const ReceiverBuffers& r, const BlockerBuffers& b) {
     if (b.receivers_per_list == 0)
         throw Error(pass.name + ": receivers_per_list is 0, at least 1 needed");
@@ -48,6 +50,9 @@ void need_lists(const PassKernel& pass, const ReceiverBuffers& r, const BlockerB
         (std::size_t{r.count} + b.receivers_per_list - 1) / b.receivers_per_list;
     need(pass, "lists", b.lists, (lists + 1) * word);
     need(pass, "ranges", b.ranges, 2 * word);
+    if (!has_singles(b)) return;
+    need(pass, "near_lists", b.near_lists, (std::size_t{r.count} + 1) * word);
+    need(pass, "near", b.near, word);
 }
 
 }  // namespace
@@ -87,6 +92,8 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
     mask_near_ = few("mask", full(options), drawn + " -DCLGI_NEAR");
     mask_near_.name = "transfer.mask_near";
     visible_ = few("visible", full(options), size);
+    visible_near_ = few("visible", full(options), size + " -DCLGI_NEAR");
+    visible_near_.name = "transfer.visible_near";
     const std::string bands = " -DCLGI_SH_BANDS=" + std::to_string(masks_.bands);
     const std::string cells = size + " -DCLGI_BLOCK=" + std::to_string(masks_.block) + bands;
     integrate_ = few("integrate", full(options), cells);
@@ -96,8 +103,8 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
 }
 
 void MaskPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({receivers_, blockers_, planes_, mask_, mask_near_, visible_, integrate_,
-                 integrate_gloss_, shade_},
+    build_named({receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_,
+                 integrate_, integrate_gloss_, shade_},
                 passes);
 }
 
@@ -139,7 +146,7 @@ cl::Event MaskPasses::planes(const cl::CommandQueue& queue, const cl::Buffer& he
 cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                            const BlockerBuffers& b, const cl::Buffer& drawn,
                            const WaitList& wait) const {
-    const bool singles = b.near_lists() || b.near();
+    const bool singles = has_singles(b);
     const PassKernel& pass = singles ? mask_near_ : mask_;
     need_receivers(pass, r);
     need_blockers(pass, b);
@@ -152,8 +159,6 @@ cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers&
     if (!singles)
         return launch(pass, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
                       b.corners, drawn, r.masks);
-    need(pass, "near_lists", b.near_lists, (std::size_t{r.count} + 1) * word);
-    need(pass, "near", b.near, word);
     return launch(pass, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
                   b.corners, drawn, b.near_lists, b.near, r.masks);
 }
@@ -161,17 +166,22 @@ cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers&
 cl::Event MaskPasses::visible(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                               const BlockerBuffers& b, const cl::Buffer& heights,
                               const cl::Buffer& seen, const WaitList& wait) const {
-    need_receivers(visible_, r);
-    need_blockers(visible_, b);
-    need_lists(visible_, r, b);
+    const bool singles = has_singles(b);
+    const PassKernel& pass = singles ? visible_near_ : visible_;
+    need_receivers(pass, r);
+    need_blockers(pass, b);
+    need_lists(pass, r, b);
     MaskOptions exact = masks_;
     exact.planes = EdgePlanes::exact;
-    need(visible_, "heights", heights, mask_table_bytes(exact));
-    need(visible_, "seen", seen, visible_words(b.triangle_count) * r.stride * word);
-    const std::size_t columns = packets(visible_, MASK_COLUMNS(masks_.size));
-    return launch(visible_, queue, r.count * columns, wait,
-                  MaskParams{r.count, r.stride, b.stride, b.receivers_per_list, 0, 0, 0, 0},
-                  r.planes, b.lists, b.ranges, b.boxes, b.corners, heights, seen);
+    need(pass, "heights", heights, mask_table_bytes(exact));
+    need(pass, "seen", seen, visible_words(b.triangle_count) * r.stride * word);
+    const std::size_t columns = packets(pass, MASK_COLUMNS(masks_.size));
+    const MaskParams params{r.count, r.stride, b.stride, b.receivers_per_list, 0, 0, 0, 0};
+    if (!singles)
+        return launch(pass, queue, r.count * columns, wait, params, r.planes, b.lists, b.ranges,
+                      b.boxes, b.corners, heights, seen);
+    return launch(pass, queue, r.count * columns, wait, params, r.planes, b.lists, b.ranges,
+                  b.boxes, b.corners, heights, b.near_lists, b.near, seen);
 }
 
 std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,

@@ -1,8 +1,10 @@
-// The two-level mesh hierarchy of blockers [Kautz04, section 3.2]: far from a receiver a coarse
-// mesh blocks, near it the triangles of the scene itself.
+// The two-level mesh hierarchy of blockers [Kautz04, section 3.2]: near a receiver the triangles of
+// the scene itself block, for the remaining parts a coarse mesh.
 //
-// Coarse triangles use vertices of the scene, so they follow every pose. Both levels overlap, which
-// does no harm: masks are unions.
+// Coarse triangles use vertices of the scene, so they follow every pose. Each triangle of the scene
+// belongs to the coarse one that stands for it. A receiver does not see the coarse triangles that
+// stand for its surroundings: they would cover it wherever the surface is hollow. It sees all
+// triangles that belong to them instead.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -24,21 +26,22 @@ struct BlockerLevels {
     std::vector<glm::uvec4> triangles;
     std::uint32_t fine_count = 0;  // triangles of the device
 
-    // The far level, one list for all receivers (receivers_per_list = ~0u): the coarse clusters;
-    // without a coarse mesh, all clusters.
+    // Clusters of BlockerBuffers: for each vertex, those coarse ones that hold no triangle that it
+    // must not see; without a coarse mesh, all clusters for all vertices.
     std::vector<std::uint32_t> lists;
     std::vector<std::uint32_t> ranges;
+    std::uint32_t receivers_per_list = ~0u;  // 1 with a coarse mesh
 
-    // The near level: fine triangles for each vertex of the device, ascending. Both are empty when
-    // there is no coarse mesh or no vertex has a triangle near it.
+    // Singles of BlockerBuffers, ascending: for each vertex of the device the fine triangles near
+    // it, and what is left of the other coarse clusters. Both are empty without a coarse mesh.
     std::vector<std::uint32_t> near_lists;  // [vertices + 1] where each begins in `near`
     std::vector<std::uint32_t> near;
 };
 
 // coarse: vertices of the scene; mesh::simplify of clgi::mesh makes such triangles. rings: 0 to 2;
-// near a vertex are the triangles with a corner at most this many edges away. Vertices in one place
-// count as one (clgi/adjacency.hpp). The triangles that touch the vertex itself are left out: it
-// sees them edge-on.
+// the surroundings of a vertex are the triangles with a corner at most this many edges away.
+// Vertices in one place count as one (clgi/adjacency.hpp). Triangles that touch the vertex itself
+// are in no list: it sees them edge-on.
 // Throws Error when the scene is not the one on the device, when rings is out of range, and for
 // coarse triangles with vertices that the scene has not or that are not on the device.
 CLGI_API BlockerLevels blocker_levels(const Scene& scene, const DeviceScene& device_scene,

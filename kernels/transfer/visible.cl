@@ -9,7 +9,7 @@
 //
 // So 1 / t is a product with one vector for each triangle, and the largest is the nearest. Pixels
 // are inside by the same planes as in transfer/mask.cl. Of two triangles at the same distance the
-// first in the list is seen.
+// first in the list is seen. With CLGI_NEAR the receiver's single triangles follow its clusters.
 //
 // Work size    1D, one work-item a receiver and packet of columns; any local size; tail guarded
 // Writes       sets bits of its receiver; the others stay, so calls for several frames add up
@@ -54,6 +54,27 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, float3 toward, uint triangle, i
     }
 }
 
+// index: triangles of the packet. triangle: 0, or index where it is no run.
+CLGI_INLINE void draw_packet(Receiver r, global const float* corners, uint stride,
+                             const uint* triangle, const uint* index, int packet,
+                             global const float* restrict heights, Nearest* nearest) {
+    Cones cones;
+    if (!make_cones(r, corners, stride, triangle, &cones)) return;
+    cones.alive &= (cones.first_column < (intp)((packet + 1) * CLGI_WIDTH)) &
+                   (cones.last_column >= (intp)(packet * CLGI_WIDTH));
+    if (!packet_any(cones.alive)) return;
+    Lanes lanes;
+    to_lanes(&cones, 0, &lanes);
+    floatp vector[3];
+    nearness_vector(&cones, vector);
+    float toward[3][CLGI_WIDTH];
+    for (int axis = 0; axis < 3; ++axis) packet_store(vector[axis], toward[axis]);
+    for (int k = 0; k < CLGI_WIDTH; ++k)
+        if (lanes.alive[k])
+            draw(&lanes, k, (float3)(toward[0][k], toward[1][k], toward[2][k]), index[k], packet,
+                 heights, nearest);
+}
+
 kernel void transfer_visible(
     const MaskParams         params,
     global const float*      restrict receivers,  // [RECEIVER_PLANES][receiver_stride]
@@ -62,6 +83,10 @@ kernel void transfer_visible(
     global const BlockerBox* restrict boxes,      // one a cluster
     global const float*      restrict corners,    // [BLOCKER_PLANES][blocker_stride]
     global const float*      restrict heights,    // [CLGI_MASK][MASK_COLUMNS] z of pixels
+#ifdef CLGI_NEAR
+    global const uint*       restrict near_lists, // [receiver_count + 1] where lists begin in near
+    global const uint*       restrict near_ones,  // single triangles of the lists
+#endif
     global uint*             restrict seen)       // [ceil(triangles / 32)][receiver_stride] bits
 {
     uint receiver = (uint)get_global_id(0) / COLUMN_PACKETS;
@@ -80,24 +105,21 @@ kernel void transfer_visible(
             if (below_horizon(r, boxes[cluster])) continue;
             uint first = cluster * BLOCKER_CLUSTER;
             for (uint t = first; t < first + BLOCKER_CLUSTER; t += CLGI_WIDTH) {
-                Cones cones;
-                if (!make_cones(r, corners + t, params.blocker_stride, 0, &cones)) continue;
-                cones.alive &= (cones.first_column < (intp)((packet + 1) * CLGI_WIDTH)) &
-                               (cones.last_column >= (intp)(packet * CLGI_WIDTH));
-                if (!packet_any(cones.alive)) continue;
-                Lanes lanes;
-                to_lanes(&cones, 0, &lanes);
-                floatp vector[3];
-                nearness_vector(&cones, vector);
-                float toward[3][CLGI_WIDTH];
-                for (int axis = 0; axis < 3; ++axis) packet_store(vector[axis], toward[axis]);
-                for (int k = 0; k < CLGI_WIDTH; ++k)
-                    if (lanes.alive[k])
-                        draw(&lanes, k, (float3)(toward[0][k], toward[1][k], toward[2][k]), t + k,
-                             packet, heights, &nearest);
+                uint index[CLGI_WIDTH];
+                for (int k = 0; k < CLGI_WIDTH; ++k) index[k] = t + k;
+                draw_packet(r, corners + t, params.blocker_stride, 0, index, packet, heights,
+                            &nearest);
             }
         }
     }
+#ifdef CLGI_NEAR
+    uint end = near_lists[receiver + 1];
+    for (uint i = near_lists[receiver]; i < end; i += CLGI_WIDTH) {
+        uint index[CLGI_WIDTH];
+        for (int k = 0; k < CLGI_WIDTH; ++k) index[k] = near_ones[min(i + k, end - 1)];
+        draw_packet(r, corners, params.blocker_stride, index, index, packet, heights, &nearest);
+    }
+#endif
     for (int row = 0; row < CLGI_MASK; ++row) {
         uint triangle[CLGI_WIDTH];
         packet_store(nearest.triangle[row], triangle);

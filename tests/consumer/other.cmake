@@ -14,7 +14,7 @@ endfunction()
 
 run("${CMAKE_COMMAND}" -S "${source}" -B "${build}" -G "${GENERATOR}"
     "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" "-DCMAKE_BUILD_TYPE=${CONFIG}"
-    "-DBUILD_SHARED_LIBS=${SHARED}" -DCLGI_IO=OFF -DCLGI_GL=OFF -DCLGI_REFERENCE=OFF)
+    "-DBUILD_SHARED_LIBS=${SHARED}" -DCLGI_IO=OFF -DCLGI_GL=OFF -DCLGI_MESH=OFF -DCLGI_REFERENCE=OFF)
 run("${CMAKE_COMMAND}" --build "${build}" --config "${CONFIG}" --parallel 2)
 if(SHARED)
     # Users see what the headers promise and nothing of what is inside.

@@ -93,9 +93,10 @@ public:
                    const BlockerBuffers& blockers, const cl::Buffer& drawn,
                    const WaitList& wait = {}) const;
 
-    // The triangles of the receivers' clusters that are the nearest in some pixel of their masks ->
-    // bits of seen [visible_words(triangle_count)][stride] uint (clgi/visible_sets.hpp). Bits that
-    // are set already stay. heights: pixel_heights of the masks' size; planes are always exact.
+    // The triangles of the receivers' clusters and singles (build: visible_near) that are the
+    // nearest in some pixel of their masks -> bits of seen [visible_words(triangle_count)][stride]
+    // uint (clgi/visible_sets.hpp). Bits that are set already stay. heights: pixel_heights of the
+    // masks' size; planes are always exact.
     cl::Event visible(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
                       const BlockerBuffers& blockers, const cl::Buffer& heights,
                       const cl::Buffer& seen, const WaitList& wait = {}) const;
@@ -131,8 +132,8 @@ private:
                               const cl::Buffer& transfer) const;
 
     MaskOptions masks_;
-    PassKernel receivers_, blockers_, planes_, mask_, mask_near_, visible_, integrate_,
-        integrate_gloss_, shade_;
+    PassKernel receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_,
+        integrate_, integrate_gloss_, shade_;
 };
 
 }  // namespace clgi

@@ -26,8 +26,9 @@ struct DynamicTransferOptions {
     sh::Window window = sh::Window::none;  // of transfer vectors, against ringing
     bool gloss = true;                     // the Phong lobes of materials, where the scene has some
     bool directional = false;              // directional lights are part of the environment
-    // Far from a vertex these triangles block, near it those of the scene (clgi/blocker_levels.hpp):
-    // vertices of the scene, such as mesh::simplify makes. None: all of the scene block everywhere.
+    // Far from a vertex these triangles block, near it those of the scene
+    // (clgi/blocker_levels.hpp): vertices of the scene, such as mesh::simplify makes. None: all of
+    // the scene block everywhere.
     std::vector<glm::uvec3> coarse;
     int rings = 1;  // near a vertex: triangles with a corner at most so many edges away, 0 to 2
     // Bytes that the buffers may take together; 0: what the device has beside the scene.
@@ -67,9 +68,9 @@ public:
 
     // Potentially visible sets of an animation known before [Kautz04, section 3.2]. look() enqueues
     // the search for the triangles that receivers see of the geometry as it is now; sets() waits
-    // and has those of all looks since it was called last, and the near triangles. After
-    // restrict(), masks look at such sets alone; they are bit for bit those of before in the frames
-    // that were looked at, with exact planes. look() itself always sees everything.
+    // and has those of all looks since it was called last. After restrict(), masks look at such sets
+    // alone; they are bit for bit those of before in the frames that were looked at, with exact
+    // planes. look() itself always sees everything.
     cl::Event look(const WaitList& wait = {});
     VisibleSets sets();
     void restrict(const VisibleSets& sets);
