@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <clgi/deforming.hpp>
 #include <clgi/error.hpp>
 #include <clgi/io/gltf.hpp>
 #include <clgi/procedural.hpp>
@@ -28,6 +29,7 @@ struct SceneFlags {
     std::optional<float> cone;  // degrees
     std::optional<int> rooms;
     std::optional<float> door;  // degrees
+    std::optional<float> roughness;
     bool quiet = false;
 };
 
@@ -91,12 +93,22 @@ Scene make_furnace(const SceneFlags& flags) {
     return furnace(options);
 }
 
+Scene make_hand(const SceneFlags& flags) {
+    HandOptions options;
+    take(options.roughness, flags.roughness);
+    return hand_like(options);
+}
+
 const std::vector<SceneKind>& scene_kinds() {
     static const std::vector<SceneKind> kinds = {
         {"box", {"--mesh", "--light", "--cone"}, make_box},
+        {"chess", {}, [](const SceneFlags&) { return chess(); }},
+        {"cloth", {}, [](const SceneFlags&) { return cloth(); }},
         {"cornell", {"--light", "--cone"}, make_cornell},
         {"corridor", {"--rooms", "--door", "--cone"}, make_corridor},
+        {"fight-like", {}, [](const SceneFlags&) { return fight_like(); }},
         {"furnace", {"--light", "--albedo", "--subdivisions", "--cone"}, make_furnace},
+        {"hand-like", {"--roughness"}, make_hand},
     };
     return kinds;
 }
@@ -117,7 +129,7 @@ const SceneKind& find_kind(const std::string& name) {
 // A flag that would be ignored is probably a mistake.
 void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
     static const std::vector<std::string> all = {"--mesh", "--light", "--albedo", "--subdivisions",
-                                                 "--cone", "--rooms", "--door"};
+                                                 "--cone", "--rooms", "--door", "--roughness"};
     for (const std::string& flag : all) {
         const bool known =
             std::find(kind.flags.begin(), kind.flags.end(), flag) != kind.flags.end();
@@ -175,6 +187,11 @@ void add_scene(CLI::App& app) {
     command->add_option("--door", flags->door, "corridor: angle by which doors are open, degrees")
         ->type_name("D")
         ->default_str(degrees(CorridorOptions().door_angle));
+    command
+        ->add_option("--roughness", flags->roughness,
+                     "hand-like: of the skin, 0.05 to 1; below 1 it has gloss")
+        ->type_name("X")
+        ->default_str(fmt::format("{}", HandOptions().roughness));
     add_quiet_flag(*command, flags->quiet);
     command->callback([command, flags] { run_scene(*command, *flags); });
 }

@@ -90,6 +90,7 @@ constexpr const char* schema = R"({
 "scenes": [{"name": "text", "nodes": ["index nodes"]}, 65536],
 "scene": "index scenes",
 "animations": [{
+    "name": "text",
     "samplers!": [{"input!": "index accessors", "output!": "index accessors",
                    "interpolation": "text"}],
     "channels!": [{"sampler!": "int", "target!": {"node": "index nodes", "path!": "text"}}]

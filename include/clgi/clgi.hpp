@@ -9,6 +9,7 @@
 #include <clgi/atlas_light.hpp>
 #include <clgi/bake_layout.hpp>
 #include <clgi/blocker_levels.hpp>
+#include <clgi/deforming.hpp>
 #include <clgi/device.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/emitters.hpp>

@@ -26,9 +26,14 @@ struct GltfOptions {
 // Scene::warnings.
 CLGI_API Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
-// Writes a self-contained .glb: geometry, materials, textures (as PNG), lights, cameras.
-// Positions are stored as float32 relative to a node at the scene's centre; animation is left out.
-// Either the complete file is written or none. Throws InputError when it cannot be written.
+// Writes a self-contained .glb: geometry, materials, textures (as PNG), lights, cameras and the
+// animation. Positions are stored as float32: those that stand still relative to a node at the
+// scene's centre, those that move in their mesh's own space.
+// Not kept: the environment, moving_bounds, channels and clips that move nothing (a clip without
+// any other channel holds the rest pose), and the order of what moves among what does not: parts,
+// lights and cameras that stand still come first, then the others in the order of their nodes.
+// Either the complete file is written or none. Throws InputError when it cannot be written, and for
+// triangles that share vertices with a part that moves without belonging to it.
 CLGI_API void save_glb(const Scene& scene, const std::filesystem::path& path);
 
 }  // namespace clgi::io
