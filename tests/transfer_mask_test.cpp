@@ -79,23 +79,36 @@ TEST_P(Mask, OfNamedTriangles) {
 // Rounding alone would decide on which side of the receiver such a triangle is.
 TEST_P(Mask, OfTrianglesInTheTangentPlaneIsEmpty) {
     test::Random random(17);
-    for (int i = 0; i < 100; ++i) {
-        const glm::vec3 normal(random(-1, 1), random(-1, 1), random(-1, 1));
-        const test::Frame frame = test::frame_of(normal);
-        Triangle triangle;
-        for (int k = 0; k < 3; ++k) {
-            const double angle = random(0, 1) + 2.1 * k, far = random(0.1, 2.0);
-            triangle[k] =
-                far * (std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent);
+    // At the origin, and where coordinates are rounded by far more than the triangles are flat.
+    for (const glm::dvec3 place : {glm::dvec3(0), glm::dvec3(20, -13, 7), glm::dvec3(-0.6, 0.1, 0.7)})
+        for (int i = 0; i < 100; ++i) {
+            const glm::vec3 normal(random(-1, 1), random(-1, 1), random(-1, 1));
+            const test::Frame frame = test::frame_of(normal);
+            const glm::dvec3 eye(glm::vec3{place});
+            const double size = place == glm::dvec3(0) ? 1.0 : random(0.002, 0.1);
+            Triangle triangle;
+            for (int k = 0; k < 3; ++k) {
+                const double angle = random(0, 1) + 2.1 * k, far = size * random(0.1, 2.0);
+                triangle[k] = eye + far * (std::cos(angle) * frame.tangent +
+                                           std::sin(angle) * frame.bitangent);
+            }
+            Eyes eyes;
+            eyes.positions[0] = glm::vec4(glm::vec3(eye), 1.0f);
+            eyes.normals[0] = glm::vec4(normal, 0.0f);
+            EXPECT_EQ(test::draw_masks(Blockers(std::vector<Triangle>{triangle}), eyes, {},
+                                       {.math = GetParam()})
+                          .count(0),
+                      0)
+                << i << " at " << place.x;
+            // A hundredth of their size higher they block nearly all of the view.
+            if (place.x > 1.0) continue;
+            for (glm::dvec3& corner : triangle) corner += 0.02 * size * glm::dvec3(frame.normal);
+            EXPECT_GT(test::draw_masks(Blockers(std::vector<Triangle>{triangle}), eyes, {},
+                                       {.math = GetParam()})
+                          .count(0),
+                      400)
+                << i << " at " << place.x;
         }
-        Eyes eyes;
-        eyes.normals[0] = glm::vec4(normal, 0.0f);
-        EXPECT_EQ(test::draw_masks(Blockers(std::vector<Triangle>{triangle}), eyes, {},
-                                   {.math = GetParam()})
-                      .count(0),
-                  0)
-            << i;
-    }
 }
 
 // A triangle that begins at the receiver is seen edge-on, wherever it leads.

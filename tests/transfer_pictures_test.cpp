@@ -79,8 +79,8 @@ std::vector<bool> surfaces(Scene scene) {
     return out;
 }
 
-void expect_like(const Scene& scene, Math math, const std::string& name) {
-    const reference::Picture truth = truth_of(scene, 512);
+void expect_like(const Scene& scene, Math math, const std::string& name, int samples = 256) {
+    const reference::Picture truth = truth_of(scene, samples);
     const std::vector<bool> seen = surfaces(scene);
     const Shown shown = picture_of(scene, 0.1f, {}, math);
     const Apart result = apart(shown.radiance, truth, seen);
@@ -92,7 +92,7 @@ void expect_like(const Scene& scene, Math math, const std::string& name) {
                 100 * truth.relative_error);
     EXPECT_LT(result.error, 0.08) << name;
     EXPECT_NEAR(result.energy, 1.0, 0.03) << name;
-    EXPECT_LT(truth.relative_error, 0.06);
+    EXPECT_LT(truth.relative_error, 0.05);
 }
 
 CLGI_IN_BOTH_MATHS(TransferPictures);
@@ -103,7 +103,7 @@ TEST_P(TransferPictures, UnderASkyAreThoseOfThePathTracer) {
     expect_like(scene, GetParam(), "gradient");
 }
 
-TEST_P(TransferPictures, UnderPhotographedSkiesAreThoseOfThePathTracer) {
+TEST(DynamicTransferView, UnderPhotographedSkiesHasThePicturesOfThePathTracer) {
     const std::filesystem::path folder = std::filesystem::path(CLGI_SCENES_DIR) / "hdr";
     if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;
     std::uint64_t seed = 20;
@@ -118,7 +118,7 @@ TEST_P(TransferPictures, UnderPhotographedSkiesAreThoseOfThePathTracer) {
             sky.texels.emplace_back(image.find("R")->values[i], image.find("G")->values[i],
                                     image.find("B")->values[i]);
         scene.environment = std::move(sky);
-        expect_like(scene, GetParam(), name);
+        expect_like(scene, Math::strict, name, 512);
     }
 }
 
@@ -134,12 +134,12 @@ TEST(DynamicTransferView, FindsWhereVerticesAreTooFew) {
     EXPECT_EQ(vertices.receivers, 0u);
     EXPECT_EQ(all.receivers, std::uint32_t{width * height});
     EXPECT_GT(some.receivers, 500u);
-    EXPECT_LT(some.receivers, std::uint32_t{width * height / 3});
+    EXPECT_LT(some.receivers, std::uint32_t{width * height / 2});
     const double coarse = apart(vertices.radiance, truth, seen).error,
                  fair = apart(some.radiance, truth, seen).error,
                  fine = apart(all.radiance, truth, seen).error;
     EXPECT_GT(coarse, 3.0 * fair);
-    EXPECT_LT(fair, 1.15 * fine);
+    EXPECT_LT(fair, 1.5 * fine);
     EXPECT_LT(fine, 0.05);
 }
 
@@ -175,7 +175,7 @@ TEST_P(TransferPictures, HaveTheGlossOfBroadLobes) {
         material.roughness = 0.75f;
     }
     test::light_by_gradient(scene, {0.8f, 1.0f, 1.3f}, glm::normalize(glm::dvec3(0.5, 0.6, 0.3)));
-    const reference::Picture truth = truth_of(scene, 512);
+    const reference::Picture truth = truth_of(scene, 256);
     const std::vector<bool> seen = surfaces(scene);
     for (const float threshold : {0.1f, 0.0f}) {
         const Apart result =

@@ -164,5 +164,49 @@ TEST_P(PlaneTable, CostsLittleBesideTheMask) {
     EXPECT_LT(table[2], 1.15 * exact[1]);
 }
 
+// The planes of a narrow triangle's long edges are rounded apart; where they meet far from it,
+// nothing is drawn (STABILITY 2.4).
+TEST_P(PlaneTable, DrawsSliversNearThemselvesAlone) {
+    test::Random random(23);
+    std::vector<Triangle> slivers;
+    while (slivers.size() < 3000) {
+        const glm::dvec3 middle(random(-1, 1), random(-1, 1), random(0, 1));
+        if (glm::length(middle) < 0.1) continue;
+        const glm::dvec3 d = glm::normalize(middle);
+        const glm::dvec3 u = glm::normalize(
+            glm::cross(d, glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1))));
+        const double length = random(0.02, 0.3), width = std::pow(10.0, random(-4, -2));
+        const Triangle sliver = {d - 0.5 * length * u, d + 0.5 * length * u,
+                                 d + width * glm::cross(d, u)};
+        bool above = true;
+        for (const glm::dvec3& corner : sliver) above = above && corner.z > 0.02;
+        if (above) slivers.push_back(sliver);
+    }
+    Eyes eyes;
+    eyes.positions.resize(slivers.size(), eyes.positions[0]);
+    eyes.normals.resize(slivers.size(), eyes.normals[0]);
+    const Drawn drawn =
+        test::draw_masks(test::one_each(slivers), eyes,
+                         {.size = 32, .planes = EdgePlanes::table}, {.math = GetParam()});
+    int pixels = 0;
+    for (std::size_t i = 0; i < slivers.size(); ++i) {
+        glm::dvec2 low(1.0), high(-1.0);
+        for (const glm::dvec3& corner : slivers[i]) {
+            low = glm::min(low, glm::dvec2(glm::normalize(corner)));
+            high = glm::max(high, glm::dvec2(glm::normalize(corner)));
+        }
+        for (int column = 0; column < 32; ++column)
+            for (int row = 0; row < 32; ++row) {
+                if (!drawn.bit(i, column, row)) continue;
+                ++pixels;
+                const glm::dvec2 at((2 * column + 1) / 32.0 - 1, (2 * row + 1) / 32.0 - 1);
+                const glm::dvec2 beyond = glm::max(low - at, at - high);
+                // A pixel around the box, and half of one for the bulge of the arcs.
+                EXPECT_LT(std::max(beyond.x, beyond.y), 1.6 / 16) << i;
+            }
+    }
+    EXPECT_GT(pixels, 100);
+}
+
 }  // namespace
 }  // namespace clgi

@@ -29,10 +29,24 @@ typedef struct {
 } Mask;
 
 #ifdef CLGI_TABLE
+// Rows first to last of a word.
+CLGI_INLINE uint row_bits(int first, int last, int word) {
+    int low = max(first - 32 * word, 0), high = min(last - 32 * word, 31);
+    return low > high ? 0u : (0xffffffffu << low) & (0xffffffffu >> (31 - high));
+}
+
+// The planes of a narrow triangle are rounded apart, and meet far from it: beyond a pixel around its
+// box nothing is drawn.                               [derived: planes turn by atan(sqrt(2) / Q) at most]
 CLGI_INLINE void draw(const Lanes* lanes, int k, global const uint* restrict table, Mask* mask) {
-    for (int word = 0; word < ROW_WORDS; ++word)
-        for (int packet = 0; packet < COLUMN_PACKETS; ++packet) {
-            uintp inside = (uintp)(0xffffffffu);
+    int first_column = lanes->first_column[k] - 1, last_column = lanes->last_column[k] + 1;
+    int first_packet = max(first_column, 0) / CLGI_WIDTH;
+    int last_packet = min(last_column, CLGI_MASK - 1) / CLGI_WIDTH;
+    for (int word = 0; word < ROW_WORDS; ++word) {
+        uint rows = row_bits(lanes->first_row[k] - 1, lanes->last_row[k] + 1, word);
+        for (int packet = first_packet; packet <= last_packet; ++packet) {
+            intp column = packet_lanes + packet * CLGI_WIDTH;
+            uintp inside = packet_select((uintp)(0), (uintp)(rows),
+                                         (column >= first_column) & (column <= last_column));
             for (int e = 0; e < 3; ++e) {
                 uint at = ((uint)lanes->entry[e][k] * ROW_WORDS + word) * MASK_COLUMNS(CLGI_MASK) +
                           packet * CLGI_WIDTH;
@@ -40,6 +54,7 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const uint* restrict tab
             }
             mask->word[word * COLUMN_PACKETS + packet] |= inside;
         }
+    }
 }
 #else
 CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict heights,
