@@ -1,5 +1,6 @@
-// Which texels VPLs see: every texel in full, or corners of blocks first. [Schaerfig16,
-// section 6.2] SPDX-License-Identifier: MIT
+// Which texels VPLs see: every texel in full, or corners of blocks first.
+// [Schaerfig16, section 6.2]
+// SPDX-License-Identifier: MIT
 #include "solvers/light_atlas_state.hpp"
 
 namespace clgi {
@@ -24,6 +25,8 @@ BlockParams LightAtlasSolver::State::block_params(std::uint32_t first, std::uint
 
 // Where the listed texels are, and which blocks are flat.
 void LightAtlasSolver::State::place_blocks() {
+    // Rows end in lanes of no texel, which these passes leave alone and others read.
+    record.fill(b.seen, 0);
     record("gbuffer.surface", b.listed_count, [&](const WaitList& wait) {
         return gbuffer.surface(queue, scene, {b.listed_count, b.listed_stride, 0, 0},
                                b.listed_texels, b.listed, {}, wait);
