@@ -217,6 +217,34 @@ TEST(Occlusion, KnowsTheCornerThatGoesFarthestInARolledView) {
     }
 }
 
+// A sheet shows beside a half of a wall, in windows to that half's side: seen along the axis of the
+// view, all that shows would be behind the wall.
+TEST(Occlusion, KnowsWhereTheWindowIs) {
+    for (int side = 0; side < 4; ++side) {
+        const int axis = side / 2;
+        const double sign = side % 2 ? -1.0 : 1.0;
+        Scene world = test::plain_scene();
+        for (int i = 0; i < 60 * 60; ++i) {
+            const glm::dvec3 low(0.04 * (i % 60) - 1.2, 0.04 * (i / 60) - 1.2, 0);
+            if (sign * (low[axis] + 0.02) > 0.0) add_square(world, low, 0.04);
+        }
+        const std::size_t wall = world.triangles.size();
+        for (int i = 0; i < 120 * 120; ++i)
+            add_square(world, {0.01 * (i % 120) - 0.6, 0.01 * (i / 120) - 0.6, -1}, 0.01);
+        const DeviceScene scene = test::on_device(world);
+        View view = make_view(test::camera_at({0, 0, 2}, {0, 0, 0}, 0.9f), scene.frame(), 128, 128);
+        view.flags = 0;
+        (axis ? view.window.y : view.window.x) = static_cast<float>(0.5 * sign) * view.up.w;
+        const auto wanted = words<std::uint64_t>(scene, view, false);
+        const auto shows = [&](std::uint64_t word) {
+            return word != test::no_triangle &&
+                   scene.triangle_order()[static_cast<std::uint32_t>(word)] >= wall;
+        };
+        EXPECT_GT(std::count_if(wanted.begin(), wanted.end(), shows), 1000) << side;
+        EXPECT_TRUE(words<std::uint64_t>(scene, view, true) == wanted) << side;
+    }
+}
+
 // A patch 2^-13 before the eye, all of whose coordinates but these are exact: the middle of its box
 // is rounded away from the eye by 2^-25, and strips that slant through it end in between.
 TEST(Occlusion, AllowsForTheRoundingOfTheMiddleOfABox) {
