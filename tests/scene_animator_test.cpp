@@ -121,7 +121,7 @@ TEST(SceneAnimator, MovesNormalsByTargetsToo) {
 }
 
 TEST(SceneAnimator, GivesFlatTrianglesTheirNormals) {
-    for (const double size : {1.0, 1e-12}) {
+    for (const double size : {1.0, 1e-12, 1e-23}) {
         GltfDraft draft = test::triangle_draft();
         draft.add("nodes", {{"children", {0}}, {"scale", {size, size, size}}});
         test::animate(draft, 0, "rotation", test::scalars(draft, {0, 1}),
