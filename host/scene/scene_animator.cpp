@@ -139,8 +139,10 @@ cl::Event SceneAnimator::State::move(const Pose& pose, const WaitList& wait) {
     try {
         last.assign(1, mover.move(moved, before));
     } catch (...) {
-        // A part of it may read the positions already.
-        queue.enqueueMarkerWithWaitList(nullptr, &last.emplace_back());
+        // A part of it may read the positions already. Without a marker, the first error counts.
+        cl::Event all;
+        if (clEnqueueMarkerWithWaitList(queue(), 0, nullptr, &all()) == CL_SUCCESS)
+            last.assign(1, all);
         throw;
     }
     return last.front();
