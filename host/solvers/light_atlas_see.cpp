@@ -14,6 +14,8 @@ void LightAtlasSolver::State::upload_blocks(const AtlasBlocks& made,
     record.write(b.listed_texels, listed.data(), listed.size() * sizeof(SurfaceSample));
     record.write(b.blocks.places, made.list.data(), made.unblocked * sizeof(std::uint32_t));
     record.write(b.blocks.blocks, made.blocks.data(), made.blocks.size() * sizeof(AtlasBlock));
+    // Rows end in lanes of no texel, which these passes leave alone and others read.
+    record.fill(b.seen, 0);
 }
 
 BlockParams LightAtlasSolver::State::block_params(std::uint32_t first, std::uint32_t count) const {
@@ -25,8 +27,6 @@ BlockParams LightAtlasSolver::State::block_params(std::uint32_t first, std::uint
 
 // Where the listed texels are, and which blocks are flat.
 void LightAtlasSolver::State::place_blocks() {
-    // Rows end in lanes of no texel, which these passes leave alone and others read.
-    record.fill(b.seen, 0);
     record("gbuffer.surface", b.listed_count, [&](const WaitList& wait) {
         return gbuffer.surface(queue, scene, {b.listed_count, b.listed_stride, 0, 0},
                                b.listed_texels, b.listed, {}, wait);
