@@ -248,6 +248,34 @@ TEST(Occlusion, KnowsWhereTheWindowIs) {
     }
 }
 
+// A sheet shows on both sides of a band across a view that is four times as long as the band is
+// wide. Divided by the other extent, it would lie nearer to the middle, behind the band.
+TEST(Occlusion, KnowsBothExtentsOfTheWindow) {
+    for (const int axis : {0, 1}) {
+        Scene world = test::plain_scene();
+        for (int i = 0; i < 60 * 60; ++i) {
+            const glm::dvec3 low(0.04 * (i % 60) - 1.2, 0.04 * (i / 60) - 1.2, 0);
+            if (std::abs(low[axis] + 0.02) < 0.4) add_square(world, low, 0.04);
+        }
+        const std::size_t wall = world.triangles.size();
+        for (int i = 0; i < 120 * 120; ++i)
+            add_square(world, {0.02 * (i % 120) - 1.2, 0.02 * (i / 120) - 1.2, -1}, 0.02);
+        const DeviceScene scene = test::on_device(world);
+        const float short_side = 0.48f,
+                    angle = 2.0f * std::atan(axis ? short_side : 4 * short_side);
+        View view = make_view(test::camera_at({0, 0, 2}, {0, 0, 0}, angle), scene.frame(),
+                              axis ? 192 : 48, axis ? 48 : 192);
+        view.flags = 0;
+        const auto wanted = words<std::uint64_t>(scene, view, false);
+        const auto shows = [&](std::uint64_t word) {
+            return word != test::no_triangle &&
+                   scene.triangle_order()[static_cast<std::uint32_t>(word)] >= wall;
+        };
+        EXPECT_GT(std::count_if(wanted.begin(), wanted.end(), shows), 500) << axis;
+        EXPECT_TRUE(words<std::uint64_t>(scene, view, true) == wanted) << axis;
+    }
+}
+
 // A patch 2^-13 before the eye, all of whose coordinates but these are exact: the middle of its box
 // is rounded away from the eye by 2^-25, and strips that slant through it end in between.
 TEST(Occlusion, AllowsForTheRoundingOfTheMiddleOfABox) {
