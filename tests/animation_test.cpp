@@ -200,6 +200,8 @@ TEST(ValidateAnimation, NamesWhatIsWrong) {
              a.ranges[0].first_vertex = 1;
              a.ranges[0].vertex_count = 4;
          }},
+        {"range 0 is flat, and two corners use vertex 1",
+         [](Animation& a) { a.ranges[0].flat = true; }},
         {"2 morph targets, its node 1", [](Animation& a) { a.ranges[0].target_count = 2; }},
         {"differences from", [](Animation& a) { a.differences.pop_back(); }},
         {"centre that is not finite", [](Animation& a) { a.ranges[0].centre.x = NAN; }},

@@ -1,5 +1,6 @@
 // Which pixels an alpha mask leaves, at every mip level and with every part of alpha at work,
-// against double precision. SPDX-License-Identifier: MIT
+// against double precision.
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <algorithm>

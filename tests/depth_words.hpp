@@ -1,5 +1,6 @@
 // Words of depth alone against words with triangles: the same closeness but for the lowest bit,
-// which says whether the back of a single-sided triangle is seen. SPDX-License-Identifier: MIT
+// which says whether the back of a single-sided triangle is seen.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include "drawing.hpp"

@@ -93,11 +93,17 @@ std::vector<LightAtlasOptions> ways() {
 TEST(LightAtlasShadows, AreSmallerWhereMoreLightsHaveThem) {
     for (const auto& [spots, sky, usual] :
          {std::tuple{4, 0, 2048}, {5, 0, 1024}, {1, 4, 1024}, {16, 0, 1024}, {17, 0, 512}}) {
+        ASSERT_LT(room().lights[1].outer_angle, 1.0f);
         Scene scene = room();
         const Light spot = scene.lights[1];
         for (int i = 1; i < spots; ++i) {
             scene.lights.push_back(spot);
             scene.lights.back().position.x += 0.05 * i;
+        }
+        // These have cubes.
+        for (int i = 0; i < 4; ++i) {
+            scene.lights.push_back(spot);
+            scene.lights.back().outer_angle = 1.1f;
         }
         if (sky > 0) scene.environment = Environment{};
         const Bakery bakery(scene, {.vpls = 60, .atlas = 16});

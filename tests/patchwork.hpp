@@ -1,5 +1,6 @@
 // A heap of tilted triangles that differ in everything, and views onto it from all kinds of
-// windows. SPDX-License-Identifier: MIT
+// windows.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // The program as its users meet it: commands, exit codes, one line on stderr, files whole or
-// absent. SPDX-License-Identifier: MIT
+// absent.
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <clgi/clgi.hpp>

@@ -121,17 +121,25 @@ TEST(SceneAnimator, MovesNormalsByTargetsToo) {
 }
 
 TEST(SceneAnimator, GivesFlatTrianglesTheirNormals) {
-    for (const double size : {1.0, 1e-12}) {
+    for (const double size : {1.0, 1e-12, 1e-23}) {
         GltfDraft draft = test::triangle_draft();
         draft.add("nodes", {{"children", {0}}, {"scale", {size, size, size}}});
         test::animate(draft, 0, "rotation", test::scalars(draft, {0, 1}),
                       test::vec4s(draft, {0, 0, 0, 1, 1, 2, 3, 4}));
         expect_as_on_the_host(draft, "flat");
-        GltfDraft vanishing = test::triangle_draft();
-        test::animate(vanishing, 0, "scale", test::scalars(vanishing, {0, 1}),
-                      vanishing.vec3({{-1, 1, 1}, {0, 0, 0}}));
-        expect_as_on_the_host(vanishing, "flat and vanishing");
     }
+    GltfDraft vanishing = test::triangle_draft();
+    test::animate(vanishing, 0, "scale", test::scalars(vanishing, {0, 1}),
+                  vanishing.vec3({{-1, 1, 1}, {0, 0, 0}}));
+    expect_as_on_the_host(vanishing, "flat and vanishing");
+    // So thin that the square of its area is 0 in a float.
+    GltfDraft sliver;
+    sliver.show(
+        {{"attributes", {{"POSITION", sliver.vec3({{0, 0, 0}, {1, 0, 0}, {0.5f, -1e-25f, 0}})}}}});
+    test::animate(sliver, 0, "translation", test::scalars(sliver, {0, 1}),
+                  sliver.vec3({{0, 0, 0}, {0, 0, 1}}));
+    EXPECT_EQ(sliver.load().normals[0], glm::vec3(0, 0, -1));
+    expect_as_on_the_host(sliver, "thin");
 }
 
 TEST(SceneAnimator, IsAsPreciseFarFromTheOrigin) {

@@ -23,14 +23,16 @@ constexpr double pi = std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(ShEnvironment);
 
-// Every texel and channel has a value of its own; the last ones are a thousand times the first.
+// Every texel and channel has a value of its own; those of red lie between 0.01 and 10.
 Environment random_sky(int width, int height, std::uint64_t seed) {
     test::Random random(seed);
     Environment sky;
     sky.width = width;
     sky.height = height;
-    for (int i = 0; i < width * height; ++i)
-        sky.texels.emplace_back(std::pow(10.0, random(-2, 1)), random(0, 2), random(0, 0.1));
+    for (int i = 0; i < width * height; ++i) {
+        const double r = std::pow(10.0, random(-2, 1)), g = random(0, 2), b = random(0, 0.1);
+        sky.texels.emplace_back(r, g, b);
+    }
     sky.factor = {1.0f, 0.25f, 3.0f};
     return sky;
 }

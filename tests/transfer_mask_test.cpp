@@ -155,16 +155,19 @@ TEST(MaskFans, CoverEachPixelOnce) {
                 eyes.positions.resize(fan.size(), eyes.positions[0]);
                 eyes.normals.resize(fan.size(), eyes.normals[0]);
                 const Drawn drawn = test::draw_masks(test::one_each(fan), eyes, masks);
+                int doubles = 0;
                 for (const test::Pixel& p : test::disc_pixels(32)) {
                     int times = 0;
                     for (std::size_t i = 0; i < fan.size(); ++i)
                         times += drawn.bit(i, p.column, p.row);
-                    // Where many edges meet, rounded planes overlap.
-                    const bool crowded = masks.planes == EdgePlanes::table && corners == 31;
-                    EXPECT_TRUE(times == 1 || (crowded && times == 2))
+                    doubles += times == 2;
+                    EXPECT_TRUE(times == 1 || times == 2)
                         << times << " times, " << corners << " corners, pixel " << p.column << ", "
                         << p.row;
                 }
+                // Where many edges meet, rounded planes overlap.
+                const bool crowded = masks.planes == EdgePlanes::table && corners == 31;
+                EXPECT_LE(doubles, crowded ? 2 : 0) << corners << " corners, turned by " << turn;
             }
 }
 

@@ -53,13 +53,11 @@ TEST_P(PlaneTable, HoldsTheDirectionsInFrontOfEachPlane) {
     EXPECT_EQ(mask_table_bytes({.planes = EdgePlanes::table}), 6291456u);  // half of the paper's
 }
 
-// An octant with one edge's plane turned at will: the bits that rounding the plane flips.
-// r04: of 812, 2.364 on average for Q = 64, 1.185 for 128 and 0.576 for 256; 16, 9 and 5 at most.
-TEST_P(PlaneTable, FlipsFewBitsOfAPlane) {
+// The entry that a plane is rounded to, against the plane: how many bits differ.
+// Of 812, 2.364 on average for Q = 64, 1.185 for 128 and 0.576 for 256; 16, 9 and 5 at most.
+TEST(PlaneTableEntries, DifferInFewBitsFromPlanesRoundedToThem) {
     test::Random random(7);
-    std::vector<Triangle> halves;
     std::vector<glm::dvec3> planes;
-    // Four triangles beside each other make a half-space; each is a receiver's own.
     for (int i = 0; i < 1500; ++i) {
         glm::dvec3 n;
         do n = glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1));

@@ -2,11 +2,26 @@
 #include <clgi/adjacency.hpp>
 #include <clgi/bake_layout.hpp>
 #include <future>
+#include <system_error>
 
 #include "atlas/placement.hpp"
 #include "vpl/patches.hpp"
+#include "vpl/vpl_count.hpp"
 
 namespace clgi {
+namespace {
+
+// In a thread of its own, or at get() if there is none to be had.
+template <typename Work>
+std::future<AtlasLayout> beside(const Work& work) {
+    try {
+        return std::async(std::launch::async, work);
+    } catch (const std::system_error&) {
+        return std::async(std::launch::deferred, work);
+    }
+}
+
+}  // namespace
 
 BakeLayout make_bake_layout(const Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas) {
     const PatchOptions patch_options;
@@ -14,9 +29,9 @@ BakeLayout make_bake_layout(const Scene& scene, const VplOptions& vpls, const At
     const Adjacency mesh = adjacency(scene);
     BakeLayout out;
     out.patches = make_patches(scene, mesh, patch_options);
-    std::future<AtlasLayout> texels = std::async(std::launch::async, [&] {
-        return make_atlas(scene, out.patches.triangle_patch, &mesh, atlas);
-    });
+    vpl_count(scene, out.patches, vpls);  // a wrong option does not wait for the texels
+    std::future<AtlasLayout> texels =
+        beside([&] { return make_atlas(scene, out.patches.triangle_patch, &mesh, atlas); });
     out.vpls = place_vpls(scene, out.patches, vpls);
     out.atlas = texels.get();
     return out;

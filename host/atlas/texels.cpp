@@ -74,10 +74,7 @@ public:
     Lister(const Scene& scene, const AtlasPlacement& placed, int size)
         : scene_(scene), placed_(placed), size_(size), side_(static_cast<std::size_t>(size)) {
         first_.assign(side_ * side_ * static_cast<std::size_t>(placed.pages), none);
-        std::size_t most = 0;  // memory that is not written is not used
-        for (const AtlasChart& chart : placed.charts)
-            most += static_cast<std::size_t>(chart.width) * static_cast<std::size_t>(chart.height);
-        shares_.reserve(std::min(most, first_.size()));
+        shares_.reserve(std::min(expected_shares(), first_.size()));
     }
 
     void add(std::uint32_t t) {
@@ -151,6 +148,20 @@ public:
     }
 
 private:
+    // What triangles cover, and a texel for every one along the sides of their charts. A guess: a
+    // chart may be the frame around others, so its box says little.
+    std::size_t expected_shares() const {
+        double covered = 0.0;
+        for (std::size_t t = 0; t < placed_.triangle_chart.size(); ++t) {
+            if (placed_.triangle_chart[t] == no_chart) continue;
+            const glm::dvec2* corner = placed_.corners.data() + 3 * t;
+            const glm::dvec2 a = corner[1] - corner[0], b = corner[2] - corner[0];
+            covered += 0.5 * std::abs(a.x * b.y - a.y * b.x) * double(size_) * double(size_);
+        }
+        for (const AtlasChart& chart : placed_.charts) covered += 2.0 * (chart.width + chart.height);
+        return static_cast<std::size_t>(std::min(covered, 1e18));
+    }
+
     Share& find(std::uint32_t chart, int column, int row) {
         const auto page = static_cast<std::size_t>(placed_.charts[chart].page);
         const std::size_t texel = (page * side_ + static_cast<std::size_t>(row)) * side_ +

@@ -81,7 +81,7 @@ void check_channel(const tinygltf::AnimationChannel& channel,
             " values for ", keys, " keys");
 }
 
-// Animations are not played, but may not refer to what is not there.
+// Animations may be left out when the scene is loaded, but may not refer to what is not there.
 void check_animation(const tinygltf::Animation& animation, const Model& model) {
     each(".samplers", animation.samplers, [&](const tinygltf::AnimationSampler& sampler) {
         const Accessor& input = model.accessors[sampler.input];

@@ -1,5 +1,6 @@
 // load_gltf: the JSON of a file is judged, tinygltf makes its model, and the steps after that a
-// Scene. SPDX-License-Identifier: MIT
+// Scene.
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <climits>
 #include <new>

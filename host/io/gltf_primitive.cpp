@@ -5,17 +5,13 @@
 #include <cmath>
 
 #include "io/gltf_accessor.hpp"
+#include "scene/normals.hpp"
 
 namespace clgi::io::gltf {
 
 namespace {
 
 constexpr std::uint32_t unused = UINT32_MAX;
-
-glm::dvec3 unit_or_zero(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 1e-300 && std::isfinite(length) ? v / length : glm::dvec3(0.0);
-}
 
 // Zero for a triangle without area. Its corners are still in the order of the file, which a
 // mirroring transform has turned around.
@@ -38,26 +34,16 @@ constexpr std::size_t most_differences = std::size_t{1} << 30;
 // A transform for positions and what it does to normals and to the sense of triangles.
 struct Placement {
     glm::dmat4 matrix;
-    glm::dmat3 normal_matrix;  // cofactors: right also where a scale is zero
+    glm::dmat3 of_normals;
     bool mirrored;
 
-    explicit Placement(const glm::dmat4& m) : matrix(m) {
-        const glm::dmat3 linear(m);
-        mirrored = glm::determinant(linear) < 0.0;
-        normal_matrix =
-            glm::dmat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                       glm::cross(linear[0], linear[1])) *
-            (mirrored ? -1.0 : 1.0);
-    }
+    explicit Placement(const glm::dmat4& m)
+        : matrix(m),
+          of_normals(normal_matrix(glm::dmat3(m))),
+          mirrored(glm::determinant(glm::dmat3(m)) < 0.0) {}
 
     glm::dvec3 normal(const glm::dvec3& n) const {
-        // Scaled first, so that a model in nanometres does not underflow.
-        const auto unit = [](const glm::dvec3& v) {
-            const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-            if (!(largest > 0.0) || !std::isfinite(largest)) return glm::dvec3(0.0);
-            return glm::normalize(v / largest);
-        };
-        return unit(normal_matrix * unit(n));
+        return unit_or_zero(of_normals * unit_or_zero(n));
     }
 };
 

@@ -6,6 +6,7 @@
 
 #include "io/gltf_accessor.hpp"
 #include "io/gltf_animation.hpp"
+#include "scene/normals.hpp"
 
 namespace clgi::io::gltf {
 
@@ -13,11 +14,6 @@ namespace {
 
 bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-glm::dvec3 unit_or_zero(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 1e-300 && std::isfinite(length) ? v / length : glm::dvec3(0.0);
 }
 
 // Of the triangles around each vertex, in the mesh's own space.

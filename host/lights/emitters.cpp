@@ -11,13 +11,13 @@
 #include <string>
 
 #include "lights/replicate.hpp"
+#include "lights/single_view.hpp"
 #include "opencl/check.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr float widest_single_view = 1.0472f;              // 60 degrees
 constexpr std::size_t most_pixels = std::size_t{1} << 30;  // kernels count view pixels in ints
 constexpr double pi = glm::pi<double>();
 
@@ -102,7 +102,7 @@ Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterO
     // cosine, whose mean is a third.
     const double full = std::pow(std::sin(0.5 * inner), 2);
     out.power = luminance(intensity) * 4.0 * pi * (full + (out.acceptance - full) / 3.0);
-    if (spot && outer <= widest_single_view) {
+    if (has_single_view(light)) {
         const float extent = static_cast<float>(std::tan(outer));
         out.views = {window(eye, right, glm::cross(right, axis), axis, extent, extent, near,
                             options.shadow_size, options.shadow_size)};

@@ -10,8 +10,8 @@
 namespace clgi {
 namespace {
 
-constexpr std::size_t most_samples = 1000;
-constexpr std::size_t most_boxes = std::size_t{1} << 22;  // over all samples: a second of work
+constexpr std::size_t most_keys = 10000, most_samples = 1000;  // with times between keys
+constexpr std::size_t most_boxes = std::size_t{1} << 22;       // over all samples: a second of work
 
 struct Box {
     glm::dvec3 low = glm::dvec3(INFINITY);
@@ -74,21 +74,30 @@ void add(const RangeBoxes& boxes, const std::vector<glm::dmat4>& matrices, const
     }
 }
 
-// All keys, and three times between any two; of very long clips an even choice.
+// `count` of them or all, evenly, the first and the last one among them. count >= 2.
+std::vector<double> even_choice(const std::vector<double>& all, std::size_t count) {
+    if (all.size() <= count) return all;
+    std::vector<double> out;
+    for (std::size_t i = 0; i < count; ++i) out.push_back(all[i * (all.size() - 1) / (count - 1)]);
+    return out;
+}
+
+// All keys, then up to three times between any two; at most `most`.
 std::vector<double> sample_times(const AnimationClip& clip, std::size_t most) {
     std::set<double> keys;
     for (const Channel& channel : clip.channels)
         for (const float time : clip.curves[channel.curve].times) keys.insert(time);
-    std::vector<double> all;
-    for (auto key = keys.begin(); key != keys.end(); ++key) {
-        const auto next = std::next(key);
-        for (int i = 0; i < (next == keys.end() ? 1 : 4); ++i)
-            all.push_back(i == 0 ? *key : *key + (*next - *key) * 0.25 * i);
-    }
-    if (all.size() <= most) return all;
-    std::vector<double> chosen;
-    for (std::size_t i = 0; i < most; ++i) chosen.push_back(all[i * all.size() / most]);
-    return chosen;
+    std::vector<double> out = even_choice({keys.begin(), keys.end()}, std::min(most, most_keys));
+    const std::size_t left =
+        std::min(most, most_samples) - std::min({most, most_samples, out.size()});
+    std::vector<double> between;
+    for (std::size_t key = 0; key + 1 < out.size(); ++key)
+        for (int i = 1; i < 4; ++i)
+            between.push_back(out[key] + (out[key + 1] - out[key]) * 0.25 * i);
+    if (left < 2) return out;
+    between = even_choice(between, left);
+    out.insert(out.end(), between.begin(), between.end());
+    return out;
 }
 
 }  // namespace
@@ -126,7 +135,7 @@ std::optional<Bounds> motion_bounds(const Scene& scene, std::size_t clip) {
                 pose.weights.data() + animation.nodes[range.node].first_weight, box);
         }
     };
-    const std::size_t most = std::clamp<std::size_t>(most_boxes / matrices, 2, most_samples);
+    const std::size_t most = std::max<std::size_t>(most_boxes / matrices, 2);
     add_pose(pose_at(animation, clip, 0.0));
     for (const double time : sample_times(animation.clips[clip], most))
         add_pose(pose_at(animation, clip, time));

@@ -1,12 +1,11 @@
 // A scene in another pose, on the host in double precision. glTF 2.0, sections 3.7.2.2 and 3.7.3.
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <clgi/error.hpp>
 #include <clgi/scene.hpp>
-#include <cmath>
 #include <string>
 
 #include "scene/carried.hpp"
+#include "scene/normals.hpp"
 #include "scene/range_matrices.hpp"
 
 namespace clgi {
@@ -14,25 +13,9 @@ namespace {
 
 const glm::dvec3 up(0.0, 1.0, 0.0);
 
-glm::dvec3 unit_or_zero(const glm::dvec3& v) {
-    // Scaled first, so that a model in nanometres does not underflow.
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (!(largest > 0.0) || !std::isfinite(largest)) return glm::dvec3(0.0);
-    return glm::normalize(v / largest);
-}
-
 glm::dvec3 unit_or_up(const glm::dvec3& v) {
     const glm::dvec3 unit = unit_or_zero(v);
     return unit == glm::dvec3(0.0) ? up : unit;
-}
-
-// What an affine map does to normals: its inverse transpose, but for a factor above 0. Cofactors
-// are right also where a scale is zero.
-glm::dvec3 turned(const glm::dmat4& matrix, const glm::dvec3& normal) {
-    const glm::dmat3 linear(matrix);
-    const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                               glm::cross(linear[0], linear[1]));
-    return cofactors * normal * (glm::determinant(linear) < 0.0 ? -1.0 : 1.0);
 }
 
 // One range at work: the vertex v of it, morphed and placed.
@@ -52,7 +35,7 @@ public:
     glm::dvec3 normal(std::uint32_t v) const {
         glm::dvec3 n = animation_.rest_normals[range_.first_rest + v];
         if (range_.morphs_normals) n = morphed(n, v, range_.target_count);
-        return unit_or_up(turned(matrix(v), unit_or_zero(n)));
+        return unit_or_up(normal_matrix(glm::dmat3(matrix(v))) * unit_or_zero(n));
     }
 
 private:

@@ -99,55 +99,52 @@ struct SceneAnimator::State {
 
 // Writes matrices and weights without waiting for them.
 void SceneAnimator::State::stage(const Pose& pose) {
-    const auto is_done = [](const cl::Event& event) {
-        return !event() || event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() <= CL_COMPLETE;
+    const auto status = [](const cl::Event& event) {
+        return event() ? event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() : CL_COMPLETE;
     };
-    const auto has_failed = [](const cl::Event& event) {
-        return event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() < 0;
-    };
-    constexpr std::size_t most_staged = 8;  // frames that the host may be ahead
-    while (!staged.empty() && is_done(staged.front().written)) staged.pop_front();
-    if (staged.size() >= most_staged) {
-        staged.front().written.wait();
-        staged.pop_front();
-    }
+    while (!staged.empty() && status(staged.front().written) <= CL_COMPLETE) staged.pop_front();
     Staged& next = staged.emplace_back();
     for (const PosedRange& range : animation.ranges)
         for (const glm::dmat4& matrix : range_matrices(animation, range, pose))
             next.matrices.push_back(relative(matrix, data.origin));
     next.weights.assign(pose.weights.begin(), pose.weights.end());
     // Waiting for what has failed would fail again.
-    last.erase(std::remove_if(last.begin(), last.end(), has_failed), last.end());
-    try {
-        WaitList before = last;
-        if (!next.weights.empty()) {
-            queue.enqueueWriteBuffer(data.buffers.weights, CL_FALSE, 0,
-                                     next.weights.size() * sizeof(float), next.weights.data(),
-                                     &before, &next.written);
-            before.assign(1, next.written);
-        }
-        queue.enqueueWriteBuffer(data.buffers.matrices, CL_FALSE, 0,
-                                 next.matrices.size() * sizeof(PoseMatrix), next.matrices.data(),
-                                 &before, &next.written);
-    } catch (const cl::Error& error) {
-        throw DeviceError("scene animator: matrices cannot be written: " + error_text(error.err()));
-    }
+    last.erase(std::remove_if(last.begin(), last.end(),
+                              [&](const cl::Event& event) { return status(event) < 0; }),
+               last.end());
+    const auto write = [&](const cl::Buffer& to, const auto& values) {
+        if (values.empty()) return;
+        queue.enqueueWriteBuffer(to, CL_FALSE, 0, values.size() * sizeof(values[0]), values.data(),
+                                 &last, &next.written);
+        last.assign(1, next.written);
+    };
+    write(data.buffers.weights, next.weights);
+    write(data.buffers.matrices, next.matrices);
 }
 
+// What fails on the way does not matter to the next step: it waits for all that was enqueued.
 cl::Event SceneAnimator::State::move(const Pose& pose, const WaitList& wait) {
     stage(pose);
-    cl::Event posed = passes.pose(queue, data.params, data.buffers, {staged.back().written});
+    last.assign(1, passes.pose(queue, data.params, data.buffers, last));
     if (data.params.triangle_count > 0)
-        posed = passes.flatten(queue, data.params, data.buffers, {posed});
+        last.assign(1, passes.flatten(queue, data.params, data.buffers, last));
     WaitList before = wait;
-    before.push_back(posed);
+    before.insert(before.end(), last.begin(), last.end());
     MovedVertices moved;
     moved.first = data.first;
     moved.count = data.params.given_count;
     moved.positions = data.buffers.positions;
     moved.normals = data.buffers.normals;
     moved.origin = data.origin;
-    last.assign(1, mover.move(moved, before));
+    try {
+        last.assign(1, mover.move(moved, before));
+    } catch (...) {
+        // A part of it may read the positions already. Without a marker, the first error counts.
+        cl::Event all;
+        if (clEnqueueMarkerWithWaitList(queue(), 0, nullptr, &all()) == CL_SUCCESS)
+            last.assign(1, all);
+        throw;
+    }
     return last.front();
 }
 
@@ -179,11 +176,15 @@ Animated SceneAnimator::show(const Pose& pose, const WaitList& wait) {
                     std::to_string(animation.nodes.size()) + " and " +
                     std::to_string(animation.weights.size()) + " needed");
     Animated out;
-    if (animation.ranges.empty()) {
-        state.queue.enqueueMarkerWithWaitList(&wait, &out.done);
-    } else {
-        out.done = state.move(pose, wait);
-        out.lights = state.emission_moves;
+    try {
+        if (animation.ranges.empty()) {
+            state.queue.enqueueMarkerWithWaitList(&wait, &out.done);
+        } else {
+            out.done = state.move(pose, wait);
+            out.lights = state.emission_moves;
+        }
+    } catch (const cl::Error& error) {
+        throw DeviceError("scene animator: a pose cannot be shown: " + error_text(error.err()));
     }
     for (const Carried& light : animation.lights) {
         Light& moved = state.lights[light.index];

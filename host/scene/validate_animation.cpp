@@ -133,6 +133,18 @@ void check_influences(const Animation& animation, const PosedRange& range,
     }
 }
 
+// Each corner of a flat range writes the normal of its triangle to its vertex.
+void check_flat(const PosedRange& range, const Scene& scene, const std::string& name) {
+    std::vector<bool> used(range.vertex_count, false);
+    const Part& part = scene.parts[range.part];
+    for (std::uint32_t t = 0; t < part.triangle_count; ++t)
+        for (const std::uint32_t vertex : scene.triangles[part.first_triangle + t].vertex) {
+            if (used[vertex - range.first_vertex])
+                fail(name + " is flat, and two corners use " + entry("vertex", vertex));
+            used[vertex - range.first_vertex] = true;
+        }
+}
+
 void check_range(const Animation& animation, const PosedRange& range, const Scene& scene,
                  const std::string& name) {
     const std::size_t vertices = range.vertex_count;
@@ -148,6 +160,7 @@ void check_range(const Animation& animation, const PosedRange& range, const Scen
         for (const std::uint32_t vertex : scene.triangles[part.first_triangle + t].vertex)
             if (vertex < range.first_vertex || vertex - range.first_vertex >= vertices)
                 fail(name + " does not have all vertices of " + entry("part", range.part));
+    if (range.flat) check_flat(range, scene, name);
     check_influences(animation, range, name);
     if (range.target_count > animation.nodes[range.node].weight_count)
         fail(name + " has " + std::to_string(range.target_count) + " morph targets, its node " +

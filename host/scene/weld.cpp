@@ -1,5 +1,6 @@
 // Vertices are put into a grid of cells many tolerances wide, of equal ones the first alone, so
-// that a vertex looks into one cell and seldom into more. SPDX-License-Identifier: MIT
+// that a vertex looks into one cell and seldom into more.
+// SPDX-License-Identifier: MIT
 #include "scene/weld.hpp"
 
 #include <algorithm>

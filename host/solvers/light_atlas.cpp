@@ -81,8 +81,8 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     gbuffer.build({"surface", "cubes"});
     gbuffer.build({"raster_views"}, Pixels::depth);
     lights.build({"direct"});
-    vpl.build({"place", "receive", "transport", "reach", "balance_receivers", "balance_shooters",
-               "emit", "shoot", "send"});
+    vpl.build({"place", "points", "receive", "transport", "reach", "balance_receivers",
+               "balance_shooters", "emit", "shoot", "send"});
     atlas.build({"nearest", "complete"});
     if (options.filling == Filling::project) {
         atlas.build({"geometry", "replicate", "project"});

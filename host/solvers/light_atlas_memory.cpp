@@ -5,6 +5,7 @@
 #include <clgi/planes.hpp>
 #include <string>
 
+#include "lights/single_view.hpp"
 #include "opencl/check.hpp"
 #include "solvers/light_atlas_state.hpp"
 
@@ -41,7 +42,7 @@ int usual_shadow_size(const DeviceScene& scene, const EmitterOptions& emitters) 
     constexpr std::size_t most_pixels = std::size_t{1} << 24;  // of all maps
     constexpr int most = 2048, least = 512;
     std::size_t maps = 0;
-    for (const Light& light : scene.lights()) maps += light.kind != Light::Kind::point;
+    for (const Light& light : scene.lights()) maps += has_single_view(light);
     if (scene.environment()) maps += static_cast<std::size_t>(emitters.environment_lights);
     int size = most;
     while (size > least && maps * size * size > most_pixels) size /= 2;

@@ -1,5 +1,6 @@
-// Which texels VPLs see: every texel in full, or corners of blocks first. [Schaerfig16,
-// section 6.2] SPDX-License-Identifier: MIT
+// Which texels VPLs see: every texel in full, or corners of blocks first.
+// [Schaerfig16, section 6.2]
+// SPDX-License-Identifier: MIT
 #include "solvers/light_atlas_state.hpp"
 
 namespace clgi {
@@ -13,6 +14,8 @@ void LightAtlasSolver::State::upload_blocks(const AtlasBlocks& made,
     record.write(b.listed_texels, listed.data(), listed.size() * sizeof(SurfaceSample));
     record.write(b.blocks.places, made.list.data(), made.unblocked * sizeof(std::uint32_t));
     record.write(b.blocks.blocks, made.blocks.data(), made.blocks.size() * sizeof(AtlasBlock));
+    // Rows end in lanes of no texel, which these passes leave alone and others read.
+    record.fill(b.seen, 0);
 }
 
 BlockParams LightAtlasSolver::State::block_params(std::uint32_t first, std::uint32_t count) const {

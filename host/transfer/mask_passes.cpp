@@ -28,7 +28,16 @@ MaskOptions checked(const MaskOptions& options) {
     return options;
 }
 
+// Kernels count the numbers of these planes in 32 bits.
+void need_countable(const PassKernel& pass, const char* name, std::size_t planes,
+                    std::size_t stride) {
+    if (planes * stride > std::size_t{1} << 32)
+        throw Error(pass.name + ": " + name + " has " + std::to_string(planes) + " planes of " +
+                    std::to_string(stride) + ", at most 2^32 numbers needed");
+}
+
 void need_receivers(const PassKernel& pass, const ReceiverBuffers& r) {
+    need_countable(pass, "receivers", RECEIVER_PLANES, r.stride);
     need_stride(pass, "receiver stride", r.stride, r.count);
     need(pass, "receivers", r.planes, RECEIVER_PLANES * word * r.stride);
 }
@@ -37,6 +46,7 @@ void need_blockers(const PassKernel& pass, const BlockerBuffers& b) {
     if (b.stride != blocker_stride(b.triangle_count))
         throw Error(pass.name + ": blocker stride is " + std::to_string(b.stride) + ", " +
                     std::to_string(blocker_stride(b.triangle_count)) + " needed");
+    need_countable(pass, "corners", BLOCKER_PLANES, b.stride);
     need(pass, "corners", b.corners, BLOCKER_PLANES * word * b.stride);
     need(pass, "boxes", b.boxes, b.stride / BLOCKER_CLUSTER * sizeof(BlockerBox));
 }
@@ -148,6 +158,7 @@ cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers&
                            const WaitList& wait) const {
     const bool singles = has_singles(b);
     const PassKernel& pass = singles ? mask_near_ : mask_;
+    need_countable(pass, "masks", MASK_WORDS(static_cast<std::size_t>(masks_.size)), r.stride);
     need_receivers(pass, r);
     need_blockers(pass, b);
     need_lists(pass, r, b);
@@ -171,6 +182,7 @@ cl::Event MaskPasses::visible(const cl::CommandQueue& queue, const ReceiverBuffe
     need_receivers(pass, r);
     need_blockers(pass, b);
     need_lists(pass, r, b);
+    need_countable(pass, "seen", visible_words(b.triangle_count), r.stride);
     MaskOptions exact = masks_;
     exact.planes = EdgePlanes::exact;
     need(pass, "heights", heights, mask_table_bytes(exact));
@@ -187,9 +199,11 @@ cl::Event MaskPasses::visible(const cl::CommandQueue& queue, const ReceiverBuffe
 std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,
                                       const cl::Buffer& weights, const cl::Buffer& directions,
                                       const cl::Buffer& transfer) const {
-    need_receivers(pass, r);
     const auto side = static_cast<std::size_t>(std::max(masks_.size / masks_.block, 1));
     const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
+    need_countable(pass, "masks", MASK_WORDS(static_cast<std::size_t>(masks_.size)), r.stride);
+    need_countable(pass, "transfer", terms, r.stride);
+    need_receivers(pass, r);
     const std::size_t turns = 2 * static_cast<std::size_t>(masks_.bands) - 1;
     need(pass, "masks", r.masks,
          std::size_t{MASK_WORDS(static_cast<std::size_t>(masks_.size))} * r.stride * word);
@@ -225,6 +239,7 @@ cl::Event MaskPasses::shade(const cl::CommandQueue& queue, const ReceiverBuffers
                             const cl::Buffer& non_finite, const WaitList& wait) const {
     const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
     need_stride(shade_, "receiver stride", r.stride, r.count);
+    need_countable(shade_, "transfer", terms, r.stride);
     need(shade_, "transfer", transfer, terms * r.stride * word);
     need(shade_, "light", light, terms * sizeof(glm::vec4));
     need(shade_, "irradiance", irradiance, 3 * word * r.stride);

@@ -4,11 +4,12 @@
 #include <clgi/error.hpp>
 #include <clgi/mask_weights.hpp>
 #include <cmath>
+#include <numbers>
 
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 
 // The first 2 l + 1 of them determine a function of degree l: the condition number of Y_lm(d_j) is
 // below 10 for every l. Found by a random search.

@@ -13,6 +13,7 @@
 #include "vpl/regions.hpp"
 #include "vpl/sites.hpp"
 #include "vpl/strips.hpp"
+#include "vpl/vpl_count.hpp"
 #include "vpl/walls.hpp"
 
 namespace clgi {
@@ -34,9 +35,16 @@ constexpr double walk_lift = 1.0 / 64.0;
     throw Error(std::string("place_vpls: ") + name + " is " + got + ", needs " + needs);
 }
 
-// The number of VPLs that the options ask for.
-std::uint32_t check(const Scene& scene, const Patches& patches, const VplOptions& options,
-                    double area) {
+}  // namespace
+
+double area_of(const Patches& patches) {
+    double out = 0.0;
+    for (const Patch& patch : patches.patches)
+        out += (patch.double_sided ? 2.0 : 1.0) * patch.area;
+    return out;
+}
+
+std::uint32_t vpl_count(const Scene& scene, const Patches& patches, const VplOptions& options) {
     if (patches.triangle_patch.size() != scene.triangles.size())
         fail("patches", "of " + std::to_string(patches.triangle_patch.size()) + " triangles",
              "the scene's " + std::to_string(scene.triangles.size()));
@@ -50,7 +58,7 @@ std::uint32_t check(const Scene& scene, const Patches& patches, const VplOptions
              "1 to " + std::to_string(most_gap_density));
     const bool by_density = options.density > 0.0;
     const double count =
-        by_density ? std::max(1.0, std::round(options.density * area)) : double(options.count);
+        by_density ? std::max(1.0, std::round(options.density * area_of(patches))) : double(options.count);
     if (!(count >= 1.0 && count <= double(options.most)))
         fail(by_density ? "density times area" : "count", std::to_string(count),
              "1 to " + std::to_string(options.most) + " (most)");
@@ -59,6 +67,8 @@ std::uint32_t check(const Scene& scene, const Patches& patches, const VplOptions
              "at most " + std::to_string(most_samples));
     return static_cast<std::uint32_t>(count);
 }
+
+namespace {
 
 struct Frame {
     glm::dvec3 x, y, z;  // unit, orthogonal
@@ -263,9 +273,8 @@ private:
 
 VplLayout place_vpls(const Scene& scene, const Patches& patches, const VplOptions& options) {
     VplLayout out;
-    for (const Patch& patch : patches.patches)
-        out.area += (patch.double_sided ? 2.0 : 1.0) * patch.area;
-    const std::uint32_t count = check(scene, patches, options, out.area);
+    out.area = area_of(patches);
+    const std::uint32_t count = vpl_count(scene, patches, options);
     std::vector<Region> regions = make_regions(patches, count);
     out.region_count = static_cast<std::uint32_t>(regions.size());
     out.patch_region.assign(patches.patches.size(), no_index);

@@ -79,7 +79,8 @@ struct PosedRange {
     std::uint32_t part = 0;                  // of the scene: the triangles of these vertices
     std::uint32_t node = 0;                  // places vertices that no joint does
     int skin = -1;                           // -1: none
-    bool flat = false;                       // normals are those of the triangles
+    bool flat = false;                       // normals are those of the triangles, which share no
+                                             // vertex then
     bool morphs_normals = false;             // there are differences of normals
     glm::dmat4 placement = glm::dmat4(1.0);  // from the mesh to the node: a copy's transform
     glm::dvec3 centre = glm::dvec3(0.0);     // mesh space; rest positions are relative to it
@@ -137,8 +138,10 @@ CLGI_API std::size_t find_clip(const Animation& animation, const std::string& na
 CLGI_API Scene posed(const Scene& scene, const Pose& pose);
 
 // A box around all that moves, over the whole of a clip: boxes around the vertices of every joint,
-// at all keys and between them, with a margin of a sixteenth for what lies between. Nothing if no
-// vertex moves.
+// at all keys and at up to three times between any two (1000 times together), with a margin of a
+// sixteenth for what lies between. Of more than 10,000 keys an even choice counts, the first and
+// the last among them; of fewer where a scene has more than 400 matrices of joints and nodes.
+// Nothing if no vertex moves.
 CLGI_API std::optional<Bounds> motion_bounds(const Scene& scene, std::size_t clip);
 
 }  // namespace clgi

@@ -26,7 +26,8 @@ namespace clgi {
 // What c_i of a cell is.
 enum class CellIntegral {
     exact,  // the integral over all of the cell in the disc: without blockers nothing is lost
-    centre  // Y_i at the middle of the cell times pi times its share of pixels, as in [Kautz04]
+    centre  // Y_i at the middle of the cell times pi times its share of pixels, as in [Kautz04];
+            // a middle outside the disc is moved to radius 0.999
 };
 
 struct MaskWeights {

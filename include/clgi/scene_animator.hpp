@@ -33,7 +33,9 @@ public:
 
     // Enqueues the pose of a clip `seconds` after its start (see pose_at) and sets the lights that
     // nodes carry. `wait` must cover whatever still reads the scene: the event of the last frame.
-    // Waits for nothing, but for emissive triangles, whose corners are read back.
+    // Waits for nothing, but for emissive triangles, whose corners are read back. The host may be
+    // any number of steps ahead: the matrices and weights of each stay in memory until the device
+    // has read them. Throws DeviceError if a step cannot be enqueued.
     Animated animate(std::size_t clip, double seconds, const WaitList& wait = {});
 
     // The same for any pose, of an engine's own mixer for example.

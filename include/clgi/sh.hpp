@@ -106,9 +106,11 @@ CLGI_API std::vector<double> window(Window kind, int bands);
 // 1 / (1 + smoothing l^2 (l + 1)^2): the least curved function near f [Sloan08].
 CLGI_API std::vector<double> smoothing_window(double smoothing, int bands);
 
-// The smallest smoothing, to three digits, at which the least value of f over all directions is
-// `lowest` or more; 0 where f itself is. Throws Error if no smoothing suffices: f's mean is below
-// `lowest`. Directions are those of a grid that is eight times finer than the last band.
+// A smoothing at which the least value of f over all directions is `lowest` or more; 0 where f
+// itself is. It is the smallest, to three digits, if the least value rises with smoothing, as it
+// mostly does; else a smaller one may suffice as well. Throws Error if no smoothing suffices: f's
+// mean is at most `lowest`. Directions are those of a grid that is eight times finer than the last
+// band.
 CLGI_API double least_smoothing(const std::vector<double>& coefficients, double lowest);
 
 // ---- what light does ----------------------------------------------------------------------------

@@ -3,17 +3,10 @@
 //
 // Cost         60 B read and 48 B written a triangle
 // Work size    1D, one work-item a triangle; any local size; tail guarded
-// Writes       the normals of its three vertices, which no other triangle has
+// Writes       the normals of its three vertices, which no other triangle has (validate checks it)
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/scene.h"
-
-// The largest number is brought to 1 first: squares of the others neither overflow nor vanish.
-static float3 unit_or_zero(float3 v) {
-    float largest = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
-    if (!(largest > 0.0f)) return (float3)(0.0f);
-    v /= largest;
-    return v * (1.0f / sqrt(dot(v, v)));
-}
+#include "scene/unit.clh"
 
 static float largest_of(float3 v) { return fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z)); }
 
@@ -31,8 +24,8 @@ kernel void scene_flatten(
     float3 c = positions[corner.z].xyz - a;
     // Sides of small triangles too: their product would be too small for a float.
     float side = fmax(largest_of(b), largest_of(c));
-    float3 normal = side > 0.0f ? unit_or_zero(cross(b / side, c / side)) : (float3)(0.0f);
-    if (normal.x == 0.0f && normal.y == 0.0f && normal.z == 0.0f) normal.y = 1.0f;
+    float3 up = (float3)(0.0f, 1.0f, 0.0f);
+    float3 normal = side > 0.0f ? scene_unit_or(cross(b / side, c / side), up) : up;
     normals[corner.x] = (float4)(normal, 0.0f);
     normals[corner.y] = (float4)(normal, 0.0f);
     normals[corner.z] = (float4)(normal, 0.0f);

@@ -17,14 +17,7 @@
 // Writes       its own vertex; of flat ranges no normal
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/scene.h"
-
-// The largest number is brought to 1 first: squares of the others neither overflow nor vanish.
-static float3 unit_or(float3 v, float3 otherwise) {
-    float largest = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
-    if (!(largest > 0.0f)) return otherwise;
-    v /= largest;
-    return v * (1.0f / sqrt(dot(v, v)));
-}
+#include "scene/unit.clh"
 
 // Sum of differences, of `rows` from `first` on.
 static float3 morphed(float3 value, const PoseRange* range, uint first, uint vertex,
@@ -103,7 +96,8 @@ kernel void scene_pose(
     float3 normal = rest_normals[vertex].xyz;
     if (range.flags & POSE_MORPHS_NORMALS) {
         uint first = range.first_difference + range.targets * range.count;
-        normal = unit_or(morphed(normal, &range, first, v, differences, weights), (float3)(0.0f));
+        normal = scene_unit_or(morphed(normal, &range, first, v, differences, weights),
+                               (float3)(0.0f));
     }
-    normals[range.given + v] = (float4)(unit_or(turned(&matrix, normal), up), 0.0f);
+    normals[range.given + v] = (float4)(scene_unit_or(turned(&matrix, normal), up), 0.0f);
 }

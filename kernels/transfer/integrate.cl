@@ -16,13 +16,14 @@
 // Cost         (R / B)^2 (terms + 6) multiply-adds for CLGI_WIDTH receivers, where a cell is blocked
 //              in any of them, and 2 (2 bands - 1) terms for the turn; R^2 / 8 bytes a receiver
 // Work size    1D, one work-item a packet of receivers; any local size; tail guarded
-// Writes       the vectors of its receivers
+// Writes       the vectors of its receivers; NaN for a lobe whose exponent is NaN, and where the eye
+//              is at the receiver, or too far for a float
 // SPDX-License-Identifier: MIT
 #include "transfer/disc.clh"
 #include "transfer/sh.clh"
 
 #ifndef CLGI_BLOCK
-#define CLGI_BLOCK 4  // B, pixels, width of a cell: 1, 2, 4 or 8
+#define CLGI_BLOCK 2  // B, pixels, width of a cell: 1, 2, 4 or 8
 #endif
 
 enum { CELL_SIDE = CLGI_MASK / CLGI_BLOCK, DIRECTIONS = 2 * CLGI_SH_BANDS - 1 };
@@ -108,7 +109,13 @@ kernel void transfer_integrate(
     mirrored[1] = -dot_axis(bitangent, eye) / distance;
     mirrored[2] = dot_axis(normal, eye) / distance;
     floatp widest = packet_splat(0.5f * CELL_SIDE * CELL_SIDE);
-    floatp exponent = packet_min(packet_load(exponents + first), widest);
+    floatp asked = packet_load(exponents + first);
+    floatp exponent = packet_min(asked, widest);
+    // Without a direction or an exponent there is no lobe, which is not darkness. By bits, since
+    // fast math takes every number for finite.
+    intp far = as_intp(packet_magnitude(distance));
+    intp lost = (far == (intp)(0)) | (far >= (intp)(NOT_FINITE)) |
+                (as_intp(packet_magnitude(asked)) > (intp)(NOT_FINITE));
     floatp norm = (exponent + packet_splat(2.0f)) * packet_splat(0.5f / CLGI_PI);
     for (int i = 0; i < SH_TERMS; ++i) sum[i] = packet_zero;
 #else
@@ -165,5 +172,10 @@ kernel void transfer_integrate(
             for (int m = 0; m < 2 * l + 1; ++m)
                 out[l * l + m] = fma(sum[l * l + j], y[l * l + m], out[l * l + m]);
     }
-    for (int i = 0; i < SH_TERMS; ++i) packet_store(out[i], transfer + i * stride + first);
+    for (int i = 0; i < SH_TERMS; ++i) {
+#ifdef CLGI_GLOSS
+        out[i] = packet_select(out[i], packet_splat(as_float(0x7fc00000)), lost);
+#endif
+        packet_store(out[i], transfer + i * stride + first);
+    }
 }

@@ -1,5 +1,6 @@
 // The buffers of a solver as one table, a row per buffer. The estimate, the check of the budget,
-// the allocation and the advice in errors all follow from it. SPDX-License-Identifier: MIT
+// the allocation and the advice in errors all follow from it.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/export.hpp>

@@ -70,23 +70,23 @@ public:
                          const BlockBuffers& blocks, const cl::Buffer& seen,
                          const WaitList& wait = {}) const;
 
-    // blocks.seen -> seen of all texels in blocks: what the corners of a block agree about; they are
-    // looked up as by see where corners do not agree.
+    // blocks.seen -> seen of all texels in blocks: what the corners of a block agree about; they
+    // are looked up as by see where corners do not agree.
     cl::Event see_blocks(const cl::CommandQueue& queue, const BlockParams& params,
-                     const cl::Buffer& views, const cl::Buffer& depth, const cl::Buffer& texels,
-                     const BlockBuffers& blocks, const cl::Buffer& seen,
-                     const WaitList& wait = {}) const;
+                         const cl::Buffer& views, const cl::Buffer& depth, const cl::Buffer& texels,
+                         const BlockBuffers& blocks, const cl::Buffer& seen,
+                         const WaitList& wait = {}) const;
 
-    // Adds what sites of buffers.list send to the texels that they see. texels: a G-buffer's planes,
-    // float; gathered: [3][stride] float, exposed lux; filled: [stride] float, the sum of the form
-    // factors, with FILL_FORM_FACTORS.
+    // Adds what sites of buffers.list send to the texels that they see. texels: a G-buffer's
+    // planes, float; gathered: [3][stride] float, exposed lux; filled: [stride] float, the sum of
+    // the form factors, with FILL_FORM_FACTORS.
     cl::Event gather(const cl::CommandQueue& queue, const FillParams& params,
                      const SiteBuffers& buffers, const cl::Buffer& texels, const cl::Buffer& seen,
                      const cl::Buffer& gathered, const cl::Buffer& filled,
                      const WaitList& wait = {}) const;
 
-    // What a batch of VPLs sees at the corners of M -> mesh.corners. visibility: their hemicubes with
-    // triangles.
+    // What a batch of VPLs sees at the corners of M -> mesh.corners. visibility: their hemicubes
+    // with triangles.
     cl::Event geometry(const cl::CommandQueue& queue, const MeshParams& params,
                        const DeviceScene& scene, const cl::Buffer& views,
                        const cl::Buffer& visibility, const MeshBuffers& mesh,
@@ -111,18 +111,17 @@ public:
                       const SiteBuffers& buffers, const cl::Buffer& texels,
                       const cl::Buffer& reach, const WaitList& wait = {}) const;
 
-    // gathered -> irradiance, both [3][stride] float: raised where VPLs fill the hemisphere of a texel
-    // less than surfaces do, lowered where they fill more than there is. non_finite: [1] uint, counts
-    // packets with numbers that are not finite.
+    // gathered -> irradiance, both [3][stride] float: raised where VPLs fill the hemisphere of a
+    // texel less than surfaces do, lowered where they fill more than there is. non_finite: [1]
+    // uint, counts packets with numbers that are not finite.
     cl::Event complete(const cl::CommandQueue& queue, const FillParams& params,
                        const cl::Buffer& reach, const cl::Buffer& filled,
                        const cl::Buffer& gathered, const cl::Buffer& irradiance,
-                       const cl::Buffer& non_finite,
-                       const WaitList& wait = {}) const;
+                       const cl::Buffer& non_finite, const WaitList& wait = {}) const;
 
-    // The light of an atlas at points of a G-buffer, whose triangles must be there (RESOLVE_TRIANGLE),
-    // in the storage of these passes. light: [3][params.texel_stride] float, exposed lux ->
-    // irradiance [IRRADIANCE_PLANES][stride].
+    // The light of an atlas at points of a G-buffer, whose triangles must be there
+    // (RESOLVE_TRIANGLE), in the storage of these passes. light: [3][params.texel_stride] float,
+    // exposed lux -> irradiance [IRRADIANCE_PLANES][stride].
     cl::Event show(const cl::CommandQueue& queue, const ShowParams& params,
                    const DeviceScene& scene, const GBuffer& points, const AtlasMap& map,
                    const cl::Buffer& light, const cl::Buffer& irradiance,
@@ -132,8 +131,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel see_, flat_, see_listed_, see_blocks_, gather_, geometry_, replicate_, project_, nearest_,
-        complete_, show_;
+    PassKernel see_, flat_, see_listed_, see_blocks_, gather_, geometry_, replicate_, project_,
+        nearest_, complete_, show_;
     Storage storage_;  // of what show reads and writes
 };
 

@@ -66,10 +66,10 @@ public:
     cl::Event receive(const cl::CommandQueue& queue, const SiteBuffers& buffers,
                       const cl::Buffer& irradiance, const WaitList& wait = {}) const;
 
-    // What the sites send to the texels beyond what they have sent, shared among their sample points
-    // by their own direct light and reflectance -> sent, sample_power, site_power, sends. irradiance:
-    // as for receive. least: the smallest change of a site's power that is sent, exposed lumen;
-    // below 0: every site sends.
+    // What the sites send to the texels beyond what they have sent, shared among their sample
+    // points by their own direct light and reflectance -> sent, sample_power, site_power, sends.
+    // irradiance: as for receive. least: the smallest change of a site's power that is sent,
+    // exposed lumen; below 0: every site sends.
     cl::Event send(const cl::CommandQueue& queue, const SiteBuffers& buffers,
                    const cl::Buffer& irradiance, float least, const WaitList& wait = {}) const;
 
@@ -111,8 +111,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel place_, points_, receive_, transport_, reach_, balance_receivers_, balance_shooters_, emit_,
-        shoot_, send_;
+    PassKernel place_, points_, receive_, transport_, reach_, balance_receivers_,
+        balance_shooters_, emit_, shoot_, send_;
 };
 
 }  // namespace clgi

@@ -34,7 +34,8 @@ inline EmitterOptions bake_emitters() {
 
 struct LightAtlasOptions {
     // Shadow maps and samples of the lights; emitters.vpls is not used. shadow_size 0: 2048 pixels,
-    // 1024 or 512 where more than 4 or 16 lights have such a map.
+    // 1024 or 512 where more than 4 or 16 lights have such a map: directions, and spots of at most 60
+    // degrees from the axis.
     EmitterOptions emitters = bake_emitters();
     // How often light is reflected at most before it reaches a texel, at least 1; 0: until the
     // largest unshot power is below the threshold.
@@ -43,9 +44,10 @@ struct LightAtlasOptions {
     // With bounces = 0: the strongest VPL shoots alone, then the next, as in the paper. Otherwise
     // all shoot at once, which converges to the same light in far less time.
     bool one_at_a_time = false;
-    // Sample points of a receiving VPL that are looked at when VPLs exchange light; 0: 4 to 16, so
-    // many that a shooter looks at 25,600 in all, if the VPLs have as many. All of them send light to
-    // the texels near by.
+    // Sample points of a receiving VPL that are looked at when VPLs exchange light; 0: 25,600 divided
+    // by the number of VPLs, but 4 to 16, if the VPL has as many. So a shooter looks at 25,600 in all
+    // between 1,600 and 6,400 VPLs, at fewer below and at more above. All of them send light to the
+    // texels near by.
     std::uint32_t exchange_samples = 0;
     int hemicube_size = 256;  // pixels of the face of a VPL's hemicube, even
     Filling filling = Filling::gather;
