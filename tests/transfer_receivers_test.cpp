@@ -342,7 +342,8 @@ TEST_P(TransferReceivers, RefuseWhatDoesNotFit) {
     const GBuffer seen = pixels.buffer();
     GBuffer other = seen;
     other.stride = 32;
-    const cl::Buffer some = test::empty<float>(GBUFFER_PLANES * 32), one = test::empty<float>(1);
+    const cl::Buffer some = test::upload(std::vector<float>(GBUFFER_PLANES * 32, 0.0f));
+    const cl::Buffer one = test::empty<float>(1);
     const PixelList list{some, some}, short_list{one, some};
     const ReceiverBuffers out = receivers(std::vector<float>(RECEIVER_PLANES * stride));
     const PixelParams run{0, 7, stride, stride, 0, 0, 0, 0};
