@@ -20,13 +20,13 @@ namespace clgi::report {
 struct KautzScene {
     std::string name;  // "cloth", "fight", "chess", "hand"
     Scene scene;       // with the box of its motion; every vertex is one receiver, as in the paper
-    std::size_t coarse = 0;      // low-resolution triangles
-    double fps = 0.0;            // on two Intel Xeon of 3.06 GHz
-    double triangles = 0.0;      // that a vertex looks at, on average
-    double fps_sets = 0.0;       // with potentially visible sets; 0: the paper has none
+    std::size_t coarse = 0;  // low-resolution triangles
+    double fps = 0.0;        // on two Intel Xeon of 3.06 GHz
+    double triangles = 0.0;  // that a vertex looks at, on average
+    double fps_sets = 0.0;   // with potentially visible sets; 0: the paper has none
     double triangles_sets = 0.0;
-    double error = 0.0;          // of transfer vectors: mean relative L2
-    double shares[4] = {};       // of the shadow loop: rasterization, integration, transform, other
+    double error = 0.0;     // of transfer vectors: mean relative L2
+    double shares[4] = {};  // of the shadow loop: rasterization, integration, transform, other
 };
 
 // names: of the four; empty: all. Throws Error for another name.
@@ -39,8 +39,8 @@ struct KautzSettings {
     CellIntegral cells = CellIntegral::exact;
     double coarse = 1.0;  // of the paper's low-resolution triangles; 0: all of the scene block
     int rings = 1;
-    double pose = 0.0;    // that is simplified: at this part of the clip
-    bool sets = false;    // potentially visible sets of frames spread over the clip
+    double pose = 0.0;  // that is simplified: at this part of the clip
+    bool sets = false;  // potentially visible sets of frames spread over the clip
 };
 
 struct KautzRow {
@@ -49,7 +49,7 @@ struct KautzRow {
     std::size_t vertices = 0, triangles = 0, coarse = 0;
     double listed = 0.0;                 // triangles that masks look at, a vertex
     std::optional<double> paper_listed;  // none: the paper has no such row
-    double fps = 0.0;                    // of the median frame
+    double fps = 0.0;                    // of the median frame, in the quickest of three rounds
     double mean_fps = 0.0;               // of all frames
     std::optional<double> paper_fps;
     std::optional<double> ratio;  // above 1: ours is that many times faster
@@ -60,8 +60,8 @@ struct KautzRow {
 
 struct KautzShares {
     std::string scene;
-    double frame_ms = 0.0;        // median, of its steps together
-    double shares[4] = {};        // of all frames' time, as KautzScene::shares
+    double frame_ms = 0.0;  // median, of its steps together
+    double shares[4] = {};  // of all frames' time, as KautzScene::shares
     double paper_shares[4] = {};
 };
 
@@ -87,8 +87,8 @@ struct KautzTable2 {
 struct KautzSetup {
     cl::CommandQueue queue;  // with profiling
     BuildOptions build;
-    int repeats = 30;           // frames of the clip in a round; there are three rounds
-    std::size_t vertices = 1000;  // whose error is measured; 0: none
+    int repeats = 30;  // frames of the clip in a round; where all triangles block a tenth
+    std::size_t vertices = 1000;           // whose error is measured; 0: none
     std::function<bool(double)> progress;  // share done; false ends it with Error
 };
 

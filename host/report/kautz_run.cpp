@@ -41,9 +41,9 @@ DynamicTransferOptions KautzRun::options(const KautzSetup& setup, const Scene& s
     out.build = setup.build;
     if (settings.coarse > 0.0) {
         const double time = settings.pose * scene.animation->clips[0].duration;
-        out.coarse = mesh::simplify(posed(scene, pose_at(*scene.animation, 0, time)),
-                                    static_cast<std::size_t>(std::lround(settings.coarse *
-                                                                         double(coarse))));
+        out.coarse =
+            mesh::simplify(posed(scene, pose_at(*scene.animation, 0, time)),
+                           static_cast<std::size_t>(std::lround(settings.coarse * double(coarse))));
         coarse_ = out.coarse.size();
     }
     return out;

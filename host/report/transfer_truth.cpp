@@ -66,25 +66,30 @@ void TransferErrors::add(const std::vector<double>& vectors, const std::vector<d
         throw Error("transfer_truth: " + std::to_string(vectors.size()) + " numbers, " +
                     std::to_string(truth.size()) + " needed");
     const std::vector<double> open = sh::around({0, 0, 1}, sh::cosine_kernel(bands));
-    const double least = 1e-6 * square_of(open.data(), terms);
+    const double whole = square_of(open.data(), terms);
     for (std::size_t at = 0; at < truth.size(); at += terms) {
         const double all = square_of(truth.data() + at, terms);
-        if (all < least) {
-            ++left_out_;
+        if (all < 1e-6 * whole) {
+            ++sums_.left_out;
             continue;
         }
         const double off = square_between(vectors.data() + at, truth.data() + at, terms);
-        relative_ += std::sqrt(off / all);
-        square_ += off;
+        sums_.mean += std::sqrt(off / all);
+        sums_.root += off;
         all_ += all;
-        ++counted_;
+        ++sums_.counted;
+        if (all < 1e-2 * whole) continue;
+        sums_.lit += std::sqrt(off / all);
+        ++sums_.counted_lit;
     }
 }
 
 TransferError TransferErrors::error() const {
-    if (counted_ == 0) return {0.0, 0.0, 0, left_out_};
-    return {relative_ / static_cast<double>(counted_), std::sqrt(square_ / all_), counted_,
-            left_out_};
+    TransferError out = sums_;
+    if (out.counted > 0) out.mean /= static_cast<double>(out.counted);
+    if (out.counted > 0) out.root = std::sqrt(out.root / all_);
+    if (out.counted_lit > 0) out.lit /= static_cast<double>(out.counted_lit);
+    return out;
 }
 
 }  // namespace clgi::report

@@ -28,11 +28,13 @@ struct TruthOptions {
 TransferTruth transfer_truth(const Scene& scene, const TruthOptions& options);
 
 // The mean over vertices and frames of |V - truth| / |truth|. Left out are vertices that receive
-// almost nothing: |truth| is below a thousandth of what nothing blocks.
+// almost nothing: |truth| is below a thousandth of what it is where nothing blocks.
 struct TransferError {
     double mean = 0.0;
+    double lit = 0.0;   // the same of vertices at which |truth| is at least a tenth of that
     double root = 0.0;  // sqrt(sum |V - truth|^2 / sum |truth|^2)
     std::size_t counted = 0;
+    std::size_t counted_lit = 0;
     std::size_t left_out = 0;
 };
 
@@ -43,8 +45,8 @@ public:
     TransferError error() const;
 
 private:
-    double relative_ = 0.0, square_ = 0.0, all_ = 0.0;
-    std::size_t counted_ = 0, left_out_ = 0;
+    TransferError sums_;  // mean and lit: of the relative errors; root: of their squares
+    double all_ = 0.0;
 };
 
 }  // namespace clgi::report
