@@ -11,8 +11,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/bench.hpp"
 #include "cli/commands.hpp"
-#include "cli/session.hpp"
 #include "report/bench.hpp"
 #include "report/bench_animation.hpp"
 #include "report/bench_layer.hpp"
@@ -21,16 +21,6 @@
 
 namespace clgi::cli {
 namespace {
-
-struct BenchFlags {
-    DeviceFlags device;
-    std::string table;
-    std::string mesh;
-    std::vector<std::string> scenes;
-    std::uint32_t most_vpls = 1600;
-    int repeats = 30;
-    bool json = false;
-};
 
 void print_json(const report::BenchTable& table) {
     nlohmann::ordered_json out = {{"table", table.table},
@@ -240,6 +230,7 @@ void run_schaerfig(const BenchFlags& flags, const Session& session) {
 void run_bench(const BenchFlags& flags) {
     const Session session = open_session(flags.device);
     if (flags.table == "schaerfig1") return run_schaerfig(flags, session);
+    if (flags.table == "kautz1" || flags.table == "kautz2") return run_kautz(flags, session);
     if (flags.table == "layer") return run_layer(flags, session);
     if (flags.table == "views") return run_views(flags, session);
     if (flags.table == "animation") return run_animation(flags, session);
@@ -271,13 +262,15 @@ void add_bench(CLI::App& app) {
                      "cochran1: frame rate against numbers of VPLs; "
                      "cochran2: share of low resolution against error and frame rate; "
                      "schaerfig1: seconds of bakes against numbers of VPLs; "
+                     "kautz1: frame rate and error of self-shadowed scenes that deform; "
+                     "kautz2: where their time goes; "
                      "views: hemicubes per second; "
                      "animation: time of a step of animated scenes; "
                      "layer: passes against the same kernels enqueued by hand")
         ->required()
         ->type_name("TABLE")
-        ->check(CLI::IsMember({"cochran1", "cochran2", "schaerfig1", "views", "animation",
-                                "layer"}));
+        ->check(CLI::IsMember({"cochran1", "cochran2", "schaerfig1", "kautz1", "kautz2", "views",
+                               "animation", "layer"}));
     command->add_option("--mesh", flags->mesh, "Mesh in the box, such as the Stanford bunny")
         ->type_name("FILE")
         ->default_str("a generated solid");
@@ -289,6 +282,18 @@ void add_bench(CLI::App& app) {
                      "schaerfig1: the rows of at most so many VPLs, of 100 to 25600")
         ->type_name("N")
         ->check(CLI::Range(100, 25600));
+    command
+        ->add_option("--only", flags->only,
+                     "kautz1, kautz2: this scene, of cloth, fight, chess and hand; may be repeated")
+        ->type_name("NAME")
+        ->default_str("all")
+        ->check(CLI::IsMember({"cloth", "fight", "chess", "hand"}));
+    command
+        ->add_option("--vertices", flags->vertices,
+                     "kautz1: at most so many vertices of a scene are compared with cast rays; "
+                     "0: none")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1000000));
     command->add_option("--repeats", flags->repeats, "Frames measured for each row")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));

@@ -9,20 +9,9 @@
 #include <optional>
 
 #include "reference/camera_rays.hpp"
-#include "reference/path.hpp"
+#include "reference/world.hpp"
 
 namespace clgi::reference {
-
-struct PathTracer::World {
-    explicit World(const Scene& scene)
-        : geometry(scene), tracer(geometry), lights(scene, geometry), sky(scene.environment) {}
-    Paths paths(const Options& options) const { return {geometry, tracer, lights, sky, options}; }
-
-    Geometry geometry;
-    Tracer tracer;
-    Lights lights;
-    Sky sky;
-};
 
 namespace {
 

@@ -166,10 +166,14 @@ void Tracer::all(const Ray& ray, std::vector<Hit>& hits) const {
 }
 
 bool Tracer::blocked(const glm::vec3& from, const glm::vec3& to) const {
+    return blocked({from, to - from, 0.0f, 1.0f});
+}
+
+bool Tracer::blocked(const Ray& ray) const {
     Query query(scene_->geometry);
-    RTCRay ray = rtc_ray({from, to - from, 0.0f, 1.0f});
-    occlude(scene_->scene, query, ray);
-    return ray.tfar < 0.0f;
+    RTCRay cast = rtc_ray(ray);
+    occlude(scene_->scene, query, cast);
+    return cast.tfar < 0.0f;
 }
 
 }  // namespace clgi::reference

@@ -28,13 +28,18 @@ public:
     // Every surface on the ray, in no order.
     void all(const Ray& ray, std::vector<Hit>& hits) const;
 
-    // Whether anything lies between two points.
+    // Whether anything lies between two points, or on a ray.
     bool blocked(const glm::vec3& from, const glm::vec3& to) const;
+    bool blocked(const Ray& ray) const;
 
 private:
     struct Scene;
     std::unique_ptr<Scene> scene_;
 };
+
+// Where a ray from a vertex begins, in lengths of a unit direction: behind the triangles that touch
+// the vertex, in a scene of radius 1, whatever the rounding of distances.
+constexpr float at_surface = 64.0f * 0x1p-24f;
 
 // A point moved off its surface, to the side of `normal`, by more than the rounding of positions
 // and of the distances that rays across a scene of radius 1 report.

@@ -100,6 +100,14 @@ public:
     Irradiance irradiance(const std::vector<Place>& places, const Options& options,
                           const Progress& progress = nullptr) const;
 
+    // Transfer vectors of diffuse places [places][bands^2], sr: what of the light from everywhere
+    // arrives, cosine included, in spherical harmonics of the world's frame (clgi/sh.hpp). Rays in
+    // strata x strata directions, jittered in strata of equal cosine. Triangles that touch a place
+    // do not block: it sees them edge-on. Place::geometric is not read. Throws Error for bands and
+    // strata out of range.
+    std::vector<double> transfer(const std::vector<Place>& places, int bands, int strata = 64,
+                                 std::uint64_t seed = 1) const;
+
 private:
     struct World;
     std::unique_ptr<World> world_;

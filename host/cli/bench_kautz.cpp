@@ -1,0 +1,164 @@
+// clgi bench kautz1, kautz2: tables 1 and 2 of [Kautz04].
+// SPDX-License-Identifier: MIT
+#include "report/bench_kautz.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/bench.hpp"
+
+namespace clgi::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+std::string text(const std::optional<double>& value) {
+    return value ? fmt::format("{:.1f}", *value) : "-";
+}
+
+std::string settings_text(const report::KautzSettings& settings) {
+    const MaskOptions& masks = settings.masks;
+    std::string out = fmt::format(
+        "R {}, {}, B {} {}", masks.size,
+        masks.planes == EdgePlanes::table ? fmt::format("table {}", masks.table_size) : "exact",
+        masks.block, settings.cells == CellIntegral::exact ? "integrals" : "centres");
+    if (settings.coarse > 0.0) out += fmt::format(", rings {}", settings.rings);
+    return out;
+}
+
+Json row_json(const report::KautzRow& row) {
+    const report::KautzSettings& settings = row.settings;
+    const MaskOptions& masks = settings.masks;
+    const bool table = masks.planes == EdgePlanes::table;
+    Json out = {{"scene", row.scene},
+                {"settings", settings.name},
+                {"pvs", settings.sets},
+                {"vertices", row.vertices},
+                {"triangles", row.triangles},
+                {"low_res_triangles", row.coarse},
+                {"listed", row.listed},
+                {"paper_listed", number(row.paper_listed)},
+                {"fps", row.fps},
+                {"mean_fps", row.mean_fps},
+                {"paper_fps", number(row.paper_fps)},
+                {"ratio", number(row.ratio)},
+                {"error", nullptr},
+                {"paper_error", row.paper_error},
+                {"mask", masks.size},
+                {"table", table ? Json(masks.table_size) : Json()},
+                {"block", masks.block},
+                {"cells", settings.cells == CellIntegral::exact ? "exact" : "centre"},
+                {"rings", settings.rings}};
+    if (!row.error) return out;
+    out["error"] = row.error->mean;
+    out["error_lit"] = row.error->lit;
+    out["error_rms"] = row.error->root;
+    out["noise"] = row.noise;
+    out["vertices_counted"] = row.error->counted;
+    out["vertices_lit"] = row.error->counted_lit;
+    out["vertices_left_out"] = row.error->left_out;
+    return out;
+}
+
+void print_table1(const report::KautzTable1& table, bool json) {
+    if (json) {
+        Json out = {{"table", "kautz1"}, {"device", table.device}, {"rows", Json::array()}};
+        for (const report::KautzRow& row : table.rows) out["rows"].push_back(row_json(row));
+        fmt::print("{}\n", out.dump(2));
+        return;
+    }
+    fmt::print(
+        "kautz1 on {}\nerrors in per cent: of all vertices, of those that are lit, root of "
+        "the mean square\n\n",
+        table.device);
+    fmt::print("{:<6}{:<4}{:>9}{:>10}{:>8}{:>8}{:>7}{:>8}{:>7}{:>7}{:>7}{:>6}{:>6}{:>7}  {}\n",
+               "scene", "PVS", "vertices", "triangles", "low-res", "listed", "paper", "fps",
+               "paper", "ratio", "error", "lit", "root", "paper", "settings");
+    for (const report::KautzRow& row : table.rows) {
+        const auto error = [&](double report::TransferError::*which) {
+            return row.error ? fmt::format("{:.2f}", 100.0 * ((*row.error).*which)) : "-";
+        };
+        fmt::print(
+            "{:<6}{:<4}{:>9}{:>10}{:>8}{:>8.1f}{:>7}{:>8.1f}{:>7}{:>7}{:>7}{:>6}{:>6}{:>7.2f}"
+            "  {}: {}\n",
+            row.scene, row.settings.sets ? "yes" : "no", row.vertices, row.triangles, row.coarse,
+            row.listed, text(row.paper_listed), row.fps, text(row.paper_fps), text(row.ratio),
+            error(&report::TransferError::mean), error(&report::TransferError::lit),
+            error(&report::TransferError::root), 100.0 * row.paper_error, row.settings.name,
+            settings_text(row.settings));
+    }
+}
+
+void print_table2(const report::KautzTable2& table, bool json) {
+    constexpr const char* parts[] = {"rasterization", "integration", "transform", "other"};
+    if (json) {
+        Json out = {{"table", "kautz2"},
+                    {"device", table.device},
+                    {"rows", Json::array()},
+                    {"gloss", nullptr}};
+        for (const report::KautzShares& row : table.rows) {
+            Json item = {{"scene", row.scene}, {"frame_ms", row.frame_ms}};
+            for (int i = 0; i < 4; ++i) {
+                item[parts[i]] = row.shares[i];
+                item[fmt::format("paper_{}", parts[i])] = row.paper_shares[i];
+            }
+            out["rows"].push_back(item);
+        }
+        if (table.gloss)
+            out["gloss"] = {{"mask_ms", table.gloss->mask_ms},
+                            {"integrate_ms", table.gloss->integrate_ms},
+                            {"integrate_gloss_ms", table.gloss->gloss_ms},
+                            {"instead", table.gloss->instead},
+                            {"besides", table.gloss->besides}};
+        fmt::print("{}\n", out.dump(2));
+        return;
+    }
+    fmt::print("kautz2 on {}\nper cent of the time, in brackets the paper's\n\n{:<8}{:>9}",
+               table.device, "scene", "frame ms");
+    for (const char* part : parts) fmt::print("{:>18}", part);
+    fmt::print("\n");
+    for (const report::KautzShares& row : table.rows) {
+        fmt::print("{:<8}{:>9.2f}", row.scene, row.frame_ms);
+        for (int i = 0; i < 4; ++i)
+            fmt::print("{:>18}", fmt::format("{:.1f} ({:.1f})", 100.0 * row.shares[i],
+                                             100.0 * row.paper_shares[i]));
+        fmt::print("\n");
+    }
+    if (!table.gloss) return;
+    fmt::print(
+        "\nhand with gloss: masks {:.2f} ms, integrate {:.2f} ms, integrate_gloss {:.2f} ms\n"
+        "masks and gloss take {:.3f} of masks and diffuse; all three {:.3f}\n",
+        table.gloss->mask_ms, table.gloss->integrate_ms, table.gloss->gloss_ms,
+        table.gloss->instead, table.gloss->besides);
+}
+
+}  // namespace
+
+void run_kautz(const BenchFlags& flags, const Session& session) {
+    catch_interrupts();
+    const auto bar = progress_bar(flags.table, flags.device.quiet);
+    const std::vector<report::KautzScene> scenes = report::kautz_scenes(flags.only);
+    report::KautzSetup setup;
+    setup.queue = session.queue;
+    setup.build = build_of(flags.device);
+    setup.repeats = flags.repeats;
+    setup.vertices = static_cast<std::size_t>(flags.vertices);
+    setup.progress = [&](double done) {
+        if (!bar(done)) throw Interrupted();
+        return true;
+    };
+    if (flags.table == "kautz1") {
+        const report::KautzTable1 table = report::bench_kautz1(setup, scenes);
+        bar(1.0);
+        print_table1(table, flags.json);
+    } else {
+        const report::KautzTable2 table = report::bench_kautz2(setup, scenes);
+        bar(1.0);
+        print_table2(table, flags.json);
+    }
+}
+
+}  // namespace clgi::cli
