@@ -87,13 +87,15 @@ TEST_P(TransferReceivers, AtPixelsStandAboveTheSurface) {
     const DeviceScene scene = test::on_device(two_triangles());
     Pixels seen;
     const glm::vec3 normal(0.6f, -0.64f, 0.48f), flat(0, 0.6f, 0.8f);
+    seen.set(GBUFFER_POSITION, 0, {1, 2, 3});
     for (const std::uint32_t pixel : {2u, 5u, 7u, 11u}) {
         seen.set(GBUFFER_POSITION, pixel, glm::vec3(0.25f, 0.5f, 0.125f) * float(pixel));
-        seen.set(GBUFFER_NORMAL, pixel, pixel == 11 ? glm::vec3(nan, 0, 1) : normal);
+        seen.set(GBUFFER_NORMAL, pixel, normal);
         seen.set(GBUFFER_GEOMETRIC, pixel, flat);
+        if (pixel == 11) seen.planes[GBUFFER_POSITION * stride + pixel] = nan;
         seen.ids[GBUFFER_MATERIAL * stride + pixel] = pixel == 5 ? 1 : 0;
     }
-    const std::vector<cl_uint> pixels = {9, 7, 5, 0, 11, 2, 0, 0};
+    const std::vector<cl_uint> pixels = {9, 7, 5, 0, 11, 2, 7, 7};
     const ReceiverBuffers out = receivers(std::vector<float>(RECEIVER_PLANES * stride, 7.0f));
     const cl::Buffer exponents = test::upload(std::vector<float>(stride, 7.0f));
     // From the second place on; pixel 0 shows nothing, and after 2 the list ends.
@@ -140,14 +142,16 @@ TEST_P(TransferReceivers, ArePutWhereTheirPixelsAre) {
         const ReceiverPasses some(test::programs(), {.math = GetParam(), .storage = storage});
         const cl::Buffer shown = test::upload(std::vector<float>(3 * stride, 0.0f));
         some.place(test::device().queue, {2, 5, stride, stride, 0, 0, 0, 0},
-                   {test::upload(std::vector<cl_uint>{1, 1, 9, 3, 0, 1, 1}),
-                    test::upload(std::vector<cl_uint>{5})},
+                   {test::upload(std::vector<cl_uint>{5, 6, 9, 3, 0, 1, 2, 4}),
+                    test::upload(std::vector<cl_uint>{8})},
                    test::upload(light), shown);
         const auto words = test::download<float>(shown, 3 * stride);
         const auto halves = test::download<std::uint16_t>(shown, 3 * stride);
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t pixel = 0; pixel < stride; ++pixel) {
-                const int place = pixel == 9 ? 0 : pixel == 3 ? 1 : pixel == 0 ? 2 : -1;
+                const std::size_t run[] = {9, 3, 0, 1, 2};
+                const auto at_pixel = std::find(run, run + 5, pixel);
+                const int place = at_pixel == run + 5 ? -1 : static_cast<int>(at_pixel - run);
                 const float wanted = place < 0 ? 0.0f : light[c * stride + std::size_t(place)];
                 const std::size_t at = c * stride + pixel;
                 EXPECT_EQ(storage == Storage::half ? glm::unpackHalf1x16(halves[at]) : words[at],
@@ -198,15 +202,20 @@ TEST_P(TransferReceivers, LightPixelsBetweenThem) {
     }
     const GBuffer buffer = seen.buffer();
     // Both triangles face z. From the front and the back, in perspective and not.
-    for (const glm::vec4 eye : {glm::vec4(0, 0, 9, 0), glm::vec4(0, 0, -9, 0),
-                                glm::vec4(0, 0, 1, 1), glm::vec4(0.2f, 0, -1, 1)}) {
+    // An eye between the first triangle's plane and the one beside it through the origin sees the
+    // back; the same numbers as a direction lead to the front.
+    const auto little = static_cast<float>(0.06 * scene.frame().scale);
+    const std::pair<glm::vec4, bool> eyes[] = {
+        {{0, 0, 9, 0}, false},    {{0, 0, -9, 0}, true},     {{0, 0, 1, 1}, false},
+        {{0.2f, 0, -1, 1}, true}, {{0, 0, little, 0}, true}, {{0, 0, little, 1}, false}};
+    for (const auto& [eye, from_behind] : eyes) {
         const cl::Buffer shown = test::upload(std::vector<float>(3 * stride, nan));
         passes(GetParam())
             .show(test::device().queue, {eye, 12, stride, 2, stride}, scene, test::upload(other),
                   buffer, test::upload(light), shown);
         const auto found = test::download<float>(shown, 3 * stride);
         for (std::size_t pixel = 0; pixel < 12; ++pixel) {
-            const bool behind = eye.z < 0 && pixel % 2 == 0;
+            const bool behind = from_behind && pixel % 2 == 0;
             glm::dvec3 wanted = behind ? back(places[pixel]) : front(places[pixel]);
             if (pixel == 11) wanted = glm::dvec3(0.0);
             for (std::size_t c = 0; c < 3; ++c)
@@ -229,8 +238,8 @@ TEST_P(TransferReceivers, ComparesProbesWithWhatIsShown) {
     for (std::size_t k = 0; k < 6; ++k)
         for (std::size_t c = 0; c < 3; ++c) {
             const float a = shown[c * picture_stride + pixels[k]];
-            // A fifth more, a third more; then channels that make up for each other; not a number.
-            const float by[] = {1.2f, 1.4f, c == 0 ? 1.5f : 0.5f, 0.8f, 0.7f, 1.0f};
+            // More by a third and by half, of the larger one; channels that make up for each other.
+            const float by[] = {1.3f, 1.4f, c == 0 ? 1.5f : 0.5f, 0.77f, 0.7f, 1.0f};
             probes[c * probe_stride + k] = k == 5 && c == 1 ? nan : a * by[k];
         }
     ids[GBUFFER_TRIANGLE * picture_stride + 21] = -1;
@@ -314,6 +323,7 @@ TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {
         }
     }
     light[3] = nan;
+    light[1] = nan;  // of a surface without a lobe
     light[stride + 4] = -2.0f;
     light[5] = std::numeric_limits<float>::infinity();
     const cl::Buffer values = test::upload(radiance);

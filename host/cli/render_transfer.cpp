@@ -64,6 +64,7 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const DynamicTrans
     if (!scene.emissive().empty()) out.push_back("emission");
     if (scene.environment()) out.push_back("environment");
     if (scene.environment() && solver.glossy()) out.push_back("glossy-environment");
+    if (scene.environment() && solver.options().bounces > 0) out.push_back("one-bounce");
     return out;
 }
 
@@ -196,6 +197,9 @@ void add_transfer_flags(CLI::App& command, TransferFlags& flags) {
                     "transfer: Difference from the light between vertices at which pixels have "
                     "masks of their own; off: none, all")
         ->type_name("off|all|X");
+    add_count(command, "--interreflections", flags.solver.bounces,
+              "transfer: Times that light is reflected diffusely before it reaches what is seen", 0,
+              1);
     add_count(command, "--probe-step", flags.probe_step,
               "transfer: Pixels between the probes that --per-pixel compares", 2, 64);
 }

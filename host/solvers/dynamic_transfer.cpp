@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <clgi/planes.hpp>
 
+#include "opencl/check.hpp"
 #include "solvers/dynamic_transfer_state.hpp"
 
 namespace clgi {
@@ -39,6 +40,7 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
       cells(windowed(
           mask_weights(wanted.masks.size, wanted.masks.block, wanted.masks.bands, wanted.cells),
           wanted.window)) {
+    need_range(owner, "bounces", options.bounces, 0, 1);
     vertices.add_other_sides(levels);
     receivers.count = vertices.count();
     receivers.stride = plane_stride(receivers.count);
@@ -55,7 +57,7 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
     fine.triangle_count = both.triangle_count;
     fine.stride = both.stride;
     build();
-    write();
+    write(file);
 }
 
 void DynamicTransferSolver::State::build() const {
@@ -65,6 +67,8 @@ void DynamicTransferSolver::State::build() const {
     if (!vertices.fronts.empty()) sides.build({"other_sides"});
     if (options.masks.planes == EdgePlanes::table) masks.build({"planes"});
     if (glossy) masks.build({"integrate_gloss"});
+    if (options.bounces > 0)
+        masks.build({"exitance", levels.near.empty() ? "bounce" : "bounce_near"});
 }
 
 BufferTable DynamicTransferSolver::State::table() {
@@ -98,6 +102,13 @@ BufferTable DynamicTransferSolver::State::table() {
         t.add(both.near_lists, "lists of singles", triangle, levels.near_lists.size() * word);
         t.add(both.near, "lists of singles", triangle, levels.near.size() * word);
     }
+    if (options.bounces > 0) {
+        t.add(reflectance, "reflectances", vertex, 3 * stride * word);
+        t.add(exitance, "light of triangles", triangle,
+              2 * levels.triangles.size() * sizeof(glm::vec4));
+        t.add(heights, "heights of pixels", "mask size",
+              pixel_heights(options.masks.size).size() * word);
+    }
     t.add(drawn, "the table of planes", "table size", mask_table_bytes(options.masks));
     t.add(weights, "weights of cells", "bands", cells.values.size() * word);
     t.add(directions, "directions of cells", "mask size",
@@ -108,7 +119,7 @@ BufferTable DynamicTransferSolver::State::table() {
     return t;
 }
 
-void DynamicTransferSolver::State::write() {
+void DynamicTransferSolver::State::write(const Scene& file) {
     record.fill(status, 0);
     put(other_side, vertices.other_side);
     put(fronts, vertices.fronts);
@@ -130,6 +141,10 @@ void DynamicTransferSolver::State::write() {
     put(directions, cells.directions);
     sky.write(record);
     const std::vector<float> z = pixel_heights(options.masks.size);
+    if (options.bounces > 0) {
+        put(reflectance, vertices.reflectances(file, scene, receivers.stride));
+        put(heights, z);
+    }
     if (options.masks.planes == EdgePlanes::exact) {
         put(drawn, z);
         return;
@@ -181,6 +196,18 @@ void DynamicTransferSolver::State::shade(const cl::Buffer& vectors, const cl::Bu
 void DynamicTransferSolver::State::light() {
     sky.project(record, projection);
     shade(receivers.transfer, irradiance);
+    if (options.bounces > 0) bounce();
+}
+
+void DynamicTransferSolver::State::bounce() {
+    const BounceParams params{both.triangle_count, receivers.stride, 0.0f, 0};
+    record("transfer.exitance", both.triangle_count, [&](const WaitList& wait) {
+        return masks.exitance(queue, params, triangles, other_side, reflectance, irradiance,
+                              exitance, wait);
+    });
+    record("transfer.bounce", receivers.count, [&](const WaitList& wait) {
+        return masks.bounce(queue, receivers, blockers, heights, exitance, irradiance, wait);
+    });
 }
 
 void DynamicTransferSolver::State::reflect(const glm::vec3& eye) {
@@ -272,6 +299,8 @@ double DynamicTransferSolver::triangles_per_receiver() const {
     return all / std::max<std::uint32_t>(state_->receivers.count, 1);
 }
 const cl::Buffer& DynamicTransferSolver::drawn() const { return state_->drawn; }
+const cl::Buffer& DynamicTransferSolver::heights() const { return state_->heights; }
+const cl::Buffer& DynamicTransferSolver::exitance() const { return state_->exitance; }
 const cl::Buffer& DynamicTransferSolver::weights() const { return state_->weights; }
 const cl::Buffer& DynamicTransferSolver::directions() const { return state_->directions; }
 const cl::Buffer& DynamicTransferSolver::counter() const { return state_->bad; }

@@ -1,5 +1,8 @@
 // Which receivers a scene has.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "scene/texture_mean.hpp"
 #include "solvers/dynamic_transfer_state.hpp"
 
 namespace clgi {
@@ -42,6 +45,44 @@ void SceneReceivers::add_other_sides(BlockerLevels& levels) const {
             near.push_back(std::uint32_t{near[i]});
         levels.near_lists.push_back(static_cast<std::uint32_t>(near.size()));
     }
+}
+
+std::vector<float> SceneReceivers::reflectances(const Scene& scene, const DeviceScene& device,
+                                               std::size_t stride) const {
+    std::vector<TextureMean> textures(scene.textures.size());
+    for (const Material& material : scene.materials) {
+        const int texture = material.base_texture.texture;
+        if (texture >= 0)
+            textures[static_cast<std::size_t>(texture)] =
+                TextureMean(scene.textures[static_cast<std::size_t>(texture)]);
+    }
+    std::vector<glm::dvec3> sum(scene.positions.size(), glm::dvec3(0.0));
+    std::vector<int> count(scene.positions.size(), 0);
+    for (const SceneTriangle& triangle : scene.triangles) {
+        const Material& material = scene.materials[triangle.material];
+        glm::dvec3 base(material.base_color);
+        const TextureSlot& slot = material.base_texture;
+        if (slot.texture >= 0)
+            base *= textures[static_cast<std::size_t>(slot.texture)].over(
+                slot_uvs(scene, triangle, slot));
+        for (const std::uint32_t corner : triangle.vertex) {
+            const glm::dvec3 colour =
+                scene.colors.empty() ? glm::dvec3(1.0) : glm::dvec3(scene.colors[corner]);
+            sum[corner] += colour * base *
+                           double{reflectance(material.metallic, material.roughness).diffuse};
+            ++count[corner];
+        }
+    }
+    std::vector<float> out(3 * stride, 0.0f);
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+        const std::size_t vertex =
+            i < other_side.size() ? i : std::size_t{fronts[i - other_side.size()]};
+        const std::uint32_t of_file = device.vertex_order()[vertex];
+        for (int c = 0; c < 3; ++c)
+            out[static_cast<std::size_t>(c) * stride + i] =
+                static_cast<float>(sum[of_file][c] / std::max(count[of_file], 1));
+    }
+    return out;
 }
 
 }  // namespace clgi

@@ -9,8 +9,9 @@ cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
         BufferTable t("dynamic-transfer");
         t.add(seen, "bits of visible sets", "the scene's vertices",
               visible_words(both.triangle_count) * receivers.stride * sizeof(std::uint32_t));
-        t.add(heights, "heights of pixels", "mask size",
-              pixel_heights(options.masks.size).size() * sizeof(float));
+        if (!heights())
+            t.add(heights, "heights of pixels", "mask size",
+                  pixel_heights(options.masks.size).size() * sizeof(float));
         t.check(queue.getInfo<CL_QUEUE_DEVICE>(), 0, scene.bytes() + bytes);
         t.allocate(record);
         bytes += t.bytes();

@@ -19,6 +19,10 @@ struct SceneReceivers {
     std::vector<std::uint32_t> other_side;  // [vertices] receiver or RECEIVER_NONE
     std::vector<std::uint32_t> fronts;      // [other sides] vertex
     std::vector<float> exponents;           // [receivers] of the lobes
+
+    // [3][stride] of the receivers' diffuse reflectance: means of the triangles around them.
+    std::vector<float> reflectances(const Scene& scene, const DeviceScene& device,
+                                   std::size_t stride) const;
 };
 
 struct DynamicTransferSolver::State {
@@ -27,7 +31,7 @@ struct DynamicTransferSolver::State {
 
     BufferTable table();
     void build() const;
-    void write();
+    void write(const Scene& file);
 
     template <typename T>
     void put(const cl::Buffer& buffer, const std::vector<T>& values) {
@@ -38,6 +42,7 @@ struct DynamicTransferSolver::State {
     void transfer();
     void shade(const cl::Buffer& vectors, const cl::Buffer& out);
     void light();
+    void bounce();
     void reflect(const glm::vec3& eye);
 
     cl::Event look(const WaitList& wait);
@@ -62,7 +67,7 @@ struct DynamicTransferSolver::State {
     BlockerBuffers fine;      // the scene's triangles alone, one list
     std::size_t listed_triangles = 0;  // of all receivers together
     cl::Buffer triangles, irradiance, gloss, lobes, exponents, other_side, fronts, drawn, heights,
-        weights, directions, status, bad, seen;
+        weights, directions, status, bad, seen, reflectance, exitance;
     std::size_t bytes = 0;
 };
 

@@ -138,6 +138,11 @@ struct DynamicTransferView::State {
                                              solver.directions(), wait);
         });
         shade();
+        if (solver.options().bounces == 0) return;
+        record("transfer.bounce", run.count, [&](const WaitList& wait) {
+            return solver.passes().bounce(queue, receivers, solver.blockers(), solver.heights(),
+                                          solver.exitance(), arriving, wait);
+        });
     }
 
     void shade() {

@@ -3,6 +3,7 @@
 #include <clgi/passes/masks.hpp>
 #include <clgi/visible_sets.hpp>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "opencl/check.hpp"
 #include "opencl/launch.hpp"
@@ -104,6 +105,10 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
     visible_ = few("visible", full(options), size);
     visible_near_ = few("visible", full(options), size + " -DCLGI_NEAR");
     visible_near_.name = "transfer.visible_near";
+    exitance_ = programs.kernel("transfer", "exitance", scalar(options));
+    bounce_ = few("bounce", full(options), size);
+    bounce_near_ = few("bounce", full(options), size + " -DCLGI_NEAR");
+    bounce_near_.name = "transfer.bounce_near";
     const std::string bands = " -DCLGI_SH_BANDS=" + std::to_string(masks_.bands);
     const std::string cells = size + " -DCLGI_BLOCK=" + std::to_string(masks_.block) + bands;
     integrate_ = few("integrate", full(options), cells);
@@ -114,7 +119,7 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
 
 void MaskPasses::build(std::initializer_list<const char*> passes) const {
     build_named({receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_,
-                 integrate_, integrate_gloss_, shade_},
+                 exitance_, bounce_, bounce_near_, integrate_, integrate_gloss_, shade_},
                 passes);
 }
 
@@ -194,6 +199,47 @@ cl::Event MaskPasses::visible(const cl::CommandQueue& queue, const ReceiverBuffe
                       b.boxes, b.corners, heights, seen);
     return launch(pass, queue, r.count * columns, wait, params, r.planes, b.lists, b.ranges,
                   b.boxes, b.corners, heights, b.near_lists, b.near, seen);
+}
+
+cl::Event MaskPasses::exitance(const cl::CommandQueue& queue, const BounceParams& params,
+                               const cl::Buffer& triangles, const cl::Buffer& other_side,
+                               const cl::Buffer& reflectance, const cl::Buffer& irradiance,
+                               const cl::Buffer& out, const WaitList& wait) const {
+    need_countable(exitance_, "irradiance", 3, params.receiver_stride);
+    need(exitance_, "triangles", triangles, params.triangle_count * sizeof(glm::uvec4));
+    need(exitance_, "other_side", other_side, params.triangle_count > 0 ? word : 0);
+    need(exitance_, "reflectance", reflectance, 3 * word * params.receiver_stride);
+    need(exitance_, "irradiance", irradiance, 3 * word * params.receiver_stride);
+    need(exitance_, "exitance", out, 2 * std::size_t{params.triangle_count} * sizeof(glm::vec4));
+    return launch(exitance_, queue, params.triangle_count, wait, params, triangles, other_side,
+                  reflectance, irradiance, out);
+}
+
+cl::Event MaskPasses::bounce(const cl::CommandQueue& queue, const ReceiverBuffers& r,
+                             const BlockerBuffers& b, const cl::Buffer& heights,
+                             const cl::Buffer& exitance, const cl::Buffer& irradiance,
+                             const WaitList& wait) const {
+    const bool singles = has_singles(b);
+    const PassKernel& pass = singles ? bounce_near_ : bounce_;
+    need_countable(pass, "irradiance", 3, r.stride);
+    need_receivers(pass, r);
+    need_blockers(pass, b);
+    need_lists(pass, r, b);
+    MaskOptions exact = masks_;
+    exact.planes = EdgePlanes::exact;
+    need(pass, "heights", heights, mask_table_bytes(exact));
+    need(pass, "exitance", exitance, 2 * std::size_t{b.triangle_count} * sizeof(glm::vec4));
+    need(pass, "irradiance", irradiance, 3 * word * r.stride);
+    const std::vector<float> z = pixel_heights(masks_.size);
+    const auto pixels = std::count_if(z.begin(), z.end(), [](float height) { return height > 0; });
+    const MaskParams params{r.count, r.stride, b.stride, b.receivers_per_list, 0, 0, 0, 0};
+    const BounceParams share{b.triangle_count, r.stride,
+                             glm::pi<float>() / static_cast<float>(pixels), 0};
+    if (!singles)
+        return launch(pass, queue, r.count, wait, params, share, r.planes, b.lists, b.ranges,
+                      b.boxes, b.corners, heights, exitance, irradiance);
+    return launch(pass, queue, r.count, wait, params, share, r.planes, b.lists, b.ranges, b.boxes,
+                  b.corners, heights, b.near_lists, b.near, exitance, irradiance);
 }
 
 std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,

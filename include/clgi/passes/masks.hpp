@@ -5,6 +5,7 @@
 #pragma once
 
 #include <clgi/shared/masks.h>
+#include <clgi/shared/receivers.h>
 #include <clgi/export.hpp>
 #include <clgi/pass.hpp>
 #include <clgi/programs.hpp>
@@ -101,6 +102,21 @@ public:
                       const BlockerBuffers& blockers, const cl::Buffer& heights,
                       const cl::Buffer& seen, const WaitList& wait = {}) const;
 
+    // What triangles [params.triangle_count] uint4 of the scene's vertices reflect diffusely ->
+    // exitance [2][triangle_count] float4, exposed radiance: fronts, then backs. other_side:
+    // ReceiverPasses::show; reflectance, irradiance: [3][params.receiver_stride].
+    cl::Event exitance(const cl::CommandQueue& queue, const BounceParams& params,
+                       const cl::Buffer& triangles, const cl::Buffer& other_side,
+                       const cl::Buffer& reflectance, const cl::Buffer& irradiance,
+                       const cl::Buffer& exitance, const WaitList& wait = {}) const;
+
+    // Adds to irradiance [3][receivers.stride] what the triangles that receivers see reflect to
+    // them. heights: as for visible. exitance: of blockers.triangle_count.
+    cl::Event bounce(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
+                     const BlockerBuffers& blockers, const cl::Buffer& heights,
+                     const cl::Buffer& exitance, const cl::Buffer& irradiance,
+                     const WaitList& wait = {}) const;
+
     // Transfer vectors from masks -> transfer. weights, directions: MaskWeights::values and
     // directions, of the same size, block and bands.
     cl::Event integrate(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
@@ -133,7 +149,7 @@ private:
 
     MaskOptions masks_;
     PassKernel receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_,
-        integrate_, integrate_gloss_, shade_;
+        exitance_, bounce_, bounce_near_, integrate_, integrate_gloss_, shade_;
 };
 
 }  // namespace clgi

@@ -63,6 +63,14 @@ typedef struct {
     uint pad0_;
 } AddGlossParams;
 
+// Light that triangles reflect to receivers.
+typedef struct {
+    uint triangle_count;   // of the triangles that block
+    uint receiver_stride;  // of what arrives at vertices and other sides
+    float per_pixel;       // pi / pixels of a mask
+    uint pad0_;
+} BounceParams;
+
 CLGI_SHARED_END
 
 #endif

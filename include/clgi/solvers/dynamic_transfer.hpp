@@ -26,6 +26,8 @@ struct DynamicTransferOptions {
     sh::Window window = sh::Window::none;  // of transfer vectors, against ringing
     bool gloss = true;                     // the Phong lobes of materials, where the scene has some
     bool directional = false;              // directional lights are part of the environment
+    // 1: diffuse light that the scene reflects to itself once is part of the irradiance.
+    int bounces = 0;
     // Far from a vertex these triangles block, near it those of the scene
     // (clgi/blocker_levels.hpp): vertices of the scene, such as mesh::simplify makes. None: all of
     // the scene block everywhere.
@@ -112,6 +114,8 @@ public:
     const BlockerBuffers& blockers() const;  // the scene's own triangles, one list
     double triangles_per_receiver() const;   // that masks look at, before any is culled
     const cl::Buffer& drawn() const;         // what MaskPasses::mask draws with
+    const cl::Buffer& heights() const;       // of pixels, with a bounce
+    const cl::Buffer& exitance() const;      // of triangles that block, with a bounce
     const cl::Buffer& weights() const;       // of MaskWeights
     const cl::Buffer& directions() const;    // of MaskWeights
     const cl::Buffer& counter() const;       // [1] uint, of TransferStatus::non_finite
