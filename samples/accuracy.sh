@@ -28,6 +28,11 @@ done
 for scene in cornell corridor; do
     "$clgi" sweep "$out/$scene.glb" --method atlas --spp 800 -o "$out/$scene-atlas"
 done
+# The environment is a file of its own: sky=FILE.hdr ./samples/accuracy.sh
+if [ -n "${sky:-}" ]; then
+    "$clgi" scene hand-like -o "$out/hand.glb"
+    "$clgi" sweep "$out/hand.glb" --method transfer --time 1 --environment "$sky" -o "$out/hand-transfer"
+fi
 
 echo
 echo "commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown), $(date +%F)"

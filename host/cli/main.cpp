@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
         clgi::cli::add_scene(app);
         clgi::cli::add_render(app);
         clgi::cli::add_bake(app);
+        clgi::cli::add_transfer(app);
         clgi::cli::add_reference(app);
         clgi::cli::add_compare(app);
         clgi::cli::add_sweep(app);

@@ -291,8 +291,8 @@ void add_render(CLI::App& app) {
             given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--refine",
                              "--least-change"});
         flags->transfer_only = given(*command, {"--sh-order", "--mask", "--table", "--mask-block",
-                                                "--sh-window", "--per-pixel", "--probe-step",
-                                                "--interreflections"});
+                                                "--sh-window", "--coarse", "--rings", "--per-pixel",
+                                                "--probe-step", "--interreflections"});
         flags->not_transfer = given(*command, {"--vpls", "--no-direct", "--environment-lights"});
         flags->atlas.bake.emitters = flags->options.emitters;
         if (command->count("--shadow-size") == 0)

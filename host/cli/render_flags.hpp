@@ -12,6 +12,7 @@
 #include "cli/environment.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
+#include "cli/vector_flags.hpp"
 
 namespace clgi::cli {
 
@@ -24,11 +25,7 @@ struct AtlasFlags {
 };
 
 // How --method transfer finds the environment's light.
-struct TransferFlags {
-    DynamicTransferOptions solver;
-    int order = sh::default_bands - 1;
-    int table = 0;  // of half-planes; 0: exact ones
-    std::string window = "none";
+struct TransferFlags : VectorFlags {
     std::string per_pixel = "0.1";
     int probe_step = 8;
 };

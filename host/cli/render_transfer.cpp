@@ -32,19 +32,6 @@ float threshold_of(const std::string& text) {
     return value;
 }
 
-DynamicTransferOptions solver_options(const RenderFlags& flags) {
-    DynamicTransferOptions out = flags.transfer.solver;
-    const TransferFlags& given = flags.transfer;
-    out.masks.bands = given.order + 1;
-    out.masks.planes = given.table > 0 ? EdgePlanes::table : EdgePlanes::exact;
-    if (given.table > 0) out.masks.table_size = given.table;
-    out.window = given.window == "hann"      ? sh::Window::hann
-                 : given.window == "lanczos" ? sh::Window::lanczos
-                                             : sh::Window::none;
-    out.build = build_of(flags.device);
-    return out;
-}
-
 DynamicTransferViewOptions view_options(const RenderFlags& flags) {
     DynamicTransferViewOptions out;
     out.picture.width = flags.options.width;
@@ -68,17 +55,6 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const DynamicTrans
     return out;
 }
 
-void warn(const TransferStatus& status, std::uint32_t in_picture) {
-    const auto say = [](std::uint32_t count, const char* what) {
-        if (count > 0) notice(false, fmt::format("warning: {} {}", count, what));
-    };
-    say(status.bad_receivers, "vertices had positions or normals that were not finite");
-    say(status.bad_blockers, "triangles were not finite and cast no shadow");
-    say(status.bad_texels, "numbers of the environment were not finite and were read as 0");
-    say(status.non_finite + in_picture,
-        "packets of vertices or pixels had numbers that were not finite");
-}
-
 }  // namespace
 
 void run_transfer(RenderFlags flags) {
@@ -96,8 +72,9 @@ void run_transfer(RenderFlags flags) {
     const Stopwatch build;
     DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
-    DynamicTransferSolver solver(programs, session.queue, scene, device_scene,
-                                 solver_options(flags));
+    DynamicTransferSolver solver(
+        programs, session.queue, scene, device_scene,
+        vector_options("render", flags.transfer, scene, build_of(flags.device)));
     DynamicTransferView view(programs, session.queue, device_scene, solver, options);
     Motion motion(flags, scene, device_scene, session.queue);
     RenderRecord record;
@@ -144,7 +121,7 @@ void run_transfer(RenderFlags flags) {
     const TransferStatus status = solver.status();
     const std::uint32_t in_picture = view.picture().non_finite();
     record.status.non_finite = status.non_finite + in_picture;
-    warn(status, in_picture);
+    warn_of(status, in_picture);
     const TransferSummary summary{solver.receivers().count,
                                   static_cast<std::uint32_t>(scene.triangles.size()),
                                   sh::terms(solver.options().masks.bands), view.receiver_pixels()};
@@ -171,27 +148,7 @@ void run_transfer(RenderFlags flags) {
 }
 
 void add_transfer_flags(CLI::App& command, TransferFlags& flags) {
-    add_count(command, "--sh-order", flags.order,
-              "transfer: Highest degree of spherical harmonics; 4 has 25 terms", 0,
-              sh::most_bands - 1);
-    command
-        .add_option("--mask", flags.solver.masks.size,
-                    "transfer: Pixels, width of a visibility mask")
-        ->type_name("N")
-        ->check(CLI::IsMember({8, 16, 32, 64, 128}));
-    command
-        .add_option("--table", flags.table,
-                    "transfer: Size of the table of half-planes; 0: none, planes are exact")
-        ->type_name("N")
-        ->check(CLI::IsMember({0, 16, 32, 64, 128, 256, 512}));
-    command
-        .add_option("--mask-block", flags.solver.masks.block,
-                    "transfer: Pixels, width of the cells of a mask that are integrated")
-        ->type_name("N")
-        ->check(CLI::IsMember({1, 2, 4, 8}));
-    command.add_option("--sh-window", flags.window, "transfer: Window against ringing")
-        ->type_name("WHAT")
-        ->check(CLI::IsMember({"none", "hann", "lanczos"}));
+    add_vector_flags(command, "transfer: ", flags);
     command
         .add_option("--per-pixel", flags.per_pixel,
                     "transfer: Difference from the light between vertices at which pixels have "

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/animation.hpp"
 #include "cli/commands.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
@@ -18,6 +19,7 @@
 #include "report/sweep_files.hpp"
 #include "report/sweep_pictures.hpp"
 #include "report/sweep_summary.hpp"
+#include "report/sweep_transfer.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -25,6 +27,7 @@ namespace {
 struct SweepFlags {
     DeviceFlags device;
     EnvironmentFlags environment;
+    AnimationFlags animation;
     std::string scene;
     std::string output;
     std::string method = "all";
@@ -42,6 +45,7 @@ struct SweepFlags {
 };
 
 bool of_atlas(const SweepFlags& flags) { return flags.method == "atlas"; }
+bool of_transfer(const SweepFlags& flags) { return flags.method == "transfer"; }
 
 report::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
     report::PictureSweep out;
@@ -65,19 +69,24 @@ report::AtlasSweep atlas_of(const SweepFlags& flags) {
 int samples_of(const SweepFlags& flags) {
     if (flags.samples > 0) return flags.samples;
     if (of_atlas(flags)) return flags.quick ? 100 : 400;
+    if (of_transfer(flags)) return flags.quick ? 256 : 1024;
     return flags.quick ? 64 : 192;
 }
 
 void run_sweep(const SweepFlags& flags) {
-    const std::vector<std::string>& foreign =
-        of_atlas(flags) ? flags.pictures_only : flags.atlas_only;
-    if (!foreign.empty())
-        throw Error(fmt::format("sweep: {} goes {}with --method atlas", foreign.front(),
-                                of_atlas(flags) ? "not " : "only "));
-    const Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment,
+    const auto refuse = [](bool wrong, const std::vector<std::string>& given,
+                           const std::string& why) {
+        if (wrong && !given.empty())
+            throw Error(fmt::format("sweep: {} goes {}", given.front(), why));
+    };
+    refuse(of_atlas(flags) || of_transfer(flags), flags.pictures_only,
+           "not with --method " + flags.method);
+    refuse(!of_atlas(flags), flags.atlas_only, "only with --method atlas");
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment,
                                    flags.device.quiet, of_atlas(flags));
+    pose_scene("sweep", flags.animation, scene);
     const report::PictureSweep pictures =
-        of_atlas(flags) ? report::PictureSweep() : pictures_of(flags, scene);
+        of_atlas(flags) || of_transfer(flags) ? report::PictureSweep() : pictures_of(flags, scene);
     const Session session = open_session(flags.device);
     report::SweepSetup setup{session.queue, scene};
     setup.quick = flags.quick;
@@ -94,8 +103,9 @@ void run_sweep(const SweepFlags& flags) {
     setup.progress = progress_bar("sweep", flags.device.quiet);
     report::Sweep result;
     try {
-        result = of_atlas(flags) ? report::sweep_atlas(setup, atlas_of(flags))
-                                 : report::sweep_pictures(setup, pictures);
+        result = of_atlas(flags)      ? report::sweep_atlas(setup, atlas_of(flags))
+                 : of_transfer(flags) ? report::sweep_transfer(setup)
+                                      : report::sweep_pictures(setup, pictures);
     } catch (const Error&) {
         if (interrupted()) throw Interrupted();
         throw;
@@ -127,7 +137,7 @@ void add_sweep(CLI::App& app) {
         ->type_name("FOLDER");
     command->add_option("--method", flags->method, "What to measure")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"second-order", "reference", "all", "atlas"}));
+        ->check(CLI::IsMember({"second-order", "reference", "all", "atlas", "transfer"}));
     command->add_option("--size", flags->size, "Pixels across and down")
         ->type_name("WxH")
         ->default_str("320x240; with --quick 160x120");
@@ -140,9 +150,9 @@ void add_sweep(CLI::App& app) {
                      "atlas: EXR of the irradiance that bakes are compared with")
         ->type_name("FILE")
         ->default_str("made with --spp");
-    command->add_option("--spp", flags->samples, "Samples per pixel or texel of the references")
+    command->add_option("--spp", flags->samples, "Samples per pixel, texel or vertex of the references")
         ->type_name("N")
-        ->default_str("192, atlas 400; with --quick 64, 100")
+        ->default_str("192, atlas 400, transfer 1024; with --quick 64, 100, 256")
         ->check(CLI::Range(2, 1 << 20));
     command->add_option("--rounds", flags->rounds, "Times that every setting is measured")
         ->type_name("N")
@@ -150,6 +160,7 @@ void add_sweep(CLI::App& app) {
         ->check(CLI::Range(1, 1000));
     command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
     add_place_options(*command, flags->scene_index, flags->camera);
+    add_animation_flags(*command, flags->animation);
     add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {
@@ -170,6 +181,8 @@ void add_sweep(CLI::App& app) {
                 (flags->rounds > 0 ? fmt::format(" --rounds {}", flags->rounds) : "") +
                 (flags->scene_index >= 0 ? fmt::format(" --scene {}", flags->scene_index) : "") +
                 (flags->camera > 0 ? fmt::format(" --camera {}", flags->camera) : "") +
+                (flags->animation.time ? fmt::format(" --time {}", *flags->animation.time) : "") +
+                (flags->animation.clip.empty() ? "" : " --animation " + flags->animation.clip) +
                 text_of(flags->environment) +
                 (flags->device.device.empty() ? "" : " --device " + flags->device.device) +
                 build_flags(flags->device));

@@ -35,12 +35,15 @@ Value transform_of(const glm::dmat3& m) {
 
 class GlbWriter {
 public:
-    explicit GlbWriter(const Scene& scene) {
+    GlbWriter(const Scene& scene, const GlbExtras& extras) {
         model_.asset.generator = "clgi";
+        Value::Object notes;
+        for (const auto& [name, text] : extras.notes) notes[utf8(name)] = Value(utf8(text));
+        if (!notes.empty()) model_.asset.extras = Value(std::move(notes));
         for (const Texture& texture : scene.textures) add_texture(texture);
         each("materials", scene.materials,
              [&](const Material& material) { add_material(material); });
-        PrimitiveWriter meshes(scene, out_);
+        PrimitiveWriter meshes(scene, extras.attributes, out_);
         LightWriter lights(scene, out_);
         add_still_meshes(scene, moved_triangles(scene), meshes, out_);
         lights.add_still();
@@ -129,11 +132,11 @@ private:
 
 }  // namespace gltf
 
-void save_glb(const Scene& scene, const std::filesystem::path& path) {
+void save_glb(const Scene& scene, const std::filesystem::path& path, const GlbExtras& extras) {
     std::string bytes;
     try {
         validate(scene);
-        bytes = gltf::GlbWriter(scene).file();
+        bytes = gltf::GlbWriter(scene, extras).file();
         // tinygltf cuts the length of a file to 32 bits.
         gltf::require(bytes.size() <= UINT32_MAX, "the scene is larger than the 4 GiB of a GLB");
     } catch (const InputError& error) {

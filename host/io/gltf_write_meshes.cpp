@@ -1,6 +1,8 @@
 // save_glb: triangles as meshes.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "io/gltf_writer.hpp"
 
@@ -12,6 +14,24 @@ namespace {
 constexpr std::size_t most_parts = 100'000;
 
 }  // namespace
+
+PrimitiveWriter::PrimitiveWriter(const Scene& scene, const std::vector<VertexAttribute>& further,
+                                 GlbModel& out)
+    : scene_(scene), further_(further), out_(out) {
+    std::set<std::string> names;
+    for (const VertexAttribute& one : further_) {
+        require(one.name.size() > 1 && one.name[0] == '_', "attribute '", one.name,
+                "' does not begin with an underscore");
+        require(names.insert(one.name).second, "two attributes are named ", one.name);
+        require(one.values.size() == scene_.positions.size(), "attribute ", one.name, " has ",
+                one.values.size(), " values, the scene has ", scene_.positions.size(),
+                " vertices");
+        for (const glm::vec4& value : one.values)
+            for (int c = 0; c < 4; ++c)
+                require(std::isfinite(value[c]), "attribute ", one.name,
+                        " has a value that is not finite");
+    }
+}
 
 Mesh PrimitiveWriter::mesh_of(const std::vector<std::uint32_t>& triangles,
                               const AddAttributes& attributes) {
@@ -41,6 +61,12 @@ Mesh PrimitiveWriter::mesh_of(const std::vector<std::uint32_t>& triangles,
             std::vector<glm::vec4> colors;
             for (const std::uint32_t v : used) colors.push_back(scene_.colors[v]);
             primitive.attributes["COLOR_0"] = out_.add_vertices(colors);
+        }
+        for (const VertexAttribute& one : further_) {
+            if (one.double_sided && !scene_.materials[material].double_sided) continue;
+            std::vector<glm::vec4> values;
+            for (const std::uint32_t v : used) values.push_back(one.values[v]);
+            primitive.attributes[one.name] = out_.add_vertices(values);
         }
         std::vector<std::uint32_t> indices;
         for (const Corners& corner : corners)

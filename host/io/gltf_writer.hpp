@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/io/gltf.hpp>
 #include <functional>
 
 #include "io/gltf_primitive.hpp"
@@ -80,7 +81,8 @@ private:
 // The triangles of a scene as primitives.
 class PrimitiveWriter {
 public:
-    PrimitiveWriter(const Scene& scene, GlbModel& out) : scene_(scene), out_(out) {}
+    // Throws InputError for attributes that are not as VertexAttribute says.
+    PrimitiveWriter(const Scene& scene, const std::vector<VertexAttribute>& further, GlbModel& out);
 
     // A mesh of triangles: a primitive with vertices of its own for each material. `attributes`
     // adds positions, normals and whatever else the given vertices have.
@@ -90,6 +92,7 @@ public:
 
 private:
     const Scene& scene_;
+    const std::vector<VertexAttribute>& further_;
     GlbModel& out_;
     Renumberer renumberer_;
 };

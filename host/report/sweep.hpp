@@ -1,5 +1,5 @@
 // Accuracy against time: the settings of a method varied one by one and together, each result
-// measured against ground truth. What sweeps of pictures and of light atlases have in common.
+// measured against ground truth. What sweeps of pictures, light atlases and vertices have in common.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -49,13 +49,13 @@ struct SweepPoint {
 };
 inline constexpr const char* path_tracer_name = "path tracer";
 
-enum class SweepOf { pictures, atlas };
+enum class SweepOf { pictures, atlas, vertices };
 
 struct Sweep {
     SweepOf of = SweepOf::pictures;
     std::string scene, device;
     std::size_t triangles = 0;
-    int width = 0;  // pixels or texels
+    int width = 0;  // pixels, texels or vertices, the last row of these filled up
     int height = 0;
     std::vector<std::string> methods;  // without the path tracer
     std::vector<std::string> knobs;    // of all methods: the columns of tables

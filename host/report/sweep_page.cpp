@@ -163,7 +163,9 @@ std::string sweep_page(const Sweep& sweep, const SweepNote& note,
         "<h1>What accuracy costs in time: {}</h1>\n<p>{} triangles, {}\u00d7{} {}, on {}.<br>"
         "clgi {}, made by <code>{}</code></p>\n<ul>\n",
         escaped(sweep.scene), sweep.triangles, sweep.width, sweep.height,
-        sweep.of == SweepOf::atlas ? "texels" : "pixels", escaped(sweep.device), note.version,
+        sweep.of == SweepOf::atlas      ? "texels"
+        : sweep.of == SweepOf::vertices ? "places of vertices"
+                                        : "pixels", escaped(sweep.device), note.version,
         escaped(note.command));
     for (const std::string& line : summary(sweep)) out += "<li>" + escaped(line) + "</li>\n";
     out += "</ul>\n";
@@ -174,9 +176,11 @@ std::string sweep_page(const Sweep& sweep, const SweepNote& note,
         const std::size_t start = plots[t].find("<svg");
         if (start != std::string::npos) out += plots[t].substr(start);
         out += front_table(sweep, t);
-        if (sweep.of == SweepOf::atlas || t != unshadowed_bounce) out += gallery(sweep, t);
+        if (sweep.of == SweepOf::atlas ||
+            (sweep.of == SweepOf::pictures && t != unshadowed_bounce))
+            out += gallery(sweep, t);
     }
-    return out + fillings_table(sweep) + math_table(sweep) + "</body></html>\n";
+    return out + (sweep.of == SweepOf::atlas ? fillings_table(sweep) : "") + math_table(sweep) + "</body></html>\n";
 }
 
 std::string save_sweep(const Sweep& sweep, const SweepNote& note,

@@ -39,6 +39,9 @@ std::string script(const Sweep& sweep, std::size_t truth, const std::string& fil
     constexpr struct {
         const char *all, *front;
     } colors[] = {{"#9ecae1", "#08519c"}, {"#a1d99b", "#006d2c"}};
+    const char* unit = sweep.of == SweepOf::atlas      ? "a bake"
+                       : sweep.of == SweepOf::vertices ? "for all vertices"
+                                                       : "a frame";
     std::string data, plots;
     const auto plot = [&](const std::string& name, const std::vector<const SweepPoint*>& points,
                           const std::string& how) {
@@ -74,11 +77,11 @@ std::string script(const Sweep& sweep, std::size_t truth, const std::string& fil
            fmt::format(
                "set terminal svg size 760,460 font 'sans-serif,13' background '#ffffff'\n"
                "set output {}\n"
-               "set logscale xy\nset xlabel 'milliseconds a {}'\n"
+               "set logscale xy\nset xlabel 'milliseconds {}'\n"
                "set ylabel 'relative error, %'\nset grid lc rgb '#dddddd'\n"
                "set border lc rgb '#666666'\n"
                "set key top right\nset title 'Error against the {} reference' noenhanced\n",
-               file, sweep.of == SweepOf::atlas ? "bake" : "frame", sweep.truths[truth].name) +
+               file, unit, sweep.truths[truth].name) +
            plots + "\n";
 }
 

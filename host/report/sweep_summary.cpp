@@ -96,7 +96,9 @@ void add_speedups(const Sweep& sweep, const std::string& method, std::vector<std
 
 std::vector<std::string> summary(const Sweep& sweep) {
     std::vector<std::string> out =
-        sweep.of == SweepOf::atlas ? atlas_summary(sweep) : pictures_summary(sweep);
+        sweep.of == SweepOf::atlas      ? atlas_summary(sweep)
+        : sweep.of == SweepOf::vertices ? transfer_summary(sweep)
+                                        : pictures_summary(sweep);
     for (const SweepTruth& truth : sweep.truths)
         out.push_back(
             fmt::format("Standard error of the {} reference: {:.2f} %, taken out of all errors.",

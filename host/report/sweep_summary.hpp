@@ -64,5 +64,6 @@ std::vector<std::string> summary(const Sweep& sweep);
 // What is particular to a kind of sweep; summary() has it.
 std::vector<std::string> pictures_summary(const Sweep& sweep);
 std::vector<std::string> atlas_summary(const Sweep& sweep);
+std::vector<std::string> transfer_summary(const Sweep& sweep);
 
 }  // namespace clgi::report

@@ -5,6 +5,10 @@
 #include <clgi/export.hpp>
 #include <clgi/scene.hpp>
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace clgi::io {
 
@@ -26,6 +30,19 @@ struct GltfOptions {
 // Scene::warnings.
 CLGI_API Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
+// Numbers of vertices that glTF has no meaning for.
+struct VertexAttribute {
+    std::string name;               // begins with an underscore, as glTF asks
+    std::vector<glm::vec4> values;  // one a vertex of the scene, finite
+    bool double_sided = false;      // of double-sided surfaces alone
+};
+
+// What save_glb writes beside the scene.
+struct GlbExtras {
+    std::vector<VertexAttribute> attributes;   // VEC4 of floats
+    std::map<std::string, std::string> notes;  // into asset.extras
+};
+
 // Writes a self-contained .glb: geometry, materials, textures (as PNG), lights, cameras and the
 // animation. Positions are stored as float32: those that stand still relative to a node at the
 // scene's centre, those that move in their mesh's own space.
@@ -33,7 +50,9 @@ CLGI_API Scene load_gltf(const std::filesystem::path& path, const GltfOptions& o
 // any other channel holds the rest pose), and the order of what moves among what does not: parts,
 // lights and cameras that stand still come first, then the others in the order of their nodes.
 // Either the complete file is written or none. Throws InputError when it cannot be written, and for
-// triangles that share vertices with a part that moves without belonging to it.
-CLGI_API void save_glb(const Scene& scene, const std::filesystem::path& path);
+// triangles that share vertices with a part that moves without belonging to it, or for attributes
+// that are not as VertexAttribute says.
+CLGI_API void save_glb(const Scene& scene, const std::filesystem::path& path,
+                       const GlbExtras& extras = {});
 
 }  // namespace clgi::io
