@@ -14,6 +14,27 @@ double milliseconds(Clock::duration time) {
     return std::chrono::duration<double, std::milli>(time).count();
 }
 
+// About `count` triangles for the far blockers. Parts of a few triangles stay whole: as solids of
+// four they would no longer cover what is under them, such as the nails of the hand.
+std::vector<glm::uvec3> coarse_mesh(Scene scene, std::size_t count) {
+    constexpr std::uint32_t few = 32;
+    std::vector<glm::uvec3> small;
+    std::vector<SceneTriangle> rest;
+    for (const Part& part : scene.parts)
+        for (std::uint32_t i = 0; i < part.triangle_count; ++i) {
+            const SceneTriangle& triangle = scene.triangles[part.first_triangle + i];
+            if (part.triangle_count <= few)
+                small.emplace_back(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]);
+            else
+                rest.push_back(triangle);
+        }
+    scene.triangles = std::move(rest);
+    scene.parts.clear();
+    std::vector<glm::uvec3> out = mesh::simplify(scene, count);
+    out.insert(out.end(), small.begin(), small.end());
+    return out;
+}
+
 }  // namespace
 
 KautzRun::KautzRun(const KautzSetup& setup, const Programs& programs, const Scene& scene,
@@ -42,8 +63,8 @@ DynamicTransferOptions KautzRun::options(const KautzSetup& setup, const Scene& s
     if (settings.coarse > 0.0) {
         const double time = settings.pose * scene.animation->clips[0].duration;
         out.coarse =
-            mesh::simplify(posed(scene, pose_at(*scene.animation, 0, time)),
-                           static_cast<std::size_t>(std::lround(settings.coarse * double(coarse))));
+            coarse_mesh(posed(scene, pose_at(*scene.animation, 0, time)),
+                        static_cast<std::size_t>(std::lround(settings.coarse * double(coarse))));
         coarse_ = out.coarse.size();
     }
     return out;
