@@ -136,6 +136,16 @@ TEST_F(TransferProgram, WritesTheSameVectorsIntoTheGlb) {
     EXPECT_EQ(before.positions, after.positions);
     const io::Image image = io::load_image(exr());
     ASSERT_EQ(static_cast<std::size_t>(image.width), before.positions.size());
+    // In the file's order, which is not the device's: the top of the box sees all of the sky.
+    int tops = 0;
+    for (std::size_t v = 0; v < before.positions.size(); ++v)
+        if (before.positions[v].y > 1.0 && before.normals[v].y > 0.9f) {
+            expect_cosine(image, "", v, {0, 1, 0}, 5);
+            ++tops;
+        } else if (before.normals[v].y < 0.5f) {
+            EXPECT_LT(image.find("T.1.-1")->values[v], 0.7) << "the floor is below";
+        }
+    EXPECT_EQ(tops, 4);
     const std::string binary = binary_of(gltf);
     std::size_t vertex = 0, backs = 0;
     std::vector<double> squares(25, 0.0);

@@ -178,6 +178,16 @@ TEST_F(TransferSweep, WritesFilesThatStandAlone) {
                         0),
               0u)
         << csv.substr(0, 200);
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) {
+        bool quoted = false;
+        int columns = 1;
+        for (const char c : line) {
+            if (c == '"') quoted = !quoted;
+            columns += c == ',' && !quoted;
+        }
+        EXPECT_EQ(columns, 15) << line;
+    }
     const auto json = nlohmann::json::parse(text(out.path() / "sweep.json"));
     EXPECT_EQ(json.at("points").size(), made().points.size());
     EXPECT_EQ(json.at("references").size(), 2u);
@@ -187,8 +197,8 @@ TEST_F(TransferSweep, WritesFilesThatStandAlone) {
     if (!why.empty()) GTEST_SKIP() << why;
     for (const char* name : {"error-full.svg", "error-smooth.svg"}) {
         const std::string plot = text(out.path() / name);
-        for (const char* words :
-             {"milliseconds for all vertices", "transfer, front", "path tracer"})
+        for (const char* words : {"milliseconds for all vertices", "transfer, front",
+                                  "two-level transfer, front", "path tracer"})
             EXPECT_NE(plot.find(words), std::string::npos) << words;
     }
 }

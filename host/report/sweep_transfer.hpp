@@ -10,7 +10,7 @@
 namespace clgi::report {
 
 inline constexpr const char* transfer_fine = "transfer";
-inline constexpr const char* transfer_levels = "transfer, two levels";
+inline constexpr const char* transfer_levels = "two-level transfer";
 
 // What irradiance is compared with, of Sweep::truths.
 enum TransferTruth : std::size_t {

@@ -41,8 +41,8 @@ std::vector<std::string> transfer_summary(const Sweep& sweep) {
             std::minmax_element(pairs.begin(), pairs.end(),
                                 [](const auto& a, const auto& b) { return a.factor < b.factor; });
         out.push_back(fmt::format(
-            "Two levels at equal error (smooth): {:.1f} to {:.1f} times less time than {} settings "
-            "on the front without them.",
+            "Two levels at equal error (smooth): {:.1f} to {:.1f} times less time than settings on "
+            "the front without them, {} of which they reach.",
             least->factor, most->factor, pairs.size()));
     }
     add_speedups(sweep, transfer_fine, out);
