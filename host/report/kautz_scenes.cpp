@@ -60,7 +60,7 @@ std::vector<KautzSettings> kautz_settings(const KautzScene& scene) {
     // All triangles block everywhere.
     KautzSettings fine;
     fine.name = "fine";
-    fine.masks.size = 64;
+    fine.masks.size = 128;
     fine.coarse = 0.0;
     std::vector<KautzSettings> out;
     for (const KautzSettings& settings : {paper, ours, fine})
