@@ -16,6 +16,7 @@
 #include "cli/motion.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
+#include "cli/threshold.hpp"
 #include "report/preview.hpp"
 
 namespace clgi::cli {
@@ -23,21 +24,11 @@ namespace {
 
 void parse_low_res(const std::string& text, SecondOrderOptions& options) {
     if (text.empty()) return;
-    if (text == "off") {
+    const float threshold = parse_threshold("--low-res", text, {{"off", -1.0f}});
+    if (threshold < 0.0f)
         options.low_resolution_step = 1;
-        return;
-    }
-    std::size_t used = 0;
-    float value = -1.0f;
-    try {
-        value = std::stof(text, &used);
-    } catch (const std::exception&) {
-        used = 0;
-    }
-    if (used != text.size() || !(value >= 0.0f))
-        throw Error(fmt::format(
-            "render: --low-res is '{}', off or a threshold of at least 0 needed", text));
-    options.discontinuity_threshold = value;
+    else
+        options.discontinuity_threshold = threshold;
 }
 
 std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderSolver& solver) {

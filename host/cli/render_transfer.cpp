@@ -11,26 +11,11 @@
 #include "cli/motion.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
+#include "cli/threshold.hpp"
 #include "report/preview.hpp"
 
 namespace clgi::cli {
 namespace {
-
-float threshold_of(const std::string& text) {
-    if (text == "off") return std::numeric_limits<float>::infinity();
-    if (text == "all") return 0.0f;
-    std::size_t used = 0;
-    float value = -1.0f;
-    try {
-        value = std::stof(text, &used);
-    } catch (const std::exception&) {
-        used = 0;
-    }
-    if (used != text.size() || !(value >= 0.0f))
-        throw Error(fmt::format(
-            "render: --per-pixel is '{}', off, all or a threshold of at least 0 needed", text));
-    return value;
-}
 
 DynamicTransferViewOptions view_options(const RenderFlags& flags) {
     DynamicTransferViewOptions out;
@@ -38,7 +23,9 @@ DynamicTransferViewOptions view_options(const RenderFlags& flags) {
     out.picture.height = flags.options.height;
     out.picture.emitters = flags.options.emitters;
     out.picture.build = build_of(flags.device);
-    out.threshold = threshold_of(flags.transfer.per_pixel);
+    out.threshold =
+        parse_threshold("--per-pixel", flags.transfer.per_pixel,
+                        {{"off", std::numeric_limits<float>::infinity()}, {"all", 0.0f}});
     out.probe_step = flags.transfer.probe_step;
     return out;
 }
