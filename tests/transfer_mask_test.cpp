@@ -76,6 +76,26 @@ TEST_P(Mask, OfNamedTriangles) {
     }
 }
 
+// The box of a cluster is that of all corners of its triangles.
+TEST_P(Mask, BoxesHoldAllCornersAndNoMore) {
+    test::Random random(41);
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < 200; ++i) triangles.push_back(test::random_triangle(random));
+    const test::Drawn drawn =
+        test::draw_masks(Blockers(triangles), {}, {}, {.math = GetParam()});
+    const auto boxes = test::download<BlockerBox>(drawn.blockers.boxes, 4);
+    for (std::size_t cluster = 0; cluster < 4; ++cluster) {
+        glm::vec3 low(1e30f), high(-1e30f);
+        for (std::size_t t = 64 * cluster; t < std::min<std::size_t>(64 * cluster + 64, 200); ++t)
+            for (const glm::dvec3& corner : triangles[t]) {
+                low = glm::min(low, glm::vec3(corner));
+                high = glm::max(high, glm::vec3(corner));
+            }
+        EXPECT_EQ(glm::vec3(boxes[cluster].low), low) << cluster;
+        EXPECT_EQ(glm::vec3(boxes[cluster].high), high) << cluster;
+    }
+}
+
 // Rounding alone would decide on which side of the receiver such a triangle is.
 TEST_P(Mask, OfTrianglesInTheTangentPlaneIsEmpty) {
     test::Random random(17);
