@@ -113,6 +113,43 @@ TEST_P(Transfer, WithoutBlockersIsTheClampedCosine) {
         }
 }
 
+// Small triangles, each before a receiver of its own, block a pixel or two: what is left is the
+// integral of every cell times its share of open pixels.
+TEST_P(Transfer, IsTheSumOfItsCells) {
+    test::Random random(29);
+    std::vector<test::Triangle> triangles;
+    while (triangles.size() < 80) {
+        const glm::dvec3 d(random(-1, 1), random(-1, 1), random(0.3, 1));
+        triangles.push_back({d, d + glm::dvec3(0.12, 0, 0), d + glm::dvec3(0, 0.12, 0)});
+    }
+    Eyes eyes;
+    eyes.positions.resize(triangles.size(), eyes.positions[0]);
+    eyes.normals.resize(triangles.size(), eyes.normals[0]);
+    const BuildOptions how{.math = GetParam(), .packet_width = 1};
+    for (const int block : {1, 2, 4, 8}) {
+        const Drawn drawn =
+            test::draw_masks(test::one_each(triangles), eyes, options(32, block), how);
+        const MaskWeights weights = mask_weights(32, block);
+        const auto found = test::transfer_vectors(drawn, CellIntegral::exact, how);
+        const int side = 32 / block;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            std::vector<double> wanted(25, 0.0);
+            for (int cell = 0; cell < side * side; ++cell) {
+                if (weights.pixels[cell] == 0) continue;
+                int blocked = 0;
+                for (int k = 0; k < block * block; ++k)
+                    blocked += drawn.bit(i, cell / side * block + k / block,
+                                         cell % side * block + k % block);
+                for (int term = 0; term < 25; ++term)
+                    wanted[term] += weights.integrals[25 * cell + term] *
+                                    (1.0 - double(blocked) / weights.pixels[cell]);
+            }
+            for (int term = 0; term < 25; ++term)
+                EXPECT_NEAR(found[i][term], wanted[term], 1e-5) << block << ", " << i;
+        }
+    }
+}
+
 TEST_P(Transfer, BehindBlockersAllAroundIsNothing) {
     const BuildOptions how{.math = GetParam()};
     for (const MaskOptions& masks : {options(32, 4), options(32, 1), options(8, 8)}) {
