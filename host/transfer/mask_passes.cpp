@@ -54,6 +54,19 @@ void need_blockers(const PassKernel& pass, const BlockerBuffers& b) {
 
 bool has_singles(const BlockerBuffers& b) { return b.near_lists() || b.near(); }
 
+// BLOCKER_ARGUMENTS of kernels/transfer/lists.clh, of the kernel with singles where there are some.
+struct Listed {
+    const BlockerBuffers& blockers;
+};
+void set_argument(cl::Kernel& kernel, cl_uint& index, const Listed& from) {
+    const BlockerBuffers& b = from.blockers;
+    for (const cl::Buffer* buffer : {&b.lists, &b.ranges, &b.boxes, &b.corners})
+        kernel.setArg(index++, *buffer);
+    if (!has_singles(b)) return;
+    kernel.setArg(index++, b.near_lists);
+    kernel.setArg(index++, b.near);
+}
+
 void need_lists(const PassKernel& pass, const ReceiverBuffers& r, const BlockerBuffers& b) {
     if (b.receivers_per_list == 0)
         throw Error(pass.name + ": receivers_per_list is 0, at least 1 needed");
@@ -161,8 +174,7 @@ cl::Event MaskPasses::planes(const cl::CommandQueue& queue, const cl::Buffer& he
 cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                            const BlockerBuffers& b, const cl::Buffer& drawn,
                            const WaitList& wait) const {
-    const bool singles = has_singles(b);
-    const PassKernel& pass = singles ? mask_near_ : mask_;
+    const PassKernel& pass = has_singles(b) ? mask_near_ : mask_;
     need_countable(pass, "masks", MASK_WORDS(static_cast<std::size_t>(masks_.size)), r.stride);
     need_receivers(pass, r);
     need_blockers(pass, b);
@@ -172,18 +184,13 @@ cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers&
          std::size_t{MASK_WORDS(static_cast<std::size_t>(masks_.size))} * r.stride * word);
     const auto table_size = static_cast<std::uint32_t>(masks_.table_size);
     const MaskParams params{r.count, r.stride, b.stride, b.receivers_per_list, table_size, 0, 0, 0};
-    if (!singles)
-        return launch(pass, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
-                      b.corners, drawn, r.masks);
-    return launch(pass, queue, r.count, wait, params, r.planes, b.lists, b.ranges, b.boxes,
-                  b.corners, drawn, b.near_lists, b.near, r.masks);
+    return launch(pass, queue, r.count, wait, params, r.planes, Listed{b}, drawn, r.masks);
 }
 
 cl::Event MaskPasses::visible(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                               const BlockerBuffers& b, const cl::Buffer& heights,
                               const cl::Buffer& seen, const WaitList& wait) const {
-    const bool singles = has_singles(b);
-    const PassKernel& pass = singles ? visible_near_ : visible_;
+    const PassKernel& pass = has_singles(b) ? visible_near_ : visible_;
     need_receivers(pass, r);
     need_blockers(pass, b);
     need_lists(pass, r, b);
@@ -194,11 +201,7 @@ cl::Event MaskPasses::visible(const cl::CommandQueue& queue, const ReceiverBuffe
     need(pass, "seen", seen, visible_words(b.triangle_count) * r.stride * word);
     const std::size_t columns = packets(pass, MASK_COLUMNS(masks_.size));
     const MaskParams params{r.count, r.stride, b.stride, b.receivers_per_list, 0, 0, 0, 0};
-    if (!singles)
-        return launch(pass, queue, r.count * columns, wait, params, r.planes, b.lists, b.ranges,
-                      b.boxes, b.corners, heights, seen);
-    return launch(pass, queue, r.count * columns, wait, params, r.planes, b.lists, b.ranges,
-                  b.boxes, b.corners, heights, b.near_lists, b.near, seen);
+    return launch(pass, queue, r.count * columns, wait, params, r.planes, Listed{b}, heights, seen);
 }
 
 cl::Event MaskPasses::exitance(const cl::CommandQueue& queue, const BounceParams& params,
@@ -219,8 +222,7 @@ cl::Event MaskPasses::bounce(const cl::CommandQueue& queue, const ReceiverBuffer
                              const BlockerBuffers& b, const cl::Buffer& heights,
                              const cl::Buffer& exitance, const cl::Buffer& irradiance,
                              const WaitList& wait) const {
-    const bool singles = has_singles(b);
-    const PassKernel& pass = singles ? bounce_near_ : bounce_;
+    const PassKernel& pass = has_singles(b) ? bounce_near_ : bounce_;
     need_countable(pass, "irradiance", 3, r.stride);
     need_receivers(pass, r);
     need_blockers(pass, b);
@@ -235,11 +237,8 @@ cl::Event MaskPasses::bounce(const cl::CommandQueue& queue, const ReceiverBuffer
     const MaskParams params{r.count, r.stride, b.stride, b.receivers_per_list, 0, 0, 0, 0};
     const BounceParams share{b.triangle_count, r.stride,
                              glm::pi<float>() / static_cast<float>(pixels), 0};
-    if (!singles)
-        return launch(pass, queue, r.count, wait, params, share, r.planes, b.lists, b.ranges,
-                      b.boxes, b.corners, heights, exitance, irradiance);
-    return launch(pass, queue, r.count, wait, params, share, r.planes, b.lists, b.ranges, b.boxes,
-                  b.corners, heights, b.near_lists, b.near, exitance, irradiance);
+    return launch(pass, queue, r.count, wait, params, share, r.planes, Listed{b}, heights, exitance,
+                  irradiance);
 }
 
 std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,

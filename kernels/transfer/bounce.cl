@@ -14,29 +14,19 @@ kernel void transfer_bounce(
     const MaskParams         params,
     const BounceParams       bounce,
     global const float*      restrict receivers,  // [RECEIVER_PLANES][receiver_stride]
-    global const uint*       restrict lists,      // [lists + 1] first range of each list
-    global const uint2*      restrict ranges,     // clusters of blockers: first and number
-    global const BlockerBox* restrict boxes,      // one a cluster
-    global const float*      restrict corners,    // [BLOCKER_PLANES][blocker_stride]
+    BLOCKER_ARGUMENTS,
     global const float*      restrict heights,    // [CLGI_MASK][MASK_COLUMNS] z of pixels
-#ifdef CLGI_NEAR
-    global const uint*       restrict near_lists, // [receiver_count + 1] where lists begin in near
-    global const uint*       restrict near_ones,  // single triangles of the lists
-#endif
     global const float4*     restrict exitance,   // [triangle_count] fronts, then backs: rgb
     global float*            restrict irradiance) // [3][receiver_stride] exposed lux
 {
     uint receiver = (uint)get_global_id(0);
     if (receiver >= params.receiver_count) return;
     Receiver r = load_receiver(receivers, params.receiver_stride, receiver);
+    BlockerLists from = BLOCKER_LISTS;
     float3 sum = (float3)(0.0f);
     for (int packet = 0; packet < COLUMN_PACKETS; ++packet) {
         Nearest nearest;
-        find_nearest(r, receiver, packet, params, lists, ranges, boxes, corners, heights,
-#ifdef CLGI_NEAR
-                     near_lists, near_ones,
-#endif
-                     &nearest);
+        find_nearest(r, receiver, packet, params, from, heights, &nearest);
         for (int row = 0; row < CLGI_MASK; ++row) {
             uint triangle[CLGI_WIDTH];
             packet_store(nearest.triangle[row], triangle);

@@ -83,69 +83,51 @@ CLGI_INLINE void draw(const Lanes* lanes, int k, global const float* restrict he
 }
 #endif
 
-CLGI_INLINE void draw_packet(Receiver r, global const float* corners, uint stride,
-                             const uint* triangle, uint table_size,
 #ifdef CLGI_TABLE
-                             global const uint* restrict drawn,
+typedef global const uint* Drawn;  // the table of planes
 #else
-                             global const float* restrict drawn,
+typedef global const float* Drawn;  // [CLGI_MASK][MASK_COLUMNS] z of pixels
 #endif
-                             Mask* mask) {
+
+typedef struct {
+    Mask mask;
+    Drawn drawn;
+    uint table_size;
+} Target;
+
+CLGI_INLINE void draw_packet(Receiver r, global const float* corners, uint stride,
+                             const uint* triangle, uint first, Target* target) {
     Cones cones;
     if (!make_cones(r, corners, stride, triangle, &cones)) return;
     Lanes lanes;
-    to_lanes(&cones, table_size, &lanes);
+    to_lanes(&cones, target->table_size, &lanes);
     for (int k = 0; k < CLGI_WIDTH; ++k)
-        if (lanes.alive[k]) draw(&lanes, k, drawn, mask);
+        if (lanes.alive[k]) draw(&lanes, k, target->drawn, &target->mask);
 }
+
+#include "transfer/lists.clh"
 
 kernel void transfer_mask(
     const MaskParams         params,
     global const float*      restrict receivers,  // [RECEIVER_PLANES][receiver_stride]
-    global const uint*       restrict lists,      // [lists + 1] first range of each list
-    global const uint2*      restrict ranges,     // clusters of blockers: first and number
-    global const BlockerBox* restrict boxes,      // one a cluster
-    global const float*      restrict corners,    // [BLOCKER_PLANES][blocker_stride]
-#ifdef CLGI_TABLE
-    global const uint*       restrict drawn,      // the table of planes
-#else
-    global const float*      restrict drawn,      // [CLGI_MASK][MASK_COLUMNS] z of pixels
-#endif
-#ifdef CLGI_NEAR
-    global const uint*       restrict near_lists, // [receiver_count + 1] where lists begin in near
-    global const uint*       restrict near_ones,  // single triangles of the lists
-#endif
+    BLOCKER_ARGUMENTS,
+    Drawn                    restrict drawn,
     global uint*             restrict masks)      // [MASK_WORDS][receiver_stride]
 {
     uint receiver = (uint)get_global_id(0);
     if (receiver >= params.receiver_count) return;
     Receiver r = load_receiver(receivers, params.receiver_stride, receiver);
-    Mask mask;
-    for (int i = 0; i < ROW_WORDS * COLUMN_PACKETS; ++i) mask.word[i] = (uintp)(0);
-
-    uint list = receiver / params.receivers_per_list;
-    for (uint i = lists[list]; i < lists[list + 1]; ++i) {
-        uint2 range = ranges[i];
-        for (uint cluster = range.x; cluster < range.x + range.y; ++cluster) {
-            if (below_horizon(r, boxes[cluster])) continue;
-            uint first = cluster * BLOCKER_CLUSTER;
-            for (uint t = first; t < first + BLOCKER_CLUSTER; t += CLGI_WIDTH)
-                draw_packet(r, corners + t, params.blocker_stride, 0, params.table_size, drawn,
-                            &mask);
-        }
-    }
-#ifdef CLGI_NEAR
-    uint end = near_lists[receiver + 1];
-    for (uint i = near_lists[receiver]; i < end; i += CLGI_WIDTH) {
-        uint triangle[CLGI_WIDTH];
-        for (int k = 0; k < CLGI_WIDTH; ++k) triangle[k] = near_ones[min(i + k, end - 1)];
-        draw_packet(r, corners, params.blocker_stride, triangle, params.table_size, drawn, &mask);
-    }
-#endif
+    Target target;
+    for (int i = 0; i < ROW_WORDS * COLUMN_PACKETS; ++i) target.mask.word[i] = (uintp)(0);
+    target.drawn = drawn;
+    target.table_size = params.table_size;
+    BlockerLists from = BLOCKER_LISTS;
+    draw_listed(r, receiver, params, from, &target);
     for (int word = 0; word < ROW_WORDS; ++word)
         for (int packet = 0; packet < COLUMN_PACKETS; ++packet) {
             uint bits[CLGI_WIDTH];
-            packet_store(mask.word[word * COLUMN_PACKETS + packet] & disc_word(word, packet), bits);
+            packet_store(target.mask.word[word * COLUMN_PACKETS + packet] & disc_word(word, packet),
+                         bits);
             for (int k = 0; k < CLGI_WIDTH; ++k) {
                 uint at = (uint)(word * MASK_COLUMNS(CLGI_MASK) + packet * CLGI_WIDTH + k);
                 masks[at * params.receiver_stride + receiver] = bits[k];

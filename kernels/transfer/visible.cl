@@ -9,27 +9,17 @@
 kernel void transfer_visible(
     const MaskParams         params,
     global const float*      restrict receivers,  // [RECEIVER_PLANES][receiver_stride]
-    global const uint*       restrict lists,      // [lists + 1] first range of each list
-    global const uint2*      restrict ranges,     // clusters of blockers: first and number
-    global const BlockerBox* restrict boxes,      // one a cluster
-    global const float*      restrict corners,    // [BLOCKER_PLANES][blocker_stride]
+    BLOCKER_ARGUMENTS,
     global const float*      restrict heights,    // [CLGI_MASK][MASK_COLUMNS] z of pixels
-#ifdef CLGI_NEAR
-    global const uint*       restrict near_lists, // [receiver_count + 1] where lists begin in near
-    global const uint*       restrict near_ones,  // single triangles of the lists
-#endif
     global uint*             restrict seen)       // [ceil(triangles / 32)][receiver_stride] bits
 {
     uint receiver = (uint)get_global_id(0) / COLUMN_PACKETS;
     int packet = (int)((uint)get_global_id(0) % COLUMN_PACKETS);
     if (receiver >= params.receiver_count) return;
     Receiver r = load_receiver(receivers, params.receiver_stride, receiver);
+    BlockerLists from = BLOCKER_LISTS;
     Nearest nearest;
-    find_nearest(r, receiver, packet, params, lists, ranges, boxes, corners, heights,
-#ifdef CLGI_NEAR
-                 near_lists, near_ones,
-#endif
-                 &nearest);
+    find_nearest(r, receiver, packet, params, from, heights, &nearest);
     for (int row = 0; row < CLGI_MASK; ++row) {
         uint triangle[CLGI_WIDTH];
         packet_store(packet_select(nearest.triangle[row] & ~FROM_BEHIND, nearest.triangle[row],
