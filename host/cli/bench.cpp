@@ -57,17 +57,11 @@ void print_text(const report::BenchTable& table) {
 }
 
 void run_layer(const BenchFlags& flags, const Session& session) {
-    catch_interrupts();
-    const auto bar = progress_bar(flags.table, flags.device.quiet);
-    const auto rows = report::bench_layer(session.queue, flags.repeats, [&](double done) {
-        if (!bar(done)) throw Interrupted();
-        return true;
+    const auto rows = measured(flags, [&](const Progress& progress) {
+        return report::bench_layer(session.queue, flags.repeats, progress);
     });
-    bar(1.0);
     if (flags.json) {
-        nlohmann::ordered_json out = {{"table", "layer"},
-                                      {"device", describe(session.device)},
-                                      {"rows", nlohmann::ordered_json::array()}};
+        nlohmann::ordered_json out = table_json(flags, describe(session.device));
         for (const report::LayerRow& row : rows)
             out["rows"].push_back({{"name", row.name},
                                    {"by_hand_ms", row.by_hand_ms},
@@ -85,8 +79,6 @@ void run_layer(const BenchFlags& flags, const Session& session) {
 
 void run_animation(const BenchFlags& flags, const Session& session) {
     if (flags.scenes.empty()) throw Error("bench: animation needs --scene");
-    catch_interrupts();
-    const auto bar = progress_bar(flags.table, flags.device.quiet);
     std::vector<std::pair<std::string, Scene>> scenes;
     for (const std::string& file : flags.scenes)
         scenes.emplace_back(std::filesystem::path(file).stem().string(), io::load_gltf(file));
@@ -94,16 +86,12 @@ void run_animation(const BenchFlags& flags, const Session& session) {
     setup.queue = session.queue;
     setup.build = build_of(flags.device);
     setup.repeats = flags.repeats;
-    setup.progress = [&](double done) {
-        if (!bar(done)) throw Interrupted();
-        return true;
-    };
-    const auto rows = report::bench_animation(setup, scenes);
-    bar(1.0);
+    const auto rows = measured(flags, [&](const Progress& progress) {
+        setup.progress = progress;
+        return report::bench_animation(setup, scenes);
+    });
     if (flags.json) {
-        nlohmann::ordered_json out = {{"table", "animation"},
-                                      {"device", describe(session.device)},
-                                      {"rows", nlohmann::ordered_json::array()}};
+        nlohmann::ordered_json out = table_json(flags, describe(session.device));
         for (const report::AnimationRow& row : rows)
             out["rows"].push_back({{"scene", row.scene},
                                    {"vertices", row.vertices},
@@ -121,8 +109,6 @@ void run_animation(const BenchFlags& flags, const Session& session) {
 }
 
 void run_views(const BenchFlags& flags, const Session& session) {
-    catch_interrupts();
-    const auto bar = progress_bar(flags.table, flags.device.quiet);
     std::vector<std::pair<std::string, Scene>> scenes = {
         {"corridor", corridor()},
         {"cornell", cornell()},
@@ -132,12 +118,10 @@ void run_views(const BenchFlags& flags, const Session& session) {
     setup.queue = session.queue;
     setup.build = build_of(flags.device);
     setup.repeats = flags.repeats;
-    setup.progress = [&](double done) {
-        if (!bar(done)) throw Interrupted();
-        return true;
-    };
-    const report::ViewsTable table = report::bench_views(setup, scenes);
-    bar(1.0);
+    const report::ViewsTable table = measured(flags, [&](const Progress& progress) {
+        setup.progress = progress;
+        return report::bench_views(setup, scenes);
+    });
     if (flags.json) {
         nlohmann::ordered_json out = {{"table", "views"},
                                       {"device", describe(session.device)},
@@ -197,8 +181,6 @@ nlohmann::ordered_json schaerfig_json(const report::SchaerfigTable& table) {
 }
 
 void run_schaerfig(const BenchFlags& flags, const Session& session) {
-    catch_interrupts();
-    const auto bar = progress_bar(flags.table, flags.device.quiet);
     std::vector<std::pair<std::string, Scene>> scenes = {{"corridor", corridor()},
                                                          {"cornell", cornell()}};
     for (const std::string& file : flags.scenes)
@@ -207,12 +189,10 @@ void run_schaerfig(const BenchFlags& flags, const Session& session) {
     setup.queue = session.queue;
     setup.build = build_of(flags.device);
     setup.most_vpls = flags.most_vpls;
-    setup.progress = [&](double done) {
-        if (!bar(done)) throw Interrupted();
-        return true;
-    };
-    const report::SchaerfigTable table = report::bench_schaerfig1(setup, scenes);
-    bar(1.0);
+    const report::SchaerfigTable table = measured(flags, [&](const Progress& progress) {
+        setup.progress = progress;
+        return report::bench_schaerfig1(setup, scenes);
+    });
     if (flags.json) {
         fmt::print("{}\n", schaerfig_json(table).dump(2));
         return;
@@ -239,15 +219,11 @@ void run_bench(const BenchFlags& flags) {
     setup.scene = flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh));
     setup.repeats = flags.repeats;
     setup.build = build_of(flags.device);
-    catch_interrupts();
-    const auto bar = progress_bar(flags.table, flags.device.quiet);
-    setup.progress = [&](double done) {
-        if (!bar(done)) throw Interrupted();
-        return true;
-    };
-    const report::BenchTable table =
-        flags.table == "cochran1" ? report::bench_cochran1(setup) : report::bench_cochran2(setup);
-    bar(1.0);
+    const report::BenchTable table = measured(flags, [&](const Progress& progress) {
+        setup.progress = progress;
+        return flags.table == "cochran1" ? report::bench_cochran1(setup)
+                                         : report::bench_cochran2(setup);
+    });
     flags.json ? print_json(table) : print_text(table);
 }
 

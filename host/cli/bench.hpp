@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/kit/progress.hpp>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,24 @@ struct BenchFlags {
     int vertices = 1000;
     bool json = false;
 };
+
+// Runs a measurement that takes Progress and reports how far it is; Ctrl-C ends it.
+template <typename Measure>
+auto measured(const BenchFlags& flags, Measure&& measure) {
+    catch_interrupts();
+    const auto bar = progress_bar(flags.table, flags.device.quiet);
+    auto out = measure([&](double done) {
+        if (!bar(done)) throw Interrupted();
+        return true;
+    });
+    bar(1.0);
+    return out;
+}
+
+// The beginning of what --json prints.
+inline nlohmann::ordered_json table_json(const BenchFlags& flags, const std::string& device) {
+    return {{"table", flags.table}, {"device", device}, {"rows", nlohmann::ordered_json::array()}};
+}
 
 // kautz1 and kautz2. Throws Error in a program built without clgi::mesh.
 void run_kautz(const BenchFlags& flags, const Session& session);

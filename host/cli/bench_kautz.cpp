@@ -63,9 +63,9 @@ Json row_json(const report::KautzRow& row) {
     return out;
 }
 
-void print_table1(const report::KautzTable1& table, bool json) {
-    if (json) {
-        Json out = {{"table", "kautz1"}, {"device", table.device}, {"rows", Json::array()}};
+void print_table1(const report::KautzTable1& table, const BenchFlags& flags) {
+    if (flags.json) {
+        Json out = table_json(flags, table.device);
         for (const report::KautzRow& row : table.rows) out["rows"].push_back(row_json(row));
         fmt::print("{}\n", out.dump(2));
         return;
@@ -92,13 +92,11 @@ void print_table1(const report::KautzTable1& table, bool json) {
     }
 }
 
-void print_table2(const report::KautzTable2& table, bool json) {
+void print_table2(const report::KautzTable2& table, const BenchFlags& flags) {
     constexpr const char* parts[] = {"rasterization", "integration", "transform", "other"};
-    if (json) {
-        Json out = {{"table", "kautz2"},
-                    {"device", table.device},
-                    {"rows", Json::array()},
-                    {"gloss", nullptr}};
+    if (flags.json) {
+        Json out = table_json(flags, table.device);
+        out["gloss"] = nullptr;
         for (const report::KautzShares& row : table.rows) {
             Json item = {{"scene", row.scene}, {"frame_ms", row.frame_ms}};
             for (int i = 0; i < 4; ++i) {
@@ -138,27 +136,22 @@ void print_table2(const report::KautzTable2& table, bool json) {
 }  // namespace
 
 void run_kautz(const BenchFlags& flags, const Session& session) {
-    catch_interrupts();
-    const auto bar = progress_bar(flags.table, flags.device.quiet);
     const std::vector<report::KautzScene> scenes = report::kautz_scenes(flags.only);
     report::KautzSetup setup;
     setup.queue = session.queue;
     setup.build = build_of(flags.device);
     setup.repeats = flags.repeats;
     setup.vertices = static_cast<std::size_t>(flags.vertices);
-    setup.progress = [&](double done) {
-        if (!bar(done)) throw Interrupted();
-        return true;
+    const auto run = [&](auto&& bench) {
+        return measured(flags, [&](const Progress& progress) {
+            setup.progress = progress;
+            return bench(setup, scenes);
+        });
     };
-    if (flags.table == "kautz1") {
-        const report::KautzTable1 table = report::bench_kautz1(setup, scenes);
-        bar(1.0);
-        print_table1(table, flags.json);
-    } else {
-        const report::KautzTable2 table = report::bench_kautz2(setup, scenes);
-        bar(1.0);
-        print_table2(table, flags.json);
-    }
+    if (flags.table == "kautz1")
+        print_table1(run(report::bench_kautz1), flags);
+    else
+        print_table2(run(report::bench_kautz2), flags);
 }
 
 }  // namespace clgi::cli
