@@ -12,6 +12,7 @@
 #include <clgi/deforming.hpp>
 #include <clgi/device.hpp>
 #include <clgi/device_scene.hpp>
+#include <clgi/direction_bins.hpp>
 #include <clgi/emitters.hpp>
 #include <clgi/error.hpp>
 #include <clgi/interval.hpp>
