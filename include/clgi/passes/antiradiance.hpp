@@ -1,0 +1,78 @@
+// Light between elements without visibility; one method per kernel. Structs and words:
+// clgi/shared/antiradiance.h. Rules for all methods: clgi/passes/gbuffer.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/shared/antiradiance.h>
+#include <clgi/direction_bins.hpp>
+#include <clgi/export.hpp>
+#include <clgi/pass.hpp>
+#include <clgi/programs.hpp>
+#include <initializer_list>
+#include <vector>
+
+namespace clgi {
+
+// Elements and the links that end at each.
+struct LinkBuffers {
+    cl::Buffer elements;      // [element_count] Element
+    cl::Buffer first_links;   // [element_count + 1] uint
+    cl::Buffer senders;       // [link_count] uint; one at least, like the other two
+    cl::Buffer bins;          // [link_count] ushort
+    cl::Buffer form_factors;  // [link_count] float, 1 / (m^2 sr) [Dachsbacher07, Eq. 17]
+    std::uint32_t element_count = 0, inner_count = 0, leaf_count = 0, link_count = 0;
+};
+
+// Rows of all elements.
+struct ElementRows {
+    cl::Buffer sky;       // [bins] float4: radiance that arrives from outside the scene
+    cl::Buffer incident;  // [inner_count][bins] float4: radiance; one at least
+    cl::Buffer exitant;   // [element_count][bins] intensities before a pass
+    cl::Buffer next;      // [element_count][bins] those after it
+};
+
+// rgb of each leaf, in [leaf_count] float4; exposed light.
+struct LeafBuffers {
+    cl::Buffer sources;       // cd/m^2 that leaves and that no pass brings
+    cl::Buffer reflectances;  // diffuse, 0 to 1
+    cl::Buffer radiances;     // cd/m^2 that leaves
+    cl::Buffer irradiances;   // lux over links and from the sky
+    cl::Buffer changes;     // lumens by which they changed; w: those that arrived, of all channels
+    cl::Buffer non_finite;  // [1] uint
+};
+
+class CLGI_API AntiradiancePasses {
+public:
+    // bins: DirectionBins::count(). Half storage is for intensities; all else is float.
+    AntiradiancePasses(const Programs& programs, int bins, const BuildOptions& options = {});
+
+    void build(std::initializer_list<const char*> passes) const;
+
+    int bins() const { return bins_; }
+    std::size_t intensity_bytes(std::size_t elements) const;
+
+    // Inner elements of `list` [params.first + params.count] uint, whose parents are done.
+    cl::Event global(const cl::CommandQueue& queue, const ElementParams& params,
+                     const cl::Buffer& list, const LinkBuffers& links, const ElementRows& rows,
+                     const WaitList& wait = {}) const;
+
+    // Leaves of `list`; all inner elements are done. directions: of direction_rows().
+    cl::Event local(const cl::CommandQueue& queue, const ElementParams& params,
+                    const cl::Buffer& list, const LinkBuffers& links, const ElementRows& rows,
+                    const cl::Buffer& directions, const LeafBuffers& leaves,
+                    const WaitList& wait = {}) const;
+
+    // Inner elements of `list` in rows.next, whose children are done.
+    cl::Event pull(const cl::CommandQueue& queue, const ElementParams& params,
+                   const cl::Buffer& list, const LinkBuffers& links, const ElementRows& rows,
+                   const WaitList& wait = {}) const;
+
+private:
+    int bins_;
+    PassKernel global_, local_, pull_;
+};
+
+// [bins] xyz: unit; w: sr.
+CLGI_API std::vector<glm::vec4> direction_rows(const DirectionBins& bins);
+
+}  // namespace clgi

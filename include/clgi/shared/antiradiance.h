@@ -1,0 +1,43 @@
+// Elements of a scene, the links between them, and the light that they exchange without visibility.
+//
+// A bin is a direction in which light travels, for what leaves an element and for what arrives at
+// it: so a link reads a bin of its sender and adds to the same bin of its receiver. Rows have one
+// float4 a bin (rgb, 0); those of exitant intensity are half4 with half storage.
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_ANTIRADIANCE_H
+#define CLGI_SHARED_ANTIRADIANCE_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+#define ELEMENT_NONE 0xffffffffu
+
+// An element of the tree, in depth-first order: its subtree is itself and all up to `end`.
+typedef struct {
+    float4 normal;  // leaves: unit normal times DirectionBins::hemisphere_scale; w: m^2
+    uint parent;    // ELEMENT_NONE: the root
+    uint end;
+    uint row;       // among the leaves, or among the inner elements
+    uint pad0_;
+} Element;
+
+// Elements list[first] to list[first + count - 1].
+typedef struct {
+    uint first;
+    uint count;
+    uint step;  // LOCAL_...; of antiradiance.local alone
+    uint pad0_;
+} ElementParams;
+
+// What a local pass updates. [Dachsbacher07, section 2.2] reflects and lets through at once in the
+// symmetric iteration, one after the other in the asymmetric.
+enum {
+    LOCAL_RECEIVE = 1,  // light over links and from the sky; else none arrives
+    LOCAL_REFLECT = 2,  // radiance; else it stays as it was
+    LOCAL_GO_THROUGH = 4      // antiradiance; else it stays as it was
+};
+
+CLGI_SHARED_END
+
+#endif

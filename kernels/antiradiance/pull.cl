@@ -1,0 +1,28 @@
+// What leaves inner elements of one level: the sum of what leaves the elements right below, which are
+// done.                                                     [Dachsbacher07, section 3.2]
+//
+// Work size    1D, one work-item an element of the list; any local size; tail guarded
+// Writes       the rows of its elements
+// Cost         4 additions and 16 bytes (half: 8) a bin and element below
+// SPDX-License-Identifier: MIT
+#include "antiradiance/rows.clh"
+
+kernel void antiradiance_pull(
+    const ElementParams params,
+    global const uint*    restrict list,      // elements
+    global const Element* restrict elements,
+    global Intensity*     restrict exitant)   // [elements][CLGI_BINS]
+{
+    uint at = (uint)get_global_id(0);
+    if (at >= params.count) return;
+    uint element = list[params.first + at];
+    uint end = elements[element].end;
+    float4 row[CLGI_BINS];
+    for (uint bin = 0; bin < CLGI_BINS; ++bin) row[bin] = (float4)(0.0f);
+    for (uint below = element + 1; below < end; below = elements[below].end) {
+        ulong first = (ulong)below * CLGI_BINS;
+        for (uint bin = 0; bin < CLGI_BINS; ++bin) row[bin] += load_intensity(exitant, first + bin);
+    }
+    ulong first = (ulong)element * CLGI_BINS;
+    for (uint bin = 0; bin < CLGI_BINS; ++bin) store_intensity(row[bin], exitant, first + bin);
+}

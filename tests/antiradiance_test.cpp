@@ -1,0 +1,256 @@
+// Light between elements: random trees against the definition, and stacks of plates against what is
+// known of them.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+#include "element_light.hpp"
+#include "math_modes.hpp"
+
+namespace clgi {
+namespace {
+
+using test::HandElements;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr std::uint32_t all_of_it = LOCAL_RECEIVE | LOCAL_REFLECT | LOCAL_GO_THROUGH;
+
+CLGI_IN_BOTH_MATHS(Antiradiance);
+
+glm::vec3 scaled(const DirectionBins& bins, const glm::dvec3& normal) {
+    return glm::vec3(normal * bins.hemisphere_scale(normal));
+}
+
+// Inner elements with up to four below them, five levels deep.
+void grow(HandElements& scene, const DirectionBins& bins, std::uint32_t parent, int depth,
+          std::mt19937& random) {
+    std::uniform_real_distribution<float> number(0.0f, 1.0f);
+    if (depth == 5 || (depth > 1 && number(random) < 0.25f)) {
+        std::normal_distribution<double> normal;
+        const glm::dvec3 n =
+            glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+        scene.leaf(parent, scaled(bins, n), 0.1f + number(random),
+                   {number(random), 2.0f * number(random), 3.0f * number(random)},
+                   {number(random), 0.8f * number(random), 0.5f * number(random)});
+        return;
+    }
+    const std::uint32_t i = scene.inner(parent);
+    const int below = 1 + static_cast<int>(random() % 4);
+    for (int k = 0; k < below; ++k) grow(scene, bins, i, depth + 1, random);
+    scene.close(i);
+}
+
+HandElements random_elements(unsigned seed, int count) {
+    const DirectionBins bins = direction_bins(count);
+    HandElements scene(direction_rows(bins));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> number(0.0f, 1.0f);
+    grow(scene, bins, ELEMENT_NONE, 0, random);
+    const auto any = [&](std::size_t most) { return static_cast<std::uint32_t>(random() % most); };
+    for (std::size_t i = 0; i < 12 * scene.elements.size(); ++i)
+        scene.links.push_back({any(scene.elements.size()), any(scene.elements.size()),
+                               any(scene.bins()), 0.3f * number(random)});
+    for (glm::vec4& sky : scene.sky)
+        sky = {number(random), 0.5f * number(random), 2.0f * number(random), 0.0f};
+    return scene;
+}
+
+template <typename Found, typename Wanted>
+void expect_alike(const std::vector<Found>& found, const std::vector<Wanted>& wanted, double within,
+                  const char* what) {
+    ASSERT_EQ(found.size(), wanted.size());
+    double largest = 0.0;
+    for (const Wanted& value : wanted)
+        largest = std::max({largest, std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+    for (std::size_t i = 0; i < found.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(found[i][c], wanted[i][c], within * largest)
+                << what << " " << i << " channel " << c;
+}
+
+TEST_P(Antiradiance, OfRandomTreesIsThatOfTheDefinition) {
+    const std::vector<std::uint32_t> steps = {
+        LOCAL_REFLECT | LOCAL_GO_THROUGH, all_of_it, LOCAL_RECEIVE | LOCAL_GO_THROUGH,
+        LOCAL_RECEIVE | LOCAL_REFLECT,    all_of_it, LOCAL_RECEIVE};
+    for (const Storage storage : {Storage::full, Storage::half})
+        for (const unsigned seed : {1u, 2u, 3u}) {
+            const HandElements scene = random_elements(seed, seed == 3 ? 32 : 128);
+            ASSERT_GT(scene.sources.size(), 10u);
+            test::LightByDefinition wanted(scene);
+            test::LightOnDevice found(
+                scene, {.math = GetParam(), .storage = storage, .local_size = 4 * seed});
+            const double within = storage == Storage::half ? 4e-3 : 4e-6;
+            for (const std::uint32_t step : steps) {
+                const std::vector<glm::dvec3> before = wanted.irradiances;
+                wanted.step(step);
+                found.step(step);
+                const std::size_t leaves = scene.sources.size();
+                expect_alike(found.exitant(), wanted.exitant, within, "intensity");
+                expect_alike(test::download<glm::vec4>(found.light.radiances, leaves),
+                             wanted.radiances, within, "radiance");
+                expect_alike(test::download<glm::vec4>(found.light.irradiances, leaves),
+                             wanted.irradiances, within, "irradiance");
+                const auto changes = test::download<glm::vec4>(found.light.changes, leaves);
+                for (const Element& element : scene.elements) {
+                    if (element.normal.w == 0.0f) continue;
+                    const std::size_t row = element.row;
+                    const glm::dvec3 moved =
+                        double(element.normal.w) * glm::abs(wanted.irradiances[row] - before[row]);
+                    const glm::dvec3 now = glm::abs(wanted.irradiances[row]);
+                    const double flux = element.normal.w * (now.x + now.y + now.z);
+                    EXPECT_NEAR(changes[row].w, flux, 4.0 * within * flux);
+                    for (int c = 0; c < 3; ++c)
+                        EXPECT_NEAR(changes[row][c], moved[c], 8.0 * within * flux);
+                }
+            }
+            EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 0u);
+        }
+}
+
+// Plates of 1 m^2 one behind the other along the first bin; the first one shines. All of it is
+// exact in floats: U is 1 below the diagonal, J is 1 [Dachsbacher07, Eq. 6, figure 4].
+HandElements stack(std::uint32_t plates) {
+    HandElements scene(std::vector<glm::vec4>(32, glm::vec4(1, 0, 0, 0)));
+    scene.directions[0] = {0, 0, 1, 1};
+    const std::uint32_t root = scene.inner(ELEMENT_NONE);
+    for (std::uint32_t i = 0; i < plates; ++i)
+        scene.leaf(root, {0, 0, i == 0 ? 1 : -1}, 1.0f, i == 0 ? glm::vec3(1, 2, 4) : glm::vec3(0),
+                   glm::vec3(0));
+    scene.close(root);
+    for (std::uint32_t k = 0; k < plates; ++k)
+        for (std::uint32_t i = k + 1; i < plates; ++i)
+            scene.links.push_back({k + 1, i + 1, 0, 1.0f});
+    return scene;
+}
+
+// Behind the first plate that it meets the light is gone after as many steps as there are plates,
+// to the last bit, however large it grew between.
+TEST_P(Antiradiance, RemovesTheLightBehindPlates) {
+    for (const std::uint32_t plates : {2u, 3u, 5u, 12u, 24u}) {
+        const HandElements scene = stack(plates);
+        test::LightOnDevice found(scene, {.math = GetParam()});
+        found.step(LOCAL_REFLECT);
+        double most = 0.0;
+        for (std::uint32_t step = 1; step < plates; ++step) {
+            found.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+            for (const glm::vec4& e : test::download<glm::vec4>(found.light.irradiances, plates))
+                most = std::max(most, double(std::abs(e.x)));
+            if (plates == 5 && step == 1) {  // nothing is hidden yet
+                EXPECT_EQ(test::download<glm::vec4>(found.light.irradiances, plates)[4],
+                          glm::vec4(1, 2, 4, 0));
+            }
+        }
+        const auto e = test::download<glm::vec4>(found.light.irradiances, plates);
+        EXPECT_EQ(e[0], glm::vec4(0.0f));
+        EXPECT_EQ(e[1], glm::vec4(1, 2, 4, 0));
+        for (std::uint32_t i = 2; i < plates; ++i) EXPECT_EQ(e[i], glm::vec4(0.0f)) << i;
+        const std::map<std::uint32_t, double> peaks = {
+            {2, 1}, {3, 1}, {5, 2}, {12, 126}, {24, 352716}};  // binomials of n - 3
+        EXPECT_EQ(most, peaks.at(plates));
+        found.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+        EXPECT_EQ(test::download<glm::vec4>(found.light.irradiances, plates)[plates - 1],
+                  plates == 2 ? glm::vec4(1, 2, 4, 0) : glm::vec4(0.0f));
+    }
+}
+
+// Where half intensities do not reach, they stay at the largest half; nothing becomes infinite.
+TEST_P(Antiradiance, StaysFiniteInHalfStorage) {
+    const HandElements scene = stack(24);
+    test::LightOnDevice found(scene, {.math = GetParam(), .storage = Storage::half});
+    found.step(LOCAL_REFLECT);
+    for (int step = 1; step < 60; ++step) found.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+    for (const glm::vec4& intensity : found.exitant())
+        for (int c = 0; c < 3; ++c) ASSERT_LE(std::abs(intensity[c]), 65504.0f);
+    EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 0u);
+}
+
+// Infinite parallel plates, each with two sides: plate k sends to all others through all bins of a
+// hemisphere.
+HandElements plates_of_two_sides(std::uint32_t plates, float reflectance) {
+    const DirectionBins bins = direction_bins(32);
+    HandElements scene(direction_rows(bins));
+    const glm::vec3 up = scaled(bins, {0, 0, 1});
+    const std::uint32_t root = scene.inner(ELEMENT_NONE);
+    for (std::uint32_t i = 0; i < plates; ++i)
+        for (const float side : {1.0f, -1.0f})
+            scene.leaf(root, side * up, 1.0f, glm::vec3(i == 0 && side > 0.0f ? 1.0f : 0.0f),
+                       glm::vec3(reflectance));
+    scene.close(root);
+    for (std::uint32_t k = 0; k < plates; ++k)
+        for (std::uint32_t i = 0; i < plates; ++i)
+            for (std::uint32_t b = 0; b < scene.bins(); ++b) {
+                const float cosine = glm::dot(up, glm::vec3(scene.directions[b]));
+                if (i == k || (i > k) != (cosine > 0.0f)) continue;
+                for (const std::uint32_t side : {0u, 1u})  // of the sender; the near one receives
+                    scene.links.push_back({1 + 2 * k + side, 1 + 2 * i + (i > k ? 1u : 0u), b,
+                                           1.0f / std::abs(cosine)});
+            }
+    return scene;
+}
+
+// Three plates of albedo 0.66: reflecting and letting through at once diverges, with the eigenvalue
+// (rho + sqrt(5 rho^2 + 4 rho)) / 2 of (rho R - J) U [derived]. Three steps that let through for
+// every one that reflects converge to what lies between two plates, 1 / (1 - rho^2); the third sees
+// nothing.
+TEST_P(Antiradiance, BetweenThreePlatesNeedsTheAsymmetricIteration) {
+    const float rho = 0.66f;
+    const HandElements scene = plates_of_two_sides(3, rho);
+    const auto arrives = [](const test::LightOnDevice& light, std::size_t leaf) {
+        return test::download<glm::vec4>(light.light.irradiances, 6)[leaf].x / pi;
+    };
+    test::LightOnDevice symmetric(scene, {.math = GetParam()});
+    symmetric.step(LOCAL_REFLECT);
+    double before = 0.0, now = 0.0;
+    for (int step = 0; step < 40; ++step) {
+        symmetric.step(all_of_it);
+        before = now;
+        now = arrives(symmetric, 3);
+    }
+    const double growth = (rho + std::sqrt(5.0 * rho * rho + 4.0 * rho)) / 2.0;
+    EXPECT_NEAR(std::abs(now / before), growth, 2e-3);
+
+    test::LightOnDevice asymmetric(scene, {.math = GetParam()});
+    asymmetric.step(LOCAL_REFLECT);
+    for (int round = 0; round < 40; ++round) {
+        for (int step = 0; step < 3; ++step) asymmetric.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+        asymmetric.step(LOCAL_RECEIVE | LOCAL_REFLECT);
+    }
+    EXPECT_NEAR(arrives(asymmetric, 3), 1.0 / (1.0 - rho * rho), 2e-5);  // the far side's front
+    EXPECT_NEAR(arrives(asymmetric, 0), rho / (1.0 - rho * rho), 2e-5);
+    EXPECT_NEAR(arrives(asymmetric, 5), 0.0, 2e-5);  // behind an opaque plate
+}
+
+TEST_P(Antiradiance, CountsLeavesThatAreNotFinite) {
+    HandElements scene = stack(3);
+    scene.sources[0].y = std::numeric_limits<float>::quiet_NaN();
+    test::LightOnDevice found(scene, {.math = GetParam()});
+    found.step(LOCAL_REFLECT);
+    EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 0u);
+    found.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+    EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 2u);
+    const auto e = test::download<glm::vec4>(found.light.irradiances, 3);
+    EXPECT_TRUE(std::isnan(e[2].y));
+    EXPECT_EQ(e[2].x, 1.0f);
+}
+
+TEST(AntiradiancePasses, RefuseWhatDoesNotFit) {
+    for (const int bins : {0, 30, 33, 4098})
+        EXPECT_THROW(AntiradiancePasses(test::programs(), bins), Error) << bins;
+    const AntiradiancePasses passes(test::programs(), 32);
+    const cl::Buffer word = test::empty<cl_uint>(1);
+    LinkBuffers links{word, word, word, word, word, 4, 1, 3, 0};
+    const ElementRows rows{word, word, word, word};
+    EXPECT_THROW(passes.global(test::device().queue, {0, 1, 0, 0}, word, links, rows), Error);
+    EXPECT_THROW(passes.pull(test::device().queue, {1, 1, 0, 0}, word, links, rows), Error);
+    EXPECT_THROW(
+        passes.local(test::device().queue, {0, 1, 0, 0}, word, links, rows, word, LeafBuffers{}),
+        Error);
+}
+
+}  // namespace
+}  // namespace clgi
