@@ -13,6 +13,7 @@
 #include <clgi/device.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/direction_bins.hpp>
+#include <clgi/elements.hpp>
 #include <clgi/emitters.hpp>
 #include <clgi/error.hpp>
 #include <clgi/interval.hpp>

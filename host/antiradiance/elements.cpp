@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/elements.hpp>
+
+#include <algorithm>
+#include <clgi/error.hpp>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "antiradiance/faces.hpp"
+#include "antiradiance/leaf_area.hpp"
+
+namespace clgi {
+namespace {
+
+using Corners = std::array<glm::dvec3, 3>;
+
+constexpr double most_leaves = 67108864.0;  // 2^26
+constexpr double flatness = 1e-3;           // radians, and of a cluster's radius
+
+void check(const ElementOptions& options) {
+    const auto fail = [](const char* name, double got) {
+        throw Error("make_elements: " + std::string(name) + " is " + std::to_string(got) +
+                    ", needs a number of at least 0");
+    };
+    if (!(options.max_area >= 0.0 && std::isfinite(options.max_area)))
+        fail("max_area", options.max_area);
+    if (!(options.min_area >= 0.0 && std::isfinite(options.min_area)))
+        fail("min_area", options.min_area);
+    if (options.wished == 0) throw Error("make_elements: wished is 0, needs at least 1");
+}
+
+// The two halves on either side of the middle of the longest edge, wound as before.
+std::array<Corners, 2> halve(const Corners& p) {
+    int longest = 0;
+    double most = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 edge = p[(k + 1) % 3] - p[k];
+        if (glm::dot(edge, edge) > most) {
+            most = glm::dot(edge, edge);
+            longest = k;
+        }
+    }
+    const glm::dvec3 &a = p[longest], &b = p[(longest + 1) % 3], &apex = p[(longest + 2) % 3];
+    const glm::dvec3 middle = a + 0.5 * (b - a);
+    return {Corners{apex, a, middle}, Corners{apex, middle, b}};
+}
+
+// Writes elements in depth-first order; what depends on children comes after.
+class Builder {
+public:
+    Builder(const std::vector<Face>& faces, ElementTree& out) : out_(out), faces_(faces) {
+        for (const Face& face : faces) centres_.push_back(centroid(face.corners));
+        order_.resize(faces.size());
+        std::iota(order_.begin(), order_.end(), 0u);
+    }
+
+    void build() {
+        if (!order_.empty()) tree(order_.data(), order_.data() + order_.size(), no_index);
+    }
+
+private:
+    using Iterator = std::uint32_t*;
+
+    std::uint32_t open(std::uint32_t parent) {
+        const auto i = static_cast<std::uint32_t>(out_.ends.size());
+        out_.positions.emplace_back(0.0);
+        out_.normals.emplace_back(0.0);
+        out_.areas.push_back(0.0);
+        out_.radii.push_back(0.0);
+        out_.corners.push_back({glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)});
+        out_.parents.push_back(parent);
+        out_.ends.push_back(i + 1);
+        out_.levels.push_back(parent == no_index ? 0 : out_.levels[parent] + 1);
+        out_.triangles.push_back(no_index);
+        out_.backs.push_back(0);
+        return i;
+    }
+
+    void close(std::uint32_t i) { out_.ends[i] = static_cast<std::uint32_t>(out_.ends.size()); }
+
+    // Two children of one halving, or four of two.
+    void patch(const Face& face, const Corners& corners, double area, int halvings_left,
+               std::uint32_t parent) {
+        const std::uint32_t i = open(parent);
+        out_.corners[i] = corners;
+        out_.positions[i] = centroid(corners);
+        out_.normals[i] = face.normal;
+        out_.areas[i] = area;
+        out_.triangles[i] = face.triangle;
+        out_.backs[i] = face.back ? 1 : 0;
+        if (halvings_left == 0) {
+            ++out_.leaves;
+        } else {
+            for (const Corners& half : halve(corners)) {
+                if (halvings_left % 2 == 1) {
+                    patch(face, half, area / 2, halvings_left - 1, i);
+                    continue;
+                }
+                for (const Corners& quarter : halve(half))
+                    patch(face, quarter, area / 4, halvings_left - 2, i);
+            }
+        }
+        close(i);
+    }
+
+    // At the median of the longest axis of the box of centroids; by number where they are equal,
+    // so halves are halves for identical ones too.
+    Iterator split(Iterator first, Iterator last) {
+        glm::dvec3 low = centres_[*first], high = low;
+        for (Iterator f = first; f != last; ++f) {
+            low = glm::min(low, centres_[*f]);
+            high = glm::max(high, centres_[*f]);
+        }
+        const glm::dvec3 size = high - low;
+        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        const Iterator middle = first + (last - first + 1) / 2;
+        std::nth_element(first, middle, last, [&](std::uint32_t a, std::uint32_t b) {
+            const double at_a = centres_[a][axis], at_b = centres_[b][axis];
+            return at_a != at_b ? at_a < at_b : a < b;
+        });
+        return middle;
+    }
+
+    void tree(Iterator first, Iterator last, std::uint32_t parent) {
+        if (last - first == 1) {
+            const Face& face = faces_[*first];
+            patch(face, face.corners, face.area, halvings(face.area, out_.max_area), parent);
+            return;
+        }
+        const std::uint32_t i = open(parent);
+        const Iterator middle = split(first, last);
+        for (const auto& half : {std::pair(first, middle), std::pair(middle, last)}) {
+            if (half.second - half.first == 1) {
+                tree(half.first, half.second, i);
+                continue;
+            }
+            const Iterator quarter = split(half.first, half.second);
+            tree(half.first, quarter, i);
+            tree(quarter, half.second, i);
+        }
+        close(i);
+    }
+
+    ElementTree& out_;
+    const std::vector<Face>& faces_;
+    std::vector<glm::dvec3> centres_;   // [faces]
+    std::vector<std::uint32_t> order_;  // of faces
+};
+
+double reach(const Corners& corners, const glm::dvec3& position) {
+    double out = 0.0;
+    for (const glm::dvec3& corner : corners) out = std::max(out, glm::length(corner - position));
+    return out;
+}
+
+// Area and position of clusters: children come after their parents.
+void gather(ElementTree& tree) {
+    for (std::size_t i = tree.count(); i-- > 0;) {
+        const std::uint32_t parent = tree.parents[i];
+        if (!tree.is_patch(i)) tree.positions[i] /= tree.areas[i];
+        if (parent == no_index || tree.is_patch(parent)) continue;
+        tree.areas[parent] += tree.areas[i];
+        tree.positions[parent] += tree.areas[i] * tree.positions[i];
+    }
+}
+
+void measure_radii(ElementTree& tree) {
+    for (std::size_t i = 0; i < tree.count(); ++i) {
+        if (!tree.is_patch(i)) continue;
+        tree.radii[i] = reach(tree.corners[i], tree.positions[i]);
+        // Parts of a triangle lie within it, so clusters ask whole triangles alone.
+        std::uint32_t above = tree.parents[i];
+        if (above != no_index && tree.is_patch(above)) continue;
+        for (; above != no_index; above = tree.parents[above])
+            tree.radii[above] =
+                std::max(tree.radii[above], reach(tree.corners[i], tree.positions[above]));
+    }
+}
+
+void find_flat_clusters(ElementTree& tree) {
+    const double least = std::cos(flatness);
+    for (std::size_t i = tree.count(); i-- > 0;) {
+        if (tree.is_patch(i)) continue;
+        glm::dvec3 sum(0.0);
+        for (std::size_t c = i + 1; c < tree.ends[i]; c = tree.ends[c])
+            sum += tree.areas[c] * tree.normals[c];
+        if (!(glm::length(sum) > 0.0)) continue;
+        const glm::dvec3 normal = glm::normalize(sum);
+        bool flat = true;
+        for (std::size_t c = i + 1; c < tree.ends[i]; c = tree.ends[c]) {
+            const double height = glm::dot(normal, tree.positions[c] - tree.positions[i]);
+            flat = flat && glm::dot(normal, tree.normals[c]) >= least &&
+                   std::abs(height) <= flatness * tree.radii[i];
+        }
+        if (flat) tree.normals[i] = normal;
+    }
+}
+
+}  // namespace
+
+ElementTree make_elements(const Scene& scene, const ElementOptions& options) {
+    check(options);
+    const Faces faces = make_faces(scene, options.backs);
+    ElementTree out;
+    out.skipped_triangles = faces.skipped;
+    out.skipped_area = faces.skipped_area;
+    out.max_area = leaf_area(faces.faces, options);
+    const double leaves = count_leaves(faces.faces, out.max_area);
+    if (!(leaves <= most_leaves))
+        throw Error("make_elements: leaves of " + std::to_string(out.max_area) + " m^2 are " +
+                    std::to_string(leaves) +
+                    ", at most 67108864 are possible; max_area, min_area "
+                    "or wished must be coarser");
+    Builder(faces.faces, out).build();
+    gather(out);
+    measure_radii(out);
+    find_flat_clusters(out);
+    return out;
+}
+
+}  // namespace clgi

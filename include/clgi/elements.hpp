@@ -1,0 +1,63 @@
+// The elements of a scene: triangles cut to a size, and clusters above them, as one tree.
+// [Dachsbacher07, section 3.1]
+//
+// The tree lies in depth-first order: the subtree of element i is [i, ends[i]), its first child is
+// i + 1 and the next one begins where that child ends. Triangles of the scene are halved until they
+// are small enough; they, their parts and the leaves are patches. Above them stand clusters of two
+// to four children. The same scene gives the same tree in every run.
+//
+// Light passes an open sheet unless both of its sides are there to block it. So a triangle that is
+// double-sided, or of a piece of the mesh that is not closed, has a second patch that faces
+// backwards, wound against the first.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <clgi/adjacency.hpp>
+#include <clgi/export.hpp>
+#include <clgi/scene.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace clgi {
+
+struct ElementOptions {
+    double max_area = 0.0;  // m^2 of a leaf; 0: what gives about the wished number of leaves
+    double min_area = 0.0;  // m^2, the least that max_area becomes for the wished number
+    // Leaves, about. Scenes of many small triangles get more: their large triangles are cut to four
+    // times the area that a wished leaf has on average, however many small ones there are.
+    std::size_t wished = 8192;
+    bool backs = true;  // of open sheets
+};
+
+struct ElementTree {
+    std::vector<glm::dvec3> positions;  // metres: the centroid, of clusters weighted by area
+    // Unit, of patches and of clusters whose triangles face one way in one plane, to a thousandth
+    // of a radian and of the radius; zero for other clusters.
+    std::vector<glm::dvec3> normals;
+    std::vector<double> areas;  // m^2
+    std::vector<double> radii;  // metres, of the sphere around the position that holds the subtree
+    std::vector<std::array<glm::dvec3, 3>> corners;  // of patches, counter-clockwise; else zero
+    std::vector<std::uint32_t> parents;              // no_index: the root
+    std::vector<std::uint32_t> ends;
+    std::vector<std::uint32_t> levels;     // 0: the root
+    std::vector<std::uint32_t> triangles;  // of the scene; no_index for clusters
+    std::vector<std::uint8_t> backs;       // 1: a patch of the back of its triangle
+
+    double max_area = 0.0;  // m^2 that triangles were cut to
+    std::size_t leaves = 0;
+    std::size_t skipped_triangles = 0;  // without a normal that floats could tell
+    double skipped_area = 0.0;          // m^2
+
+    std::size_t count() const { return ends.size(); }
+    bool is_leaf(std::size_t i) const { return ends[i] == i + 1; }
+    bool is_patch(std::size_t i) const { return triangles[i] != no_index; }
+    bool is_flat(std::size_t i) const { return normals[i] != glm::dvec3(0.0); }
+};
+
+// Throws InputError for vertices and materials that do not exist and for positions that are not
+// finite, Error for an option out of range and for more than 2^26 leaves.
+CLGI_API ElementTree make_elements(const Scene& scene, const ElementOptions& options = {});
+
+}  // namespace clgi
