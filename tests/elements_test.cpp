@@ -235,9 +235,23 @@ TEST(Elements, SayWhichClustersAreFlat) {
     for (std::size_t v = 0; v < 4; ++v) scene.positions[v].y = 0.04;
     tree = make_elements(scene, {.max_area = 1.0, .backs = false});
     EXPECT_FALSE(tree.is_flat(0));
-    tree = make_elements(scene, {.max_area = 1.0});
-    EXPECT_FALSE(tree.is_flat(0));
+}
+
+TEST(Elements, KeepFrontsAndBacksOfSheetsApart) {
+    Scene scene = plain_scene();
+    test::add_floor(scene, 1.0);
+    test::add_floor(scene, 1.0, 0.5);
+    const ElementTree tree = make_elements(scene, {.max_area = 1.0});
     expect_consistent(tree);
+    EXPECT_EQ(tree.leaves, 16u);
+    EXPECT_FALSE(tree.is_flat(0));
+    for (std::uint32_t i = 1; i < tree.count(); ++i) {
+        const bool back = i >= tree.ends[1];
+        if (tree.is_patch(i)) {
+            EXPECT_EQ(tree.backs[i] != 0, back);
+            EXPECT_EQ(tree.normals[i].y, back ? -1.0 : 1.0);
+        }
+    }
 }
 
 TEST(Elements, LeaveOutTrianglesWithoutANormal) {
