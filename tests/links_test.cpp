@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 
+#include "antiradiance/bin_choice.hpp"
 #include "antiradiance/solid_angle.hpp"
 #include "links_checks.hpp"
 #include "scenes.hpp"
@@ -66,6 +67,34 @@ TEST(SolidAngle, OfTrianglesInClosedForm) {
     EXPECT_NEAR(solid_angle({x, y, none}, {3.0, -2.0, 0.0}), 0.0, 1e-15);  // in the plane
 }
 
+TEST(BinChoice, IsTheNearestBinThatBothEndsAllow) {
+    const DirectionBins bins = direction_bins(128);
+    const BinChoice choose(bins);
+    test::Random random(4);
+    const auto any = [&] {
+        return glm::normalize(glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1)));
+    };
+    int none = 0;
+    for (int draw = 0; draw < 500; ++draw) {
+        const glm::dvec3 w = any();
+        const BinDemand sender{any(), 0.3}, receiver{any(), 0.1};
+        int best = -1;
+        for (int j = 0; j < bins.count(); ++j) {
+            const glm::dvec3& bin = bins.directions[static_cast<std::size_t>(j)];
+            if (glm::dot(bin, sender.normal) < 0.3 || glm::dot(bin, receiver.normal) < 0.1)
+                continue;
+            if (glm::dot(bin, w) < std::cos(2.0 * std::sqrt(4.0 * pi / 128.0))) continue;
+            const auto at = static_cast<std::size_t>(best);
+            if (best < 0 || glm::dot(bin, w) > glm::dot(bins.directions[at], w)) best = j;
+        }
+        none += best < 0;
+        EXPECT_EQ(choose(w, sender, receiver).value_or(-1), best);
+        EXPECT_EQ(choose(w, {}, {}), bins.nearest(w));
+    }
+    EXPECT_GT(none, 100);
+    EXPECT_LT(none, 400);
+}
+
 TEST(Links, BetweenTwoTrianglesCarryTheirSolidAngles) {
     test::Random random(5);
     const DirectionBins bins = direction_bins(208);
@@ -113,6 +142,59 @@ TEST(Links, LeaveFromBothSidesAndArriveAtFronts) {
     EXPECT_LT(glm::dot(w, tree.normals[high]), 0.0);
     EXPECT_LT(glm::dot(w, tree.normals[low]), 0.0);
     EXPECT_GT(links.form_factors[0], 0.0f);
+}
+
+TEST(Links, OfWhatLooksAwayAreNone) {
+    const DirectionBins bins = direction_bins(128);
+    Scene scene = test::plain_scene();
+    add_facing(scene, {0, 0, 0}, {0.1, -1, 0.2}, 0.1);
+    add_facing(scene, {0.5, 2, 0.1}, {0, 1, 0.1}, 0.1);
+    EXPECT_EQ(make_links(make_elements(scene, whole), bins).pairs, 0u);
+    // A small sender through the receiver's plane counts where its middle is.
+    for (const double y : {-0.01, 0.01}) {
+        Scene through = test::plain_scene();
+        add_facing(through, {0, 0, 0}, {0, 1, 0}, 0.1);
+        add_facing(through, {2.0, y, 0.3}, {-1, 0, 0.2}, 0.1);
+        const ElementTree tree = make_elements(through, whole);
+        const std::uint32_t floor = tree.triangles[1] == 0 ? 1 : 2;
+        EXPECT_EQ(angles(tree, bins, make_links(tree, bins), floor).size(), y > 0.0 ? 1u : 0u);
+    }
+}
+
+// Walls of many triangles: their clusters send the solid angle that they have.
+TEST(Links, OfFlatClustersCarryTheirSolidAngles) {
+    const DirectionBins bins = direction_bins(128);
+    for (const double low : {1.0, -2.2}) {  // above the floor; through its plane, the middle below
+        Scene scene = test::plain_scene();
+        for (int x = 0; x < 4; ++x)
+            for (int z = 0; z < 4; ++z) {
+                const double a = 0.1 * x, b = 0.1 * z, c = a + 0.1, d = b + 0.1;
+                test::add_quad(scene, {glm::dvec3(a, 0, d), {c, 0, d}, {c, 0, b}, {a, 0, b}});
+                const double y = low + x, z0 = z - 2.0;
+                test::add_quad(
+                    scene,
+                    {glm::dvec3(8, y, z0 + 1), {8, y + 1, z0 + 1}, {8, y + 1, z0}, {8, y, z0}});
+            }
+        const ElementTree tree = make_elements(scene, whole);
+        const Links links = make_links(tree, bins, {.bin_share = 1.0});
+        const double from = std::max(0.0, low), to = low + 4.0;
+        bool clusters = false;
+        for (std::uint32_t i = 0; i < tree.count(); ++i) {
+            if (!tree.is_leaf(i) || tree.normals[i].y < 0.5) continue;
+            const glm::dvec3 eye = tree.positions[i];
+            const double expected =
+                solid_angle({glm::dvec3(8, from, -2), {8, to, -2}, {8, to, 2}}, eye) +
+                solid_angle({glm::dvec3(8, from, -2), {8, to, 2}, {8, from, 2}}, eye);
+            double got = 0.0;
+            for (std::uint32_t r = i; r != no_index; r = tree.parents[r]) {
+                got += sum(angles(tree, bins, links, r));
+                for (std::size_t k = links.first[r]; k < links.first[r + 1]; ++k)
+                    clusters = clusters || !tree.is_patch(links.senders[k]);
+            }
+            EXPECT_NEAR(got, expected, 0.15 * expected);
+        }
+        EXPECT_TRUE(clusters);
+    }
 }
 
 // Where the nearest bin lies on the wrong side of either plane, another one is taken.
@@ -182,6 +264,15 @@ TEST(Links, SpreadALargeLeafOverItsBins) {
     double difference = 0.0;
     for (const auto& [bin, angle] : expected) difference += std::abs(angle - got[bin]);
     EXPECT_LT(difference, 0.15 * total);  // parts of a quarter of a bin, on borders of bins
+
+    // In parts that are elements: the same.
+    const ElementTree cut = make_elements(scene, {.max_area = 0.1, .backs = false});
+    const std::uint32_t small = static_cast<std::uint32_t>(
+        std::max_element(cut.triangles.begin(), cut.triangles.end(),
+                         [](std::uint32_t l, std::uint32_t r) { return l + 1 < r + 1; }) -
+        cut.triangles.begin());
+    ASSERT_EQ(cut.triangles[small], 1u);
+    EXPECT_NEAR(sum(angles(cut, bins, make_links(cut, bins), small)), total, 1e-6 * total);
 }
 
 TEST(Links, CountOfALargeLeafOnlyWhatIsInFront) {
@@ -237,11 +328,12 @@ TEST(Links, GiveNothingToWhatLiesInTheSendersPlane) {
     const DirectionBins bins = direction_bins(128);
     Scene scene = test::plain_scene();
     test::add_triangle(scene, {-1, 0, 1}, {2, 0, -2}, {-1, 0, -1});
-    add_facing(scene, {0.1, 0, -0.1}, {1, 0, 0.1}, 0.5);
+    add_facing(scene, {-0.3, 0, -0.4}, {1, 0, 0.1}, 0.5);
     const ElementTree tree = make_elements(scene, whole);
     const std::uint32_t large = tree.triangles[1] == 0 ? 1 : 2, small = 3 - large;
     const Links links = make_links(tree, bins);
     EXPECT_EQ(links.first[small + 1] - links.first[small], 0u);
+    EXPECT_GT(links.count(), 0u);
 }
 
 TEST(Links, EndWhereTrianglesCrossAndCoincide) {

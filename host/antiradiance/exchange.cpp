@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "antiradiance/exchange.hpp"
 
-#include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <string>
@@ -81,7 +80,6 @@ void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vec
     }
     if (parts && angle > limit_) {
         spread(tree_.corners[sender], angle, 0);
-        std::sort(used_.begin(), used_.end());
     } else if (arrives(way)) {
         if (const std::optional<int> bin = choose_(way / distance, sends_, receives_))
             add(*bin, angle);

@@ -21,7 +21,7 @@ public:
     Exchange(const ElementTree& tree, const DirectionBins& bins, const std::vector<double>& scales,
              const LinkOptions& options);
 
-    // Appends the links from sender to receiver, by bin.
+    // Appends the links from sender to receiver.
     void operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out);
 
     std::size_t unrefined() const { return unrefined_; }
