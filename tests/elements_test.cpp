@@ -235,9 +235,23 @@ TEST(Elements, SayWhichClustersAreFlat) {
     for (std::size_t v = 0; v < 4; ++v) scene.positions[v].y = 0.04;
     tree = make_elements(scene, {.max_area = 1.0, .backs = false});
     EXPECT_FALSE(tree.is_flat(0));
-    tree = make_elements(scene, {.max_area = 1.0});
-    EXPECT_FALSE(tree.is_flat(0));
+}
+
+TEST(Elements, KeepFrontsAndBacksOfSheetsApart) {
+    Scene scene = plain_scene();
+    test::add_floor(scene, 1.0);
+    test::add_floor(scene, 1.0, 0.5);
+    const ElementTree tree = make_elements(scene, {.max_area = 1.0});
     expect_consistent(tree);
+    EXPECT_EQ(tree.leaves, 16u);
+    EXPECT_FALSE(tree.is_flat(0));
+    for (std::uint32_t i = 1; i < tree.count(); ++i) {
+        const bool back = i >= tree.ends[1];
+        if (tree.is_patch(i)) {
+            EXPECT_EQ(tree.backs[i] != 0, back);
+            EXPECT_EQ(tree.normals[i].y, back ? -1.0 : 1.0);
+        }
+    }
 }
 
 TEST(Elements, LeaveOutTrianglesWithoutANormal) {
@@ -261,6 +275,43 @@ TEST(Elements, EndForAHundredThousandIdenticalTriangles) {
     EXPECT_LE(*std::max_element(tree.levels.begin(), tree.levels.end()), 9u);  // log4 1e5 = 8.3
     EXPECT_NEAR(tree.radii[0], std::sqrt(5.0) / 3.0, 1e-9);
     EXPECT_TRUE(tree.is_flat(0));
+}
+
+// At medians of the longest axis: quarters of a row. By number where nothing else tells them apart.
+TEST(Elements, AreClusteredWithTheirNeighbours) {
+    for (int axis = 0; axis < 3; ++axis) {
+        Scene row = plain_scene();
+        for (int i = 0; i < 64; ++i) {
+            glm::dvec3 a(0.0), b(0.3), c(0.3);
+            a[axis] = b[axis] = c[axis] = (i * 29) % 64;
+            a[(axis + 1) % 3] = (i * 7) % 5;
+            b[(axis + 1) % 3] = -0.3;
+            test::add_triangle(row, a, b, c);
+        }
+        const ElementTree tree = make_elements(row, {.max_area = 100.0, .backs = false});
+        expect_consistent(tree);
+        double before = -1.0;
+        for (std::uint32_t child = 1; child < tree.count(); child = tree.ends[child]) {
+            double low = 64.0, high = 0.0;
+            for (std::uint32_t i = child; i < tree.ends[child]; ++i) {
+                if (!tree.is_leaf(i)) continue;
+                low = std::min(low, tree.positions[i][axis]);
+                high = std::max(high, tree.positions[i][axis]);
+            }
+            EXPECT_GT(low, before);
+            EXPECT_NEAR(high - low, 15.0, 1e-9);
+            before = high;
+        }
+    }
+    Scene same = plain_scene();
+    test::add_triangle(same, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    same.triangles.assign(256, same.triangles[0]);
+    const ElementTree tree = make_elements(same, {.max_area = 1.0, .backs = false});
+    std::uint32_t first = 0;
+    for (std::uint32_t i = 0; i < tree.count(); ++i)
+        if (tree.is_leaf(i)) {
+            EXPECT_EQ(tree.triangles[i], first++);
+        }
 }
 
 TEST(Elements, DoNotDependOnWhereTheSceneIs) {

@@ -55,8 +55,21 @@ public:
         std::iota(order_.begin(), order_.end(), 0u);
     }
 
+    // Backs under a child of the root of their own: sides of one sheet in one cluster would hide
+    // that it is flat.
     void build() {
-        if (!order_.empty()) tree(order_.data(), order_.data() + order_.size(), no_index);
+        if (order_.empty()) return;
+        std::uint32_t *const first = order_.data(), *const last = first + order_.size();
+        std::uint32_t* const backs =
+            std::stable_partition(first, last, [&](std::uint32_t f) { return !faces_[f].back; });
+        if (backs == last) {
+            tree(first, last, no_index);
+            return;
+        }
+        const std::uint32_t root = open(no_index);
+        tree(first, backs, root);
+        tree(backs, last, root);
+        close(root);
     }
 
 private:

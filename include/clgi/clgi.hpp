@@ -24,6 +24,7 @@
 #include <clgi/kit/environment_light.hpp>
 #include <clgi/kit/picture.hpp>
 #include <clgi/kit/recorder.hpp>
+#include <clgi/links.hpp>
 #include <clgi/mask_weights.hpp>
 #include <clgi/passes/antiradiance.hpp>
 #include <clgi/passes/atlas.hpp>

@@ -8,7 +8,8 @@
 //
 // Light passes an open sheet unless both of its sides are there to block it. So a triangle that is
 // double-sided, or of a piece of the mesh that is not closed, has a second patch that faces
-// backwards, wound against the first.
+// backwards, wound against the first. Where there are backs, the root has two children: all fronts
+// and all backs.
 // SPDX-License-Identifier: MIT
 #pragma once
 

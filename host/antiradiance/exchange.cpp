@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "antiradiance/exchange.hpp"
+
+#include <clgi/error.hpp>
+#include <cmath>
+#include <string>
+
+#include "antiradiance/faces.hpp"
+#include "antiradiance/solid_angle.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Form factors are divided by the sender's cosine with the bin, which the device computes in
+// floats: a cosine of this size is exact to 1e-5 there. That of the receiver needs its sign alone.
+constexpr double least_sent = 1e-2, least_received = 1e-6;
+
+// Parts of a leaf that spans bins: small enough to tell bins apart, and no more than 4^8 of them
+// where the receiver's position all but touches the leaf.
+constexpr double part_share = 0.25;
+constexpr int most_cuts = 8;
+
+constexpr double rounding = 1e-12;  // of heights above a sender, as a share of its radius
+
+}  // namespace
+
+Exchange::Exchange(const ElementTree& tree, const DirectionBins& bins,
+                   const std::vector<double>& scales, const LinkOptions& options)
+    : tree_(tree),
+      bins_(bins),
+      scales_(scales),
+      choose_(bins),
+      bin_(4.0 * pi / bins.count()),
+      limit_(options.bin_share * bin_),
+      spread_(options.spread),
+      sums_(bins.directions.size(), 0.0) {}
+
+void Exchange::add(int bin, double solid_angle) {
+    double& sum = sums_[static_cast<std::size_t>(bin)];
+    if (sum == 0.0) used_.push_back(bin);
+    sum += solid_angle;
+}
+
+// Gives each part that is in front of the receiver to the bin of its own direction.
+void Exchange::spread(const Corners& p, double angle, int depth) {
+    if (angle > part_share * bin_ && depth < most_cuts) {
+        const glm::dvec3 m[3] = {0.5 * (p[0] + p[1]), 0.5 * (p[1] + p[2]), 0.5 * (p[2] + p[0])};
+        for (const Corners& part : {Corners{p[0], m[0], m[2]}, Corners{m[0], p[1], m[1]},
+                                    Corners{m[2], m[1], p[2]}, Corners{m[0], m[1], m[2]}})
+            spread(part, solid_angle(part, eye_), depth + 1);
+        return;
+    }
+    const glm::dvec3 way = eye_ - centroid(p);
+    const double distance = glm::length(way);
+    if (!(angle > 0.0 && distance > 0.0) || !arrives(way)) return;
+    if (const std::optional<int> bin = choose_(way / distance, sends_, receives_)) add(*bin, angle);
+}
+
+void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out) {
+    eye_ = tree_.positions[receiver];
+    const glm::dvec3 way = eye_ - tree_.positions[sender];
+    const double distance = glm::length(way);
+    receives_ = {-tree_.normals[receiver], least_received};
+    // A leaf that spans bins may have parts in front of the receiver where its middle is behind.
+    const bool parts = tree_.is_patch(sender) && spread_ == Spread::precise;
+    if (!(distance > 0.0) || (!parts && !arrives(way))) return;
+
+    const bool flat = tree_.is_flat(sender);
+    double angle = tree_.areas[sender] / (distance * distance);
+    sends_ = {};
+    if (flat) {
+        const double height = glm::dot(tree_.normals[sender], way);
+        sends_ = {height > 0.0 ? tree_.normals[sender] : -tree_.normals[sender], least_sent};
+        angle = tree_.is_patch(sender) ? solid_angle(tree_.corners[sender], eye_)
+                                       : angle * std::abs(height) / distance;
+        // In the sender's plane rounding would choose a side, within the sender for 2 pi.
+        if (!(angle > 0.0 && std::abs(height) > rounding * tree_.radii[sender])) return;
+    }
+    if (parts && angle > limit_) {
+        spread(tree_.corners[sender], angle, 0);
+    } else if (arrives(way)) {
+        if (const std::optional<int> bin = choose_(way / distance, sends_, receives_))
+            add(*bin, angle);
+    }
+    if (angle > limit_ && !used_.empty()) ++unrefined_;
+
+    for (const int bin : used_) {
+        const auto j = static_cast<std::size_t>(bin);
+        // What the sender's intensity in this bin is for radiance 1, per area.
+        const double cosine =
+            flat ? scales_[sender] * glm::dot(sends_.normal, bins_.directions[j]) : 1.0;
+        const double factor = sums_[j] / (tree_.areas[sender] * cosine * bins_.solid_angles[j]);
+        sums_[j] = 0.0;
+        const auto rounded = static_cast<float>(factor);
+        if (!std::isfinite(rounded))
+            throw InputError("make_links: the form factor of element " + std::to_string(sender) +
+                             " to " + std::to_string(receiver) + " is " + std::to_string(factor) +
+                             ", too large for floats");
+        out.push_back({receiver, sender, static_cast<std::uint32_t>(bin), rounded});
+    }
+    used_.clear();
+}
+
+}  // namespace clgi

@@ -1,0 +1,53 @@
+// The links of one pair of elements: bins and form factors. [Dachsbacher07, section 3.1]
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/links.hpp>
+#include <vector>
+
+#include "antiradiance/bin_choice.hpp"
+
+namespace clgi {
+
+struct Link {
+    std::uint32_t receiver, sender, bin;
+    float form_factor;
+};
+
+// Not for several threads: it has sums of its own.
+class Exchange {
+public:
+    // scales: [elements] DirectionBins::hemisphere_scale of flat ones' normals
+    Exchange(const ElementTree& tree, const DirectionBins& bins, const std::vector<double>& scales,
+             const LinkOptions& options);
+
+    // Appends the links from sender to receiver.
+    void operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out);
+
+    std::size_t unrefined() const { return unrefined_; }
+
+private:
+    using Corners = std::array<glm::dvec3, 3>;
+
+    // Light on `way` meets the front of the receiver, or the receiver has no front.
+    bool arrives(const glm::dvec3& way) const { return glm::dot(receives_.normal, way) >= 0.0; }
+    void add(int bin, double solid_angle);
+    void spread(const Corners& corners, double solid_angle, int depth);
+
+    const ElementTree& tree_;
+    const DirectionBins& bins_;
+    const std::vector<double>& scales_;
+    const BinChoice choose_;
+    const double bin_;  // sr, mean
+    const double limit_;
+    const Spread spread_;
+    std::size_t unrefined_ = 0;
+
+    // Of the present pair.
+    glm::dvec3 eye_{0.0};  // the receiver's position
+    BinDemand sends_, receives_;
+    std::vector<double> sums_;  // [bins] sr; zero between calls
+    std::vector<int> used_;     // bins that are not zero
+};
+
+}  // namespace clgi

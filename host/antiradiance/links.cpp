@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/links.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <clgi/error.hpp>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <limits>
+#include <string>
+#include <thread>
+#include <tuple>
+
+#include "antiradiance/exchange.hpp"
+#include "antiradiance/refine.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr std::size_t tasks_wanted = 4096;  // many for each thread, for they differ in size
+
+void check(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options) {
+    if (!(options.bin_share > 0.0 && std::isfinite(options.bin_share)))
+        throw Error("make_links: bin_share is " + std::to_string(options.bin_share) +
+                    ", needs a number above 0");
+    if (options.threads < 0)
+        throw Error("make_links: threads is " + std::to_string(options.threads) +
+                    ", needs at least 0");
+    if (bins.count() < 2 || bins.count() > 65536 ||
+        bins.solid_angles.size() != bins.directions.size())
+        throw Error("make_links: " + std::to_string(bins.directions.size()) + " directions and " +
+                    std::to_string(bins.solid_angles.size()) +
+                    " solid angles of bins, needs 2 to 65536 and as many");
+    if (tree.normals.size() != tree.count() || tree.corners.size() != tree.count())
+        throw Error("make_links: the tree's arrays differ in length");
+}
+
+// Calls work(thread) in each of them; throws what one of them threw.
+void on_threads(int threads, const std::function<void(int)>& work) {
+    std::vector<std::future<void>> others;
+    for (int t = 1; t < threads; ++t) others.push_back(std::async(std::launch::async, work, t));
+    work(0);
+    for (std::future<void>& other : others) other.get();
+}
+
+std::vector<double> hemisphere_scales(const ElementTree& tree, const DirectionBins& bins) {
+    std::vector<double> out(tree.count(), 1.0);
+    for (std::size_t i = 0; i < tree.count(); ++i) {
+        const std::uint32_t parent = tree.parents[i];
+        if (parent != no_index && tree.normals[parent] == tree.normals[i])
+            out[i] = out[parent];
+        else if (tree.is_flat(i))
+            out[i] = bins.hemisphere_scale(tree.normals[i]);
+    }
+    return out;
+}
+
+// Pairs that stand for everything, enough of them to be shared among threads.
+std::vector<ElementPair> make_tasks(const ElementTree& tree, const Refine& refine) {
+    std::vector<ElementPair> now, next;
+    if (tree.count() > 0) now.push_back({0, 0, true, true});
+    bool any = true;
+    while (any && now.size() < tasks_wanted) {
+        any = false;
+        next.clear();
+        for (ElementPair& pair : now) {
+            const std::size_t before = next.size();
+            if (refine(pair, next)) {
+                next.push_back(pair);  // asked again later, with the same answer
+            } else {
+                any = any || next.size() > before;
+            }
+        }
+        now.swap(next);
+    }
+    return now;
+}
+
+// What one thread found.
+struct Found {
+    std::vector<Link> links;
+    std::size_t pairs = 0;
+    std::size_t unrefined = 0;
+};
+
+void link_tasks(const Refine& refine, const std::vector<ElementPair>& tasks,
+                std::atomic<std::size_t>& next, Exchange exchange, Found& out) {
+    std::vector<ElementPair> open;
+    for (std::size_t task = next++; task < tasks.size(); task = next++) {
+        open.assign(1, tasks[task]);
+        while (!open.empty()) {
+            ElementPair pair = open.back();
+            open.pop_back();
+            if (!refine(pair, open)) continue;
+            ++out.pairs;
+            if (pair.to_a) exchange(pair.b, pair.a, out.links);
+            if (pair.to_b) exchange(pair.a, pair.b, out.links);
+        }
+    }
+    out.unrefined = exchange.unrefined();
+}
+
+}  // namespace
+
+Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options) {
+    check(tree, bins, options);
+    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const int threads = options.threads > 0 ? options.threads : cores;
+    const Refine refine(tree, options.bin_share * 4.0 * pi / bins.count());
+    const std::vector<double> scales = hemisphere_scales(tree, bins);
+    const std::vector<ElementPair> tasks = make_tasks(tree, refine);
+
+    std::vector<Found> found(static_cast<std::size_t>(threads));
+    std::atomic<std::size_t> next{0};
+    on_threads(threads, [&](int t) {
+        link_tasks(refine, tasks, next, Exchange(tree, bins, scales, options),
+                   found[static_cast<std::size_t>(t)]);
+    });
+
+    // By receiver: counted, then put in place; each receiver's own are sorted after that.
+    Links out;
+    std::vector<std::size_t> place(tree.count() + 1, 0);
+    for (const Found& part : found) {
+        out.pairs += part.pairs;
+        out.unrefined += part.unrefined;
+        for (const Link& link : part.links) ++place[link.receiver + 1];
+    }
+    for (std::size_t i = 0; i < tree.count(); ++i) place[i + 1] += place[i];
+    const std::size_t total = place.back();
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        throw Error("make_links: " + std::to_string(total) + " links, at most 4294967295 possible");
+    out.first.assign(place.begin(), place.end());
+    std::vector<Link> sorted(total);
+    for (Found& part : found) {
+        for (const Link& link : part.links) sorted[place[link.receiver]++] = link;
+        part.links = {};
+    }
+
+    out.senders.resize(total);
+    out.bins.resize(total);
+    out.form_factors.resize(total);
+    next = 0;
+    on_threads(threads, [&](int) {
+        for (std::size_t i = next++; i < tree.count(); i = next++) {
+            const auto begin = sorted.begin() + out.first[i],
+                       end = sorted.begin() + out.first[i + 1];
+            std::sort(begin, end, [](const Link& a, const Link& b) {
+                return std::tie(a.sender, a.bin) < std::tie(b.sender, b.bin);
+            });
+            for (std::size_t k = out.first[i]; k < out.first[i + 1]; ++k) {
+                out.senders[k] = sorted[k].sender;
+                out.bins[k] = static_cast<std::uint16_t>(sorted[k].bin);
+                out.form_factors[k] = sorted[k].form_factor;
+            }
+        }
+    });
+    return out;
+}
+
+}  // namespace clgi

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "antiradiance/refine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clgi {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// What rises less than this above a receiver's plane, as a share of its distance, lies in it: it
+// would give less than 1e-6 of the light of a whole hemisphere. Flat clusters are rough by 1e-3.
+constexpr double least_rise = 1e-6, rough = 2e-3;
+
+}  // namespace
+
+double Refine::seen(std::size_t element, std::size_t from) const {
+    const glm::dvec3 way = tree_.positions[from] - tree_.positions[element];
+    const double distance = glm::length(way), radius = tree_.radii[element];
+    if (distance <= radius + tree_.radii[from]) return std::numeric_limits<double>::infinity();
+    const double angle =
+        std::min(tree_.areas[element], pi * radius * radius) / (distance * distance);
+    if (!tree_.is_flat(element)) return angle;
+    const double height = std::abs(glm::dot(tree_.normals[element], way)) + tree_.radii[from];
+    return angle * std::min(1.0, height / distance);
+}
+
+// The sender has no part in front of the receiver's plane. So have its parts for those of the
+// receiver.
+bool Refine::hidden(std::size_t sender, std::size_t receiver) const {
+    if (!tree_.is_flat(receiver)) return false;
+    const glm::dvec3& normal = tree_.normals[receiver];
+    const glm::dvec3 way = tree_.positions[sender] - tree_.positions[receiver];
+    const double height = glm::dot(normal, way);
+    if (tree_.is_patch(sender)) {
+        double top = -std::numeric_limits<double>::infinity();
+        for (const glm::dvec3& corner : tree_.corners[sender])
+            top = std::max(top, glm::dot(normal, corner - tree_.positions[receiver]));
+        return top <= (tree_.is_patch(receiver) ? least_rise : rough) * glm::length(way);
+    }
+    if (!tree_.is_flat(sender)) return height + tree_.radii[sender] <= 0.0;
+    const double tilt = glm::length(glm::cross(normal, tree_.normals[sender]));
+    return height + tree_.radii[sender] * tilt <= rough * glm::length(way);
+}
+
+bool Refine::operator()(ElementPair& pair, std::vector<ElementPair>& children) const {
+    const std::uint32_t a = pair.a, b = pair.b;
+    if (a == b) {
+        if (tree_.is_flat(a)) return false;
+        for (std::uint32_t c = a + 1; c < tree_.ends[a]; c = tree_.ends[c]) {
+            children.push_back({c, c, true, true});
+            for (std::uint32_t d = tree_.ends[c]; d < tree_.ends[a]; d = tree_.ends[d])
+                children.push_back({c, d, true, true});
+        }
+        return false;
+    }
+    pair.to_a = pair.to_a && !hidden(b, a);
+    pair.to_b = pair.to_b && !hidden(a, b);
+    if (!pair.to_a && !pair.to_b) return false;
+
+    const bool cut_a = !tree_.is_leaf(a) && seen(a, b) > limit_;
+    const bool cut_b = !tree_.is_leaf(b) && seen(b, a) > limit_;
+    if (!cut_a && !cut_b) return true;
+    if (cut_a && (!cut_b || tree_.radii[a] >= tree_.radii[b])) {
+        for (std::uint32_t c = a + 1; c < tree_.ends[a]; c = tree_.ends[c])
+            children.push_back({c, b, pair.to_a, pair.to_b});
+    } else {
+        for (std::uint32_t c = b + 1; c < tree_.ends[b]; c = tree_.ends[c])
+            children.push_back({a, c, pair.to_a, pair.to_b});
+    }
+    return false;
+}
+
+}  // namespace clgi
