@@ -5,42 +5,13 @@
 #include <cmath>
 
 #include "light_baking.hpp"
-#include "scenes.hpp"
+#include "rooms.hpp"
 
 namespace clgi {
 namespace {
 
 using test::Baked;
 using test::Bakery;
-
-// A closed room with boxes of random size and colour, on the floor and in the air.
-Scene furnished(std::uint64_t seed) {
-    Scene scene = test::plain_scene(glm::vec3(0.7f, 0.65f, 0.6f));
-    test::Random random(seed);
-    test::add_box(scene, {0, 0, 0}, {4, 2.5, 3}, -1);
-    for (int k = 0; k < 6; ++k) {
-        Material material;
-        for (int c = 0; c < 3; ++c) material.base_color[c] = static_cast<float>(random(0.2, 0.8));
-        const double x = random(0.1, 3.2), z = random(0.1, 2.2), y = random(0.3, 1.2);
-        const glm::dvec3 low(x, k % 2 == 0 ? 0.0 : y, z);
-        const glm::dvec3 size(random(0.3, 0.7), random(0.3, 1.2), random(0.3, 0.7));
-        test::add_box(scene, low, low + size, 1, test::add_material(scene, material));
-    }
-    scene.lights = {test::point_light({2.0, 2.2, 1.5})};
-    scene.lights[0].intensity = {100.0f, 90.0f, 80.0f};
-    return scene;
-}
-
-// Two chambers, and a slit of 30 cm from floor to ceiling in the wall between them. One is lit.
-Scene chambers() {
-    Scene scene = test::plain_scene(glm::vec3(0.7f));
-    test::add_box(scene, {0, 0, 0}, {4, 2.5, 3}, -1);
-    test::add_box(scene, {1.95, 0, 0}, {2.05, 2.5, 1.3}, 1);
-    test::add_box(scene, {1.95, 0, 1.6}, {2.05, 2.5, 3}, 1);
-    scene.lights = {test::point_light({1.0, 1.9, 1.2})};
-    scene.lights[0].intensity = {100.0f, 90.0f, 80.0f};
-    return scene;
-}
 
 // Energy within 3 %, root mean square error at most 10 % of the mean, over about a thousand texels.
 // beyond: only places with a larger x.
@@ -83,14 +54,14 @@ void expect_reference(const Scene& scene, double beyond = -1.0) {
 }
 
 TEST(LightAtlasReference, FurnishedRoom) {
-    expect_reference(furnished(7));
-    expect_reference(furnished(11));
+    expect_reference(test::furnished_room(7));
+    expect_reference(test::furnished_room(11));
 }
 
-TEST(LightAtlasReference, ChambersJoinedByASlit) { expect_reference(chambers()); }
+TEST(LightAtlasReference, ChambersJoinedByASlit) { expect_reference(test::chambers()); }
 
 // Alone in the dark chamber, where all light comes through the slit.
-TEST(LightAtlasReference, TheChamberBehindTheSlit) { expect_reference(chambers(), 2.06); }
+TEST(LightAtlasReference, TheChamberBehindTheSlit) { expect_reference(test::chambers(), 2.06); }
 
 }  // namespace
 }  // namespace clgi

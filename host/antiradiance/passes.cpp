@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/passes/antiradiance.hpp>
+#include <clgi/planes.hpp>
 
 #include "opencl/launch.hpp"
+#include "opencl/planes.hpp"
 #include "opencl/program.hpp"
+#include "opencl/variants.hpp"
 
 namespace clgi {
 namespace {
@@ -39,6 +42,14 @@ void need_linked(const PassKernel& pass, int bins, const LinkBuffers& l, const E
     need(pass, "incident", rows.incident, std::max<std::size_t>(l.inner_count, 1) * row);
 }
 
+void need_points(const PassKernel& pass, const LeafPointParams& params) {
+    if (params.samples == 0 || params.first_back > params.leaf_count)
+        throw Error(pass.name + ": " + std::to_string(params.samples) + " samples a leaf and " +
+                    std::to_string(params.first_back) + " of " + std::to_string(params.leaf_count) +
+                    " leaves in front; at least 1 and at most all needed");
+    need_stride(pass, "stride", params.stride, std::size_t{params.leaf_count} * params.samples);
+}
+
 }  // namespace
 
 AntiradiancePasses::AntiradiancePasses(const Programs& programs, int bins,
@@ -57,10 +68,17 @@ AntiradiancePasses::AntiradiancePasses(const Programs& programs, int bins,
     global_ = kernel("global");
     local_ = kernel("local");
     pull_ = kernel("pull");
+    const auto plain = [&](const char* pass, const BuildOptions& how) {
+        return programs.kernel("antiradiance", pass, how);
+    };
+    turn_ = plain("turn", scalar(options));
+    sources_ = plain("sources", scalar(options));
+    vertices_ = plain("vertices", scalar(options));
+    show_ = plain("show", one);
 }
 
 void AntiradiancePasses::build(std::initializer_list<const char*> passes) const {
-    build_named({global_, local_, pull_}, passes);
+    build_named({global_, local_, pull_, turn_, sources_, vertices_, show_}, passes);
 }
 
 std::size_t AntiradiancePasses::intensity_bytes(std::size_t elements) const {
@@ -104,6 +122,61 @@ cl::Event AntiradiancePasses::pull(const cl::CommandQueue& queue, const ElementP
     need_list(pull_, params, list, links);
     need(pull_, "next", rows.next, intensity_bytes(links.element_count));
     return launch(pull_, queue, params.count, wait, params, list, links.elements, rows.next);
+}
+
+cl::Event AntiradiancePasses::turn(const cl::CommandQueue& queue, const LeafPointParams& params,
+                                   const cl::Buffer& planes, const WaitList& wait) const {
+    need_points(turn_, params);
+    need(turn_, "planes", planes, gbuffer_bytes(turn_.storage, params.stride, GBUFFER_BASE));
+    return launch(turn_, queue, std::size_t{params.leaf_count - params.first_back} * params.samples,
+                  wait, params, planes);
+}
+
+cl::Event AntiradiancePasses::sources(const cl::CommandQueue& queue, const LeafPointParams& params,
+                                      const DeviceScene& scene, const GBuffer& points,
+                                      const cl::Buffer& irradiance, const LeafBuffers& leaves,
+                                      const WaitList& wait) const {
+    need_points(sources_, params);
+    need(sources_, "planes", points.planes, gbuffer_bytes(sources_.storage, params.stride));
+    need(sources_, "ids", points.ids, GBUFFER_ID_PLANES * word * params.stride);
+    need(sources_, "irradiance", irradiance, irradiance_bytes(sources_.storage, params.stride));
+    need(sources_, "sources", leaves.sources, params.leaf_count * color);
+    need(sources_, "reflectances", leaves.reflectances, params.leaf_count * color);
+    return launch(sources_, queue, params.leaf_count, wait, params, points.planes, points.ids,
+                  irradiance, scene.materials(), leaves.sources, leaves.reflectances);
+}
+
+cl::Event AntiradiancePasses::vertices(const cl::CommandQueue& queue, const LeafSurface& surface,
+                                       const LeafBuffers& leaves, const WaitList& wait) const {
+    const std::size_t count = surface.vertex_count;
+    need(vertices_, "first_leaves", surface.first_leaves, (count + 1) * word);
+    need(vertices_, "vertex_leaves", surface.vertex_leaves, 2 * word);
+    need(vertices_, "irradiances", leaves.irradiances, color);
+    need(vertices_, "light", surface.light, count * color);
+    const ElementParams params{0, surface.vertex_count, 0, 0};
+    return launch(vertices_, queue, count, wait, params, surface.first_leaves,
+                  surface.vertex_leaves, leaves.irradiances, surface.light);
+}
+
+cl::Event AntiradiancePasses::show(const cl::CommandQueue& queue, const ShowElementsParams& params,
+                                   const DeviceScene& scene, const LinkBuffers& links,
+                                   const LeafSurface& surface, const GBuffer& seen,
+                                   const cl::Buffer& shown, const WaitList& wait) const {
+    need_stride(show_, "pixel_stride", params.pixel_stride, params.pixel_count);
+    if (params.triangle_count > scene.info().triangle_count)
+        throw Error(show_.name + ": triangle_count is " + std::to_string(params.triangle_count) +
+                    ", the scene has " + std::to_string(scene.info().triangle_count));
+    need(show_, "roots", surface.roots, params.triangle_count * sizeof(TrianglePatches));
+    need(show_, "elements", links.elements, links.element_count * sizeof(Element));
+    need(show_, "patches", surface.patches, links.element_count * sizeof(PatchCorners));
+    need(show_, "planes", seen.planes,
+         gbuffer_bytes(show_.storage, params.pixel_stride, GBUFFER_BASE));
+    need(show_, "ids", seen.ids, GBUFFER_ID_PLANES * word * params.pixel_stride);
+    need(show_, "light", surface.light, surface.vertex_count * color);
+    need(show_, "shown", shown, irradiance_bytes(show_.storage, params.pixel_stride));
+    return launch(show_, queue, params.pixel_count, wait, params, scene.triangles(),
+                  scene.positions(), surface.roots, links.elements, surface.patches, seen.planes,
+                  seen.ids, surface.light, shown);
 }
 
 std::vector<glm::vec4> direction_rows(const DirectionBins& bins) {

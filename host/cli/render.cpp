@@ -188,16 +188,21 @@ void run_second_order(RenderFlags flags) {
 
 void run_render(RenderFlags flags) {
     const bool atlas = flags.method == "atlas", transfer = flags.method == "transfer";
+    const bool antiradiance = flags.method == "antiradiance";
     const auto refuse = [](bool wrong, const std::vector<std::string>& given,
                            const std::string& why) {
         if (wrong && !given.empty()) throw Error("render: " + given.front() + " goes " + why);
     };
-    refuse(atlas || transfer, flags.second_order_only, "not with --method " + flags.method);
+    refuse(atlas || transfer || antiradiance, flags.second_order_only,
+           "not with --method " + flags.method);
     refuse(!atlas, flags.atlas_only, "only with --method atlas");
     refuse(!transfer, flags.transfer_only, "only with --method transfer");
+    refuse(!antiradiance, flags.antiradiance_only, "only with --method antiradiance");
     refuse(transfer, flags.not_transfer, "not with --method transfer");
+    refuse(antiradiance, flags.not_antiradiance, "not with --method antiradiance");
     if (atlas) return run_atlas(std::move(flags));
     if (transfer) return run_transfer(std::move(flags));
+    if (antiradiance) return run_antiradiance(std::move(flags));
     run_second_order(std::move(flags));
 }
 
@@ -212,11 +217,14 @@ void add_render(CLI::App& app) {
         ->type_name("SCENE");
     add_picture_flags(*command, flags->picture, options.width, options.height);
     command
-        ->add_option("--method", flags->method,
-                     "auto is second-order; atlas: many bounces, baked first; transfer: light of the "
-                     "environment with its shadows; direct: no indirect light")
+        ->add_option(
+            "--method", flags->method,
+            "auto is second-order; atlas: many bounces, baked first; transfer: light of the "
+            "environment with its shadows; antiradiance: many bounces, no visibility; "
+            "direct: no indirect light")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"auto", "second-order", "atlas", "transfer", "direct"}));
+        ->check(
+            CLI::IsMember({"auto", "second-order", "atlas", "transfer", "antiradiance", "direct"}));
     add_place_options(*command, flags->scene_index, flags->camera);
     command->add_option("--vpls", options.emitters.vpls, "VPLs of all emitters together")
         ->type_name("N")
@@ -245,6 +253,7 @@ void add_render(CLI::App& app) {
             "the mean power of VPLs")
         ->type_name("X");
     add_transfer_flags(*command, flags->transfer);
+    add_antiradiance_flags(*command, flags->antiradiance);
     command->add_option("--gbuffer", flags->gbuffer, "What rasterises the camera's view")
         ->type_name("WHAT")
         ->check(CLI::IsMember({"cl", "gl"}));
@@ -278,12 +287,14 @@ void add_render(CLI::App& app) {
         flags->second_order_only =
             given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates",
                              "--target-error", "--time-budget"});
-        flags->atlas_only =
-            given(*command, {"--bounces", "--atlas-size", "--hemicube-size", "--refine",
-                             "--least-change"});
-        flags->transfer_only = given(*command, {"--sh-order", "--mask", "--table", "--mask-block",
-                                                "--sh-window", "--coarse", "--rings", "--per-pixel",
-                                                "--probe-step", "--interreflections"});
+        flags->atlas_only = given(*command, {"--bounces", "--atlas-size", "--hemicube-size",
+                                             "--refine", "--least-change"});
+        flags->transfer_only = given(
+            *command, {"--sh-order", "--mask", "--table", "--mask-block", "--sh-window", "--coarse",
+                       "--rings", "--per-pixel", "--probe-step", "--interreflections"});
+        flags->antiradiance_only = given(*command, {"--bins", "--elements", "--iteration",
+                                                    "--iterations", "--residual", "--bin-share"});
+        flags->not_antiradiance = given(*command, {"--vpls", "--environment-lights", "--fps"});
         flags->not_transfer = given(*command, {"--vpls", "--no-direct", "--environment-lights"});
         flags->atlas.bake.emitters = flags->options.emitters;
         if (command->count("--shadow-size") == 0)

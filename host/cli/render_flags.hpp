@@ -30,6 +30,13 @@ struct TransferFlags : VectorFlags {
     int probe_step = 8;
 };
 
+// How --method antiradiance cuts the scene and exchanges light.
+struct AntiradianceFlags {
+    AntiradianceOptions solver;
+    int elements = static_cast<int>(ElementOptions().wished);
+    std::string iteration = "auto";
+};
+
 struct RenderFlags {
     DeviceFlags device;
     PictureFlags picture;
@@ -52,8 +59,10 @@ struct RenderFlags {
     SecondOrderOptions options;
     AtlasFlags atlas;
     TransferFlags transfer;
-    // Flags given that go with one kind of method alone, and those that do not go with transfer.
-    std::vector<std::string> second_order_only, atlas_only, transfer_only, not_transfer;
+    AntiradianceFlags antiradiance;
+    // Flags given that go with one kind of method alone, and those that do not go with some.
+    std::vector<std::string> second_order_only, atlas_only, transfer_only, antiradiance_only,
+        not_transfer, not_antiradiance;
 };
 
 // Bakes an atlas and shows the scene with it.
@@ -62,5 +71,9 @@ void run_atlas(RenderFlags flags);
 // Finds the light of the environment at vertices and pixels.
 void run_transfer(RenderFlags flags);
 void add_transfer_flags(CLI::App& command, TransferFlags& flags);
+
+// Exchanges light between the elements of the scene.
+void run_antiradiance(RenderFlags flags);
+void add_antiradiance_flags(CLI::App& command, AntiradianceFlags& flags);
 
 }  // namespace clgi::cli

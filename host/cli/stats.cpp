@@ -76,6 +76,14 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                            {"triangles", record.transfer->triangles},
                            {"terms", record.transfer->terms},
                            {"receiver_pixels", record.transfer->receiver_pixels}};
+    if (record.antiradiance) {
+        const AntiradianceSummary& a = *record.antiradiance;
+        out["antiradiance"] = {{"elements", a.elements},   {"leaves", a.leaves},
+                               {"links", a.links},         {"bins", a.bins},
+                               {"iteration", a.iteration}, {"diverged", a.diverged},
+                               {"converged", a.converged}, {"steps", a.steps},
+                               {"residual", a.residual},   {"linking_ms", a.linking_ms}};
+    }
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
     io::AtomicFile file(path);
     const std::string text = out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

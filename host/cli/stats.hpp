@@ -32,6 +32,20 @@ struct TransferSummary {
     std::uint32_t receiver_pixels = 0;  // of the last picture
 };
 
+// What --method antiradiance works on.
+struct AntiradianceSummary {
+    std::size_t elements = 0;
+    std::size_t leaves = 0;
+    std::size_t links = 0;
+    int bins = 0;
+    std::string iteration;
+    bool diverged = false;  // the symmetric iteration did
+    bool converged = false;
+    std::size_t steps = 0;
+    double residual = 0.0;
+    double linking_ms = 0.0;  // on the host
+};
+
 struct RenderRecord {
     cl::Device device;
     BuildOptions build;
@@ -51,6 +65,7 @@ struct RenderRecord {
     std::optional<AskRecord> ask;  // where a result was asked for
     std::optional<BakeSummary> bake;
     std::optional<TransferSummary> transfer;
+    std::optional<AntiradianceSummary> antiradiance;
     std::vector<std::string> warnings;
 };
 

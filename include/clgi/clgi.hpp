@@ -46,6 +46,8 @@
 #include <clgi/scene_mover.hpp>
 #include <clgi/sh.hpp>
 #include <clgi/slice.hpp>
+#include <clgi/solvers/antiradiance.hpp>
+#include <clgi/solvers/antiradiance_view.hpp>
 #include <clgi/solvers/dynamic_transfer.hpp>
 #include <clgi/solvers/dynamic_transfer_view.hpp>
 #include <clgi/solvers/light_atlas.hpp>

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <clgi/shared/antiradiance.h>
+#include <clgi/device_scene.hpp>
 #include <clgi/direction_bins.hpp>
 #include <clgi/export.hpp>
 #include <clgi/pass.hpp>
+#include <clgi/passes/gbuffer.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
 #include <vector>
@@ -41,6 +43,16 @@ struct LeafBuffers {
     cl::Buffer non_finite;  // [1] uint
 };
 
+// Leaves as the parts of triangles that pictures show.
+struct LeafSurface {
+    cl::Buffer roots;          // [triangles of the device] TrianglePatches
+    cl::Buffer patches;        // [element_count] PatchCorners
+    cl::Buffer first_leaves;   // [vertex_count + 1] uint, in vertex_leaves
+    cl::Buffer vertex_leaves;  // uint2: row of a leaf, and the bits of its share of the vertex
+    cl::Buffer light;          // [vertex_count] float4: rgb, exposed lux
+    std::uint32_t vertex_count = 0;
+};
+
 class CLGI_API AntiradiancePasses {
 public:
     // bins: DirectionBins::count(). Half storage is for intensities; all else is float.
@@ -67,9 +79,29 @@ public:
                    const cl::Buffer& list, const LinkBuffers& links, const ElementRows& rows,
                    const WaitList& wait = {}) const;
 
+    // Points of leaves that face backwards, in planes of full storage.
+    cl::Event turn(const cl::CommandQueue& queue, const LeafPointParams& params,
+                   const cl::Buffer& planes, const WaitList& wait = {}) const;
+
+    // points: full storage. irradiance [3][params.stride]: direct, exposed lux -> leaves.sources
+    // and leaves.reflectances.
+    cl::Event sources(const cl::CommandQueue& queue, const LeafPointParams& params,
+                      const DeviceScene& scene, const GBuffer& points, const cl::Buffer& irradiance,
+                      const LeafBuffers& leaves, const WaitList& wait = {}) const;
+
+    // leaves.irradiances -> surface.light.
+    cl::Event vertices(const cl::CommandQueue& queue, const LeafSurface& surface,
+                       const LeafBuffers& leaves, const WaitList& wait = {}) const;
+
+    // surface.light -> shown [IRRADIANCE_PLANES][params.pixel_stride]. seen has positions and
+    // triangles.
+    cl::Event show(const cl::CommandQueue& queue, const ShowElementsParams& params,
+                   const DeviceScene& scene, const LinkBuffers& links, const LeafSurface& surface,
+                   const GBuffer& seen, const cl::Buffer& shown, const WaitList& wait = {}) const;
+
 private:
     int bins_;
-    PassKernel global_, local_, pull_;
+    PassKernel global_, local_, pull_, turn_, sources_, vertices_, show_;
 };
 
 // [bins] xyz: unit; w: sr.

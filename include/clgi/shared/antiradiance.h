@@ -38,6 +38,39 @@ enum {
     LOCAL_GO_THROUGH = 4      // antiradiance; else it stays as it was
 };
 
+// Sample points of leaves: `samples` each, those of a leaf behind each other in the order of rows.
+typedef struct {
+    uint leaf_count;
+    uint samples;
+    uint stride;      // of the planes of points
+    uint first_back;  // row of the first leaf that faces backwards: its points are turned round
+} LeafPointParams;
+
+// A patch as a part of its triangle of the scene: weights of the triangle's second and third corner
+// at the patch's corners. vertex: of leaves, where they are shown.
+typedef struct {
+    float4 weights;  // of the first corner, then of the second
+    float4 last;     // xy: of the third
+    uint vertex[3];
+    uint pad0_;
+} PatchCorners;
+
+// The two patches of a triangle that are as large as it is; ELEMENT_NONE: it has none on that side.
+typedef struct {
+    uint front;
+    uint back;
+    uint pad0_;
+    uint pad1_;
+} TrianglePatches;
+
+typedef struct {
+    float4 eye;         // xyz: local frame; w: 1: the direction to the eye, everywhere
+    uint pixel_count;
+    uint pixel_stride;  // of the planes of pixels
+    uint triangle_count;
+    uint pad0_;
+} ShowElementsParams;
+
 CLGI_SHARED_END
 
 #endif

@@ -1,0 +1,23 @@
+// Where the corners of leaves meet: vertices between which light is interpolated.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <clgi/elements.hpp>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace clgi {
+
+struct LeafVertices {
+    std::vector<std::array<std::uint32_t, 3>> vertices;   // [rows] of a leaf's corners
+    std::vector<std::uint32_t> first;                     // [vertices + 1] in leaves
+    std::vector<std::pair<std::uint32_t, float>> leaves;  // row, share of the vertex: of area
+};
+
+// Corners in one place share a vertex where their leaves face nearly one way, within 26 degrees.
+// rows: leaves of the tree.
+LeafVertices leaf_vertices(const ElementTree& tree, const std::vector<std::uint32_t>& rows);
+
+}  // namespace clgi

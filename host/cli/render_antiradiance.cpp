@@ -1,0 +1,187 @@
+// clgi render --method antiradiance: light between elements without visibility, then the picture.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "cli/bake_room.hpp"
+#include "cli/motion.hpp"
+#include "cli/render_flags.hpp"
+#include "cli/stats.hpp"
+#include "report/preview.hpp"
+
+namespace clgi::cli {
+namespace {
+
+const std::map<std::string, Iteration> iterations = {{"auto", Iteration::automatic},
+                                                     {"symmetric", Iteration::symmetric},
+                                                     {"asymmetric", Iteration::asymmetric}};
+
+std::string name_of(Iteration iteration) {
+    for (const auto& [name, value] : iterations)
+        if (value == iteration) return name;
+    return "";
+}
+
+PictureOptions picture_options(const RenderFlags& flags) {
+    PictureOptions out;
+    out.width = flags.options.width;
+    out.height = flags.options.height;
+    out.emitters = flags.options.emitters;
+    out.direct = !flags.no_direct;
+    out.build = build_of(flags.device);
+    return out;
+}
+
+std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& picture) {
+    std::vector<std::string> out;
+    const bool direct = picture.options().direct;
+    if (direct && !picture.emitters().emitters.empty()) out.push_back("direct");
+    if (direct && scene.has_lobes()) out.push_back("glossy-direct");
+    if (direct && !scene.emissive().empty()) out.push_back("emission");
+    if (scene.environment()) out.push_back("environment");
+    out.push_back("indirect");
+    return out;
+}
+
+void warn_of(const AntiradianceStatus& status, const AntiradianceOptions& options,
+             std::uint32_t in_picture) {
+    if (status.diverged && status.iteration == Iteration::symmetric)
+        notice(false,
+               "warning: the symmetric iteration diverged; --iteration asymmetric converges");
+    else if (options.steps == 0 && !status.converged)
+        notice(false,
+               fmt::format("warning: after {} steps the residual is {:.2g}, not below {:.2g}",
+                           status.residuals.size(),
+                           status.residuals.empty() ? 1.0 : status.residuals.back(),
+                           options.residual));
+    if (status.non_finite + in_picture > 0)
+        notice(false, fmt::format("warning: {} leaves and {} packets of pixels held numbers that "
+                                  "were not finite",
+                                  status.non_finite, in_picture));
+}
+
+}  // namespace
+
+void run_antiradiance(RenderFlags flags) {
+    check_picture("render", flags.picture, flags.options.width, flags.options.height);
+    const bool quiet = flags.device.quiet;
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet);
+    if (flags.gbuffer != "cl")
+        throw Error("render: --gbuffer gl goes not with --method antiradiance");
+    if (flags.camera >= static_cast<int>(scene.cameras.size()))
+        throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
+                                scene.cameras.size()));
+    prepare_motion(flags, scene);
+    const Session session = open_session(flags.device);
+
+    const Stopwatch build;
+    DeviceScene device_scene(session.context, session.device, scene);
+    const Programs programs(session.context, session.device);
+    AntiradianceOptions options = flags.antiradiance.solver;
+    options.iteration = iterations.at(flags.antiradiance.iteration);
+    options.elements.wished = static_cast<std::size_t>(flags.antiradiance.elements);
+    options.emitters = flags.options.emitters;
+    options.build = build_of(flags.device);
+    AntiradianceSolver solver(programs, session.queue, scene, device_scene, options);
+    AntiradianceView view(programs, session.queue, device_scene, solver, picture_options(flags));
+    Motion motion(flags, scene, device_scene, session.queue);
+    RenderRecord record;
+    record.build_ms = 1e3 * build.seconds();
+
+    catch_interrupts();
+    const auto bar = progress_bar("render", quiet);
+    // The first picture warms up and is not timed.
+    if (!solver.run([&](double done) { return bar(done); })) throw Interrupted();
+    view.render(scene.cameras[static_cast<std::size_t>(flags.camera)]).wait();
+    for (int frame = 0; frame < flags.frames; ++frame) {
+        const Stopwatch frame_watch;
+        const Motion::Step step = motion.at(frame);
+        if (step.lights) {
+            solver.lights_changed();
+            view.lights_changed();
+        }
+        if (!solver.run([](double) { return !interrupted(); })) throw Interrupted();
+        view.render(step.camera);
+        session.queue.finish();
+        record.frame_ms.push_back(1e3 * frame_watch.seconds());
+        std::vector<PassEvent> passes = solver.events();
+        const std::vector<PassEvent>& shown = view.picture().events();
+        passes.insert(passes.end(), shown.begin(), shown.end());
+        record.passes.push_back(report::pass_times(passes));
+        if (interrupted()) throw Interrupted();
+    }
+    save_picture(report::radiance_picture(session.queue, view.picture()), flags.picture);
+
+    const AntiradianceStatus status = solver.status();
+    const std::uint32_t in_picture = view.picture().non_finite();
+    record.status.non_finite = status.non_finite + in_picture;
+    warn_of(status, solver.options(), in_picture);
+    const AntiradianceSummary summary{solver.elements().count(),
+                                      solver.elements().leaves,
+                                      solver.link_count(),
+                                      solver.options().bins,
+                                      name_of(status.iteration),
+                                      status.diverged,
+                                      status.converged,
+                                      status.residuals.size(),
+                                      status.residuals.empty() ? 0.0 : status.residuals.back(),
+                                      1e3 * solver.linking_seconds()};
+    if (!quiet) {
+        const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
+        fmt::print(
+            "{}{}{}: {:.1f} ms a frame ({} frames, {} elements, {} links, {} steps, {}), {:.2f} s "
+            "to link\n",
+            flags.picture.exr, both ? ", " : "", flags.picture.png,
+            report::spread(record.frame_ms).median, record.frame_ms.size(), summary.elements,
+            summary.links, summary.steps, summary.iteration, 1e-3 * summary.linking_ms);
+    }
+    if (flags.stats.empty()) return;
+    record.device = session.device;
+    record.build = view.picture().options().build;
+    record.method = "antiradiance";
+    record.triangles = scene.triangles.size();
+    record.lights = view.picture().emitters().emitters.size();
+    record.effects = effects_of(device_scene, view.picture());
+    record.bytes = device_scene.bytes() + solver.bytes() + view.bytes() + motion.bytes();
+    record.warnings = scene.warnings;
+    record.antiradiance = summary;
+    save_stats(record, flags.stats);
+}
+
+void add_antiradiance_flags(CLI::App& command, AntiradianceFlags& flags) {
+    AntiradianceOptions& options = flags.solver;
+    command.add_option("--bins", options.bins, "antiradiance: Bins of directions, an even number")
+        ->type_name("N")
+        ->check(CLI::Range(32, 4096));
+    command
+        .add_option("--elements", flags.elements,
+                    "antiradiance: Parts that surfaces are cut to, about")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 24));
+    command
+        .add_option("--iteration", flags.iteration,
+                    "antiradiance: How reflections and light that is let through alternate; auto: "
+                    "symmetric, unless that diverges")
+        ->type_name("KIND")
+        ->check(CLI::IsMember({"auto", "symmetric", "asymmetric"}));
+    command
+        .add_option("--iterations", options.steps,
+                    "antiradiance: Steps; 0: until the residual is below --residual")
+        ->type_name("N")
+        ->check(CLI::Range(0, 10000));
+    command
+        .add_option("--residual", options.residual,
+                    "antiradiance: Change in a step at which it ends, of the light that arrives")
+        ->type_name("X")
+        ->check(CLI::Range(1e-6, 1.0));
+    command
+        .add_option("--bin-share", options.links.bin_share,
+                    "antiradiance: Size at which linked elements are refined, of a bin's solid "
+                    "angle")
+        ->type_name("X")
+        ->check(CLI::PositiveNumber);
+}
+
+}  // namespace clgi::cli

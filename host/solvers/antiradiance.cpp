@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <clgi/kit/draw.hpp>
+#include <clgi/planes.hpp>
+
+#include "antiradiance/sky.hpp"
+#include "opencl/check.hpp"
+#include "opencl/variants.hpp"
+#include "solvers/antiradiance_state.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::size_t word = sizeof(std::uint32_t);
+constexpr std::size_t color = sizeof(glm::vec4);
+constexpr const char* owner = "antiradiance";
+
+AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scene) {
+    need_range(owner, "steps", options.steps, 0, 10000);
+    need_range(owner, "most_steps", options.most_steps, 1, 10000);
+    need_range(owner, "residual", options.residual, 1e-6, 1.0);
+    options.emitters.environment_lights = 0;
+    options.build.textures = options.build.textures && scene.needs_textures();
+    return options;
+}
+
+}  // namespace
+
+AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueue& on,
+                                 const Scene& file, const DeviceScene& of,
+                                 const AntiradianceOptions& wanted)
+    : queue(on),
+      scene(of),
+      options(checked(wanted, of)),
+      bins(direction_bins(wanted.bins)),
+      emitters(of, options.emitters, Pixels::depth),
+      passes(programs, wanted.bins, options.build),
+      gbuffer(programs, full(options.build)),
+      lights(programs, full(options.build)),
+      parallel(programs, options.build),
+      record(queue, owner) {
+    const auto begin = std::chrono::steady_clock::now();
+    tree = make_elements(file, options.elements);
+    if (tree.leaves == 0) throw Error("antiradiance: the scene has no surface");
+    const Links between = make_links(tree, bins, options.links);
+    made = make_element_surface(tree, bins, file, scene);
+    linking = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    link_total = between.count();
+    const BufferTable rows_of = table(between);
+    rows_of.check(queue.getInfo<CL_QUEUE_DEVICE>(), options.memory_budget, scene.bytes());
+    rows_of.allocate(record);
+    bytes = rows_of.bytes();
+    build();
+    write(file, between);
+}
+
+BufferTable AntiradianceSolver::State::table(const Links& between) {
+    const char* size = "elements.wished";
+    const char* bin = "bins";
+    const std::size_t count = made.elements.size(), leaf = made.leaves.size();
+    const auto m = static_cast<std::size_t>(options.bins);
+    links.element_count = static_cast<std::uint32_t>(count);
+    links.leaf_count = static_cast<std::uint32_t>(leaf);
+    links.inner_count = static_cast<std::uint32_t>(made.inner.size());
+    links.link_count = static_cast<std::uint32_t>(between.count());
+    surface.vertex_count = made.vertices();
+    const auto point_count = static_cast<std::uint32_t>(made.samples.size());
+    points.stride = static_cast<std::uint32_t>(plane_stride(point_count));
+    point_params = {links.leaf_count, leaf_samples, points.stride, made.first_back};
+    BufferTable t(owner);
+    emitters.add_to(t);
+    add_raster_lists(t, lists, scene);
+    t.add(links.elements, "elements", size, count * sizeof(Element));
+    t.add(links.first_links, "links", size, (count + 1) * word);
+    t.add(links.senders, "links", size, between.count() * word);
+    t.add(links.bins, "links", size, between.count() * word / 2);
+    t.add(links.form_factors, "links", size, between.count() * word);
+    t.add(rows.sky, "the sky's row", bin, m * color);
+    t.add(rows.incident, "incident light", bin, made.inner.size() * m * color);
+    t.add(rows.exitant, "intensities", bin, passes.intensity_bytes(count));
+    t.add(rows.next, "intensities", bin, passes.intensity_bytes(count));
+    for (cl::Buffer* buffer : {&leaves.sources, &leaves.reflectances, &leaves.radiances,
+                               &leaves.irradiances, &leaves.changes})
+        t.add(*buffer, "light of leaves", size, leaf * color);
+    t.add_word(leaves.non_finite, "counters", 0);
+    t.add_word(bad_points, "counters", 0);
+    t.add(surface.roots, "patches of triangles", size, made.roots.size() * sizeof(TrianglePatches));
+    t.add(surface.patches, "patches", size, made.patches.size() * sizeof(PatchCorners));
+    t.add(surface.first_leaves, "vertices", size, made.first_leaves.size() * word);
+    t.add(surface.vertex_leaves, "vertices", size, made.vertex_leaves.size() * 2 * word);
+    t.add(surface.light, "vertices", size, surface.vertex_count * color);
+    t.add(samples, "sample points", size, made.samples.size() * sizeof(SurfaceSample));
+    t.add(points.planes, "sample points", size, gbuffer_bytes(Storage::full, points.stride));
+    t.add(points.ids, "sample points", size, GBUFFER_ID_PLANES * word * points.stride);
+    t.add(irradiance, "sample points", size, irradiance_bytes(Storage::full, points.stride));
+    t.add(directions, "directions", bin, m * color);
+    t.add(leaf_list, "elements", size, leaf * word);
+    t.add(inner_list, "elements", size, made.inner.size() * word);
+    t.add(sum, "counters", size, color);
+    t.add(scratch, "counters", size, sum_scratch_bytes(leaf));
+    return t;
+}
+
+void AntiradianceSolver::State::build() const {
+    passes.build({"global", "local", "pull", "sources", "vertices"});
+    if (made.first_back < made.leaves.size()) passes.build({"turn"});
+    gbuffer.build({"surface"});
+    lights.build({"direct"});
+    parallel.build({"sum_tiles", "sum_merge"});
+    build_draw(gbuffer, scene, emitters.set().views.size());
+}
+
+void AntiradianceSolver::State::write(const Scene& file, const Links& between) {
+    emitters.write(record);
+    put(links.elements, made.elements);
+    put(links.first_links, between.first);
+    put(links.senders, between.senders);
+    put(links.bins, between.bins);
+    put(links.form_factors, between.form_factors);
+    std::vector<glm::vec4> sky;
+    const double exposure = scene.frame().exposure;
+    for (const glm::dvec3& radiance : sky_row(file.environment, bins))
+        sky.emplace_back(glm::vec3(radiance / exposure), 0.0f);
+    put(rows.sky, sky);
+    put(surface.roots, made.roots);
+    put(surface.patches, made.patches);
+    put(surface.first_leaves, made.first_leaves);
+    put(surface.vertex_leaves, made.vertex_leaves);
+    put(samples, made.samples);
+    put(directions, direction_rows(bins));
+    put(leaf_list, made.leaves);
+    put(inner_list, made.inner);
+    const auto count = static_cast<std::uint32_t>(made.samples.size());
+    record("gbuffer.surface", count, [&](const WaitList& wait) {
+        return gbuffer.surface(queue, scene, {count, points.stride, 0, 0}, samples, points, {},
+                               wait);
+    });
+    if (made.first_back < made.leaves.size())
+        record("antiradiance.turn", count, [&](const WaitList& wait) {
+            return passes.turn(queue, point_params, points.planes, wait);
+        });
+}
+
+AntiradianceSolver::AntiradianceSolver(const Programs& programs, const cl::CommandQueue& queue,
+                                       const Scene& scene, const DeviceScene& device,
+                                       const AntiradianceOptions& options)
+    : state_(std::make_unique<State>(programs, queue, scene, device, options)) {}
+
+AntiradianceSolver::~AntiradianceSolver() = default;
+
+void AntiradianceSolver::lights_changed() {
+    State& s = *state_;
+    if (!s.emitters.update(s.options.emitters))
+        throw Error("antiradiance: a light needs more views than before; make another solver");
+    s.record.forget_failed();
+    s.emitters.write(s.record);
+}
+
+bool AntiradianceSolver::run(const Progress& progress) { return state_->run(progress); }
+
+AntiradianceStatus AntiradianceSolver::status() const {
+    AntiradianceStatus out = state_->found;
+    out.non_finite = state_->record.read_word(state_->leaves.non_finite);
+    return out;
+}
+
+const std::vector<PassEvent>& AntiradianceSolver::events() const { return state_->record.events(); }
+Interval AntiradianceSolver::interval() const { return state_->record.interval(); }
+const AntiradianceOptions& AntiradianceSolver::options() const { return state_->options; }
+const ElementTree& AntiradianceSolver::elements() const { return state_->tree; }
+const DirectionBins& AntiradianceSolver::bins() const { return state_->bins; }
+std::size_t AntiradianceSolver::link_count() const { return state_->link_total; }
+double AntiradianceSolver::linking_seconds() const { return state_->linking; }
+std::size_t AntiradianceSolver::bytes() const { return state_->bytes; }
+const LeafBuffers& AntiradianceSolver::leaves() const { return state_->leaves; }
+const std::vector<std::uint32_t>& AntiradianceSolver::leaf_elements() const {
+    return state_->made.leaves;
+}
+const LinkBuffers& AntiradianceSolver::links() const { return state_->links; }
+const LeafSurface& AntiradianceSolver::surface() const { return state_->surface; }
+const AntiradiancePasses& AntiradianceSolver::passes() const { return state_->passes; }
+
+}  // namespace clgi

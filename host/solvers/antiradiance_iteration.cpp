@@ -1,0 +1,150 @@
+// Direct light into the leaves, and the two iterations. [Dachsbacher07, sections 2.2 and 3.3]
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/antiradiance_state.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::uint32_t symmetric_step = LOCAL_RECEIVE | LOCAL_REFLECT | LOCAL_GO_THROUGH;
+
+// Light that is let through may grow at first, up to a binomial coefficient of the number of
+// surfaces behind each other, and yet converge. Growth in so many steps, to so many times the least
+// residual, is divergence.
+constexpr int growing_steps = 3;
+constexpr double growth = 4.0;
+
+}  // namespace
+
+// Shadow-mapped direct light at the sample points, and what leaves reflect of it.
+void AntiradianceSolver::State::light_leaves() {
+    emitters.draw(record, gbuffer, lists);
+    const auto count = static_cast<std::uint32_t>(made.samples.size());
+    const auto number = static_cast<std::uint32_t>(emitters.set().emitters.size());
+    const DirectParams params{points.stride, count, number, 1.0f, 1, 0, 0, 0};
+    record("lights.direct", count, [&](const WaitList& wait) {
+        return lights.direct(queue, params, emitters.buffers(), points.planes, irradiance,
+                             bad_points, wait);
+    });
+    record("antiradiance.sources", links.leaf_count, [&](const WaitList& wait) {
+        return passes.sources(queue, point_params, scene, points, irradiance, leaves, wait);
+    });
+}
+
+// Nothing has arrived yet: leaves send their own light alone.
+void AntiradianceSolver::State::start() {
+    record.fill(leaves.irradiances, 0);
+    record.fill(leaves.radiances, 0);
+    step(LOCAL_REFLECT | LOCAL_GO_THROUGH);
+}
+
+// One of the steps of Eq. 13 and 14, for all elements: down the tree, at the leaves, and up again.
+void AntiradianceSolver::State::step(std::uint32_t flags) {
+    const std::size_t levels = made.level_begins.size() - 1;
+    const auto level = [&](std::size_t l) {
+        return ElementParams{made.level_begins[l], made.level_begins[l + 1] - made.level_begins[l],
+                             0, 0};
+    };
+    for (std::size_t l = 0; (flags & LOCAL_RECEIVE) && l < levels; ++l)
+        record("antiradiance.global", level(l).count, [&](const WaitList& wait) {
+            return passes.global(queue, level(l), inner_list, links, rows, wait);
+        });
+    record("antiradiance.local", links.leaf_count, [&](const WaitList& wait) {
+        return passes.local(queue, {0, links.leaf_count, flags, 0}, leaf_list, links, rows,
+                            directions, leaves, wait);
+    });
+    for (std::size_t l = levels; l-- > 0;)
+        record("antiradiance.pull", level(l).count, [&](const WaitList& wait) {
+            return passes.pull(queue, level(l), inner_list, links, rows, wait);
+        });
+    if (!record.cancelled()) std::swap(rows.exitant, rows.next);
+}
+
+// By how much what arrives at all leaves changed in the last step, of what arrived in the first: a
+// measure that stays the same, so that light that grows without end is not taken for rest.
+double AntiradianceSolver::State::residual() {
+    record("parallel.sum", links.leaf_count, [&](const WaitList& wait) {
+        return parallel.sum(queue, links.leaf_count, leaves.changes, sum, scratch, wait);
+    });
+    glm::vec4 all(0.0f);
+    const WaitList pending = record.waits();
+    queue.enqueueReadBuffer(sum, CL_TRUE, 0, sizeof(all), &all, &pending);
+    ++steps_done;
+    const double changed = double{all.x} + all.y + all.z;
+    if (steps_done == 1) first_arrived = all.w;
+    const double out = changed == 0.0 ? 0.0 : changed / first_arrived;
+    found.residuals.push_back(out);
+    return out;
+}
+
+void AntiradianceSolver::State::report(const Progress& progress) {
+    if (progress) record.report(static_cast<double>(steps_done) / limit());
+}
+
+bool AntiradianceSolver::State::symmetric(const Progress& progress) {
+    found.iteration = Iteration::symmetric;
+    start();
+    double least = std::numeric_limits<double>::infinity(), before = least;
+    int growing = 0;
+    while (steps_done < limit() && !record.cancelled()) {
+        step(symmetric_step);
+        const double now = residual();
+        found.converged = done(now);
+        if (options.steps == 0 && found.converged) return true;
+        growing = now > before ? growing + 1 : 0;
+        least = std::min(least, now);
+        if (growing >= growing_steps && now >= growth * least) return false;
+        if (!std::isfinite(now)) return false;
+        before = now;
+        report(progress);
+    }
+    return true;
+}
+
+void AntiradianceSolver::State::asymmetric(const Progress& progress) {
+    found.iteration = Iteration::asymmetric;
+    start();
+    while (steps_done < limit() && !record.cancelled()) {
+        // What is not yet taken away need not be less than what the next reflection changes.
+        double through = 1.0;
+        const double last = found.residuals.empty() ? 1.0 : found.residuals.back();
+        const double enough = std::max(0.1 * last, 0.5 * options.residual);
+        while (steps_done < limit() && !record.cancelled() && !(through < enough)) {
+            step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+            through = residual();
+            if (!std::isfinite(through)) return;
+        }
+        step(LOCAL_RECEIVE | LOCAL_REFLECT);
+        const double now = residual();
+        report(progress);
+        // A step that lets through shows what the reflection changed.
+        step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+        const double reflected = residual();
+        found.converged = done(now) && done(reflected);
+        if (options.steps == 0 && found.converged) return;
+        if (!std::isfinite(now) || !std::isfinite(reflected)) return;
+    }
+}
+
+bool AntiradianceSolver::State::run(const Progress& progress) {
+    record.begin({}, progress);
+    found = {};
+    steps_done = 0;
+    light_leaves();
+    const bool first = options.iteration != Iteration::asymmetric;
+    const bool held = !first || symmetric(progress);
+    if (!held) {
+        found.diverged = true;
+        if (options.iteration == Iteration::automatic) steps_done = 0;
+    }
+    if (!first || (!held && options.iteration == Iteration::automatic)) asymmetric(progress);
+    record("antiradiance.vertices", surface.vertex_count,
+           [&](const WaitList& wait) { return passes.vertices(queue, surface, leaves, wait); });
+    record.report(1.0);
+    return !record.cancelled();
+}
+
+}  // namespace clgi

@@ -1,0 +1,67 @@
+// What AntiradianceSolver consists of.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/kit/emitters.hpp>
+#include <clgi/passes/lights.hpp>
+#include <clgi/passes/parallel.hpp>
+#include <clgi/solvers/antiradiance.hpp>
+
+#include "antiradiance/element_surface.hpp"
+
+namespace clgi {
+
+struct AntiradianceSolver::State {
+    State(const Programs& programs, const cl::CommandQueue& on, const Scene& file,
+          const DeviceScene& of, const AntiradianceOptions& wanted);
+
+    BufferTable table(const Links& made);
+    void build() const;
+    void write(const Scene& file, const Links& made);
+
+    template <typename T>
+    void put(const cl::Buffer& buffer, const std::vector<T>& values) {
+        if (!values.empty()) record.write(buffer, values.data(), values.size() * sizeof(T));
+    }
+
+    void light_leaves();
+    void start();
+    void step(std::uint32_t flags);
+    double residual();
+    bool done(double change) const { return change < options.residual; }
+
+    // Steps until they are done, the residual is small, or they diverge: false.
+    bool symmetric(const Progress& progress);
+    void asymmetric(const Progress& progress);
+    int limit() const { return options.steps > 0 ? options.steps : options.most_steps; }
+    void report(const Progress& progress);
+    bool run(const Progress& progress);
+
+    cl::CommandQueue queue;
+    const DeviceScene& scene;
+    AntiradianceOptions options;
+    double linking = 0.0;  // seconds
+    DirectionBins bins;
+    ElementTree tree;
+    ElementSurface made;  // on the host
+    Emitters emitters;
+    AntiradiancePasses passes;
+    GBufferPasses gbuffer;
+    LightPasses lights;
+    ParallelPasses parallel;
+    mutable Recorder record;
+    LinkBuffers links;
+    ElementRows rows;
+    LeafBuffers leaves;
+    LeafSurface surface;
+    RasterBuffers lists;
+    LeafPointParams point_params{};
+    GBuffer points;
+    cl::Buffer samples, irradiance, directions, leaf_list, inner_list, sum, scratch, bad_points;
+    AntiradianceStatus found;
+    std::size_t link_total = 0, bytes = 0;
+    int steps_done = 0;          // of this run
+    double first_arrived = 0.0;  // lumens, in the first step
+};
+
+}  // namespace clgi

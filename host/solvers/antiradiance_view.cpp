@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/planes.hpp>
+#include <clgi/solvers/antiradiance_view.hpp>
+
+namespace clgi {
+namespace {
+
+PictureOptions without_sky(PictureOptions options) {
+    options.emitters.environment_lights = 0;
+    return options;
+}
+
+}  // namespace
+
+struct AntiradianceView::State {
+    State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,
+          const AntiradianceSolver& from, const PictureOptions& options)
+        : scene(of),
+          solver(from),
+          picture(programs, queue, of, without_sky(options), "antiradiance-view"),
+          passes(programs, from.options().bins, picture.options().build) {
+        picture.allocate(picture.table());
+        passes.build({"show"});
+    }
+
+    cl::Event render(const Camera& camera, const WaitList& wait) {
+        const View view = picture.begin(camera, wait);
+        const glm::vec4 eye =
+            view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
+        const auto pixels = static_cast<std::uint32_t>(picture.pixels());
+        const ShowElementsParams params{eye, pixels, picture.stride(), scene.info().triangle_count,
+                                        0};
+        Recorder& record = picture.record();
+        record("antiradiance.show", pixels, [&](const WaitList& before) {
+            return passes.show(record.queue(), params, scene, solver.links(), solver.surface(),
+                               picture.gbuffer(), picture.irradiance(), before);
+        });
+        picture.combine(view);
+        return picture.end(view);
+    }
+
+    const DeviceScene& scene;
+    const AntiradianceSolver& solver;
+    Picture picture;
+    AntiradiancePasses passes;
+};
+
+AntiradianceView::AntiradianceView(const Programs& programs, const cl::CommandQueue& queue,
+                                   const DeviceScene& scene, const AntiradianceSolver& solver,
+                                   const PictureOptions& options)
+    : state_(std::make_unique<State>(programs, queue, scene, solver, options)) {}
+
+AntiradianceView::~AntiradianceView() = default;
+
+void AntiradianceView::lights_changed() { state_->picture.lights_changed(); }
+
+cl::Event AntiradianceView::render(const Camera& camera, const WaitList& wait) {
+    return state_->render(camera, wait);
+}
+
+const Picture& AntiradianceView::picture() const { return state_->picture; }
+
+std::size_t AntiradianceView::bytes() const { return state_->picture.bytes(); }
+
+}  // namespace clgi

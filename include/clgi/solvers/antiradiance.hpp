@@ -1,0 +1,101 @@
+// Global illumination without visibility: light goes through everything, and antiradiance takes
+// away behind each surface what arrived before it.                          [Dachsbacher07]
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+#include <clgi/elements.hpp>
+#include <clgi/emitters.hpp>
+#include <clgi/interval.hpp>
+#include <clgi/kit/buffer_table.hpp>
+#include <clgi/kit/recorder.hpp>
+#include <clgi/links.hpp>
+#include <clgi/passes/antiradiance.hpp>
+#include <clgi/programs.hpp>
+#include <clgi/scene.hpp>
+#include <memory>
+#include <vector>
+
+namespace clgi {
+
+// The order of reflections and of steps in which light is let through [section 2.2].
+enum class Iteration {
+    symmetric,   // both at once; diverges where parallel surfaces lie close to each other
+    asymmetric,  // light is let through until it no longer changes, then reflected; converges
+    automatic,   // symmetric, and asymmetric from the start where that diverges
+};
+
+struct AntiradianceOptions {
+    int bins = 128;  // of directions, even, 32 to 4096
+    ElementOptions elements;
+    LinkOptions links;
+    // Shadow maps and samples of the lights; vpls and environment_lights are not used: the
+    // environment arrives in bins.
+    EmitterOptions emitters;
+    Iteration iteration = Iteration::automatic;
+    int steps = 0;  // local passes, 1 to 10000; 0: until the residual is small
+    // Change of what arrives in a step, of what arrived in the first: 1e-6 to 1.
+    double residual = 1e-3;
+    int most_steps = 500;  // with steps = 0
+    // Bytes that the solver's buffers may take together; 0: what the device has beside the scene.
+    std::size_t memory_budget = 0;
+    BuildOptions build;
+};
+
+struct AntiradianceStatus {
+    Iteration iteration = Iteration::symmetric;  // that was used last
+    bool diverged = false;                       // the symmetric iteration did, and was given up
+    bool converged = false;                      // the residual is below the bound
+    std::vector<double> residuals;               // of each step that was made, of both iterations
+    std::uint32_t non_finite = 0;  // leaves with numbers that are not finite, since the start
+};
+
+// Owns its buffers, works on the given queue (in order or not). The scene must outlive the solver
+// and stay as it was uploaded. One thread at a time.
+//
+// Diffuse light alone is exchanged. What emissive surfaces send comes through their sample points,
+// as direct light. Surfaces with an alpha mask block as a whole.
+class CLGI_API AntiradianceSolver {
+public:
+    // Makes elements and links, builds kernels and allocates. scene: what `device` was made from;
+    // it is not needed afterwards. Throws Error for options out of range and scenes without
+    // surfaces, DeviceError when memory does not suffice.
+    AntiradianceSolver(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+                       const DeviceScene& device, const AntiradianceOptions& options = {});
+    ~AntiradianceSolver();
+    AntiradianceSolver(const AntiradianceSolver&) = delete;
+    AntiradianceSolver& operator=(const AntiradianceSolver&) = delete;
+
+    // Reads the scene's lights again, after DeviceScene::set_light, for the next run().
+    void lights_changed();
+
+    // Direct light into the leaves, then steps until they are done or the residual is small; waits
+    // for each. False if progress cancelled.
+    bool run(const Progress& progress = nullptr);
+
+    AntiradianceStatus status() const;
+
+    // Passes of the last run, and what it took on the queue.
+    const std::vector<PassEvent>& events() const;
+    Interval interval() const;
+
+    const AntiradianceOptions& options() const;
+    const ElementTree& elements() const;
+    const DirectionBins& bins() const;
+    std::size_t link_count() const;  // for one direction each
+    double linking_seconds() const;  // that elements and links took
+    std::size_t bytes() const;
+
+    // Results, valid after run().
+    const LeafBuffers& leaves() const;
+    const std::vector<std::uint32_t>& leaf_elements() const;  // [rows] of LeafBuffers
+    const LinkBuffers& links() const;
+    const LeafSurface& surface() const;
+    const AntiradiancePasses& passes() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace clgi

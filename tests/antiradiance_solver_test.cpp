@@ -1,0 +1,270 @@
+// The solver as a whole: direct light in the leaves, closed rooms, iterations, the sky.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clgi/error.hpp>
+#include <cmath>
+
+#include "device.hpp"
+#include "math_modes.hpp"
+#include "rooms.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+CLGI_IN_BOTH_MATHS(AntiradianceLight);
+
+struct Solved {
+    DeviceScene scene;
+    AntiradianceSolver solver;
+    explicit Solved(const Scene& of, const AntiradianceOptions& options = {}, bool run = true)
+        : scene(test::on_device(of)),
+          solver(test::programs(), test::device().queue, of, scene, options) {
+        if (run) solver.run();
+    }
+    double exposure() const { return scene.frame().exposure; }
+    std::size_t count() const { return solver.elements().leaves; }
+    std::vector<glm::vec4> irradiances() const {
+        return test::download<glm::vec4>(solver.leaves().irradiances, count());
+    }
+    std::vector<glm::vec4> sources() const {
+        return test::download<glm::vec4>(solver.leaves().sources, count());
+    }
+    std::vector<glm::vec4> reflectances() const {
+        return test::download<glm::vec4>(solver.leaves().reflectances, count());
+    }
+    std::uint32_t element(std::size_t row) const { return solver.leaf_elements()[row]; }
+};
+
+AntiradianceOptions options_of(Math math, int bins, std::size_t leaves) {
+    AntiradianceOptions out;
+    out.bins = bins;
+    out.elements.wished = leaves;
+    out.build.math = math;
+    return out;
+}
+
+// What all leaves receive, times their areas.
+glm::dvec3 power(const Solved& solved) {
+    glm::dvec3 sum(0.0);
+    const std::vector<glm::vec4> e = solved.irradiances();
+    for (std::size_t row = 0; row < e.size(); ++row)
+        sum += solved.solver.elements().areas[solved.element(row)] * glm::dvec3(e[row]);
+    return solved.exposure() * sum;
+}
+
+// Each leaf reflects the mean direct light of its four sample points, from the side that it is on.
+TEST_P(AntiradianceLight, ReflectsDirectLight) {
+    Scene scene = test::plain_scene({0.7f, 0.5f, 0.2f});
+    scene.materials[0].double_sided = true;
+    Material one_sided;
+    one_sided.base_color = {0.3f, 0.4f, 0.9f, 1.0f};
+    const std::uint32_t other = test::add_material(scene, one_sided);
+    const glm::dvec3 across(1.0, 0.3, 0.0), along(-0.2, 0.1, 1.1);
+    test::add_triangle(scene, {0, 0, 0}, along, across);
+    test::add_triangle(scene, {9, 0, 0}, glm::dvec3(9, 0, 0) + along, glm::dvec3(9, 0, 0) + across,
+                       other);
+    const glm::dvec3 above(0.3, 0.9, 0.4), below(9.2, -0.7, 0.6);
+    scene.lights = {test::point_light(above), test::point_light(below)};
+    scene.lights[0].intensity = {5.0f, 7.0f, 11.0f};
+    const Solved solved(scene, options_of(GetParam(), 32, 60));
+    const ElementTree& tree = solved.solver.elements();
+    int lit = 0, dark = 0;
+    for (std::size_t row = 0; row < solved.count(); ++row) {
+        const std::uint32_t i = solved.element(row);
+        const bool twice = tree.triangles[i] == 0;
+        const glm::dvec3 albedo = twice           ? glm::dvec3(0.7, 0.5, 0.2)
+                                  : tree.backs[i] ? glm::dvec3(0.0)
+                                                  : glm::dvec3(0.3, 0.4, 0.9);
+        const auto& [a, b, c] = tree.corners[i];
+        glm::dvec3 wanted(0.0);
+        for (const glm::dvec3& at : {(a + b + c) / 3.0, (4.0 * a + b + c) / 6.0,
+                                     (a + 4.0 * b + c) / 6.0, (a + b + 4.0 * c) / 6.0})
+            for (const Light& light : scene.lights) {
+                const glm::dvec3 to = light.position - at;
+                const double cosine = glm::dot(tree.normals[i], glm::normalize(to));
+                if (cosine > 0.0)
+                    wanted += 0.25 / pi * albedo * glm::dvec3(light.intensity) * cosine /
+                              glm::dot(to, to);
+            }
+        const glm::dvec3 found = solved.exposure() * glm::dvec3(solved.sources()[row]);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(found[k], wanted[k], 1e-4 * wanted[k] + 1e-6) << row;
+            EXPECT_NEAR(solved.reflectances()[row][k], albedo[k], 1e-6);
+        }
+        ++(wanted.x > 0.0 ? lit : dark);
+    }
+    EXPECT_GT(lit, 20);
+    EXPECT_GT(dark, 10);
+}
+
+// In a closed room the light that arrives over links is rho / (1 - rho) of the direct light, all
+// leaves together, whatever stands in it.
+TEST_P(AntiradianceLight, KeepsTheEnergyOfClosedRooms) {
+    for (const double albedo : {0.3, 0.7}) {
+        Scene scene = test::plain_scene(glm::vec3(static_cast<float>(albedo)));
+        test::add_box(scene, {0, 0, 0}, {1.2, 0.9, 1.0}, -1);
+        scene.lights = {test::point_light({0.5, 0.6, 0.4})};
+        scene.lights[0].intensity = {1.0f, 2.0f, 3.0f};
+        const Solved solved(scene, options_of(GetParam(), 512, 3000));
+        const AntiradianceStatus status = solved.solver.status();
+        EXPECT_TRUE(status.converged);
+        EXPECT_FALSE(status.diverged);
+        EXPECT_EQ(status.non_finite, 0u);
+        const glm::dvec3 found = power(solved);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[c], 4.0 * pi * (c + 1) * albedo / (1.0 - albedo),
+                        0.02 * 4.0 * pi * (c + 1) * albedo / (1.0 - albedo))
+                << albedo;
+    }
+}
+
+// Thin shelves across a room. Reflecting and letting light through at once diverges; that is seen,
+// and the asymmetric iteration finds the light.
+Scene shelves(float albedo) {
+    Scene scene = test::plain_scene(glm::vec3(albedo));
+    scene.materials[0].double_sided = true;
+    test::add_box(scene, {0, 0, 0}, {1, 1, 1}, -1);
+    for (const double y : {0.2, 0.4, 0.6, 0.8})
+        test::add_quad(scene,
+                       {glm::dvec3(0.1, y, 0.1), {0.1, y, 0.9}, {0.9, y, 0.9}, {0.9, y, 0.1}});
+    scene.lights = {test::point_light({0.5, 0.9, 0.5})};
+    return scene;
+}
+
+TEST_P(AntiradianceLight, SeesDivergenceAndConvergesAllTheSame) {
+    AntiradianceOptions options = options_of(GetParam(), 128, 2000);
+    options.iteration = Iteration::symmetric;
+    const Scene scene = shelves(0.6f);
+    const Solved symmetric(scene, options);
+    EXPECT_TRUE(symmetric.solver.status().diverged);
+    EXPECT_FALSE(symmetric.solver.status().converged);
+
+    options.iteration = Iteration::asymmetric;
+    options.residual = 1e-4;
+    const Solved asymmetric(scene, options);
+    EXPECT_TRUE(asymmetric.solver.status().converged);
+
+    options.iteration = Iteration::automatic;
+    const Solved either(scene, options);
+    const AntiradianceStatus status = either.solver.status();
+    EXPECT_TRUE(status.diverged);
+    EXPECT_TRUE(status.converged);
+    EXPECT_EQ(status.iteration, Iteration::asymmetric);
+    EXPECT_EQ(either.irradiances(), asymmetric.irradiances());
+}
+
+// Where both iterations converge they find the same light.
+TEST_P(AntiradianceLight, BothIterationsMeet) {
+    AntiradianceOptions options = options_of(GetParam(), 128, 1500);
+    options.residual = 1e-5;
+    options.iteration = Iteration::symmetric;
+    const Solved one(test::furnished_room(3), options);
+    options.iteration = Iteration::asymmetric;
+    const Solved other(test::furnished_room(3), options);
+    EXPECT_TRUE(one.solver.status().converged);
+    EXPECT_TRUE(other.solver.status().converged);
+    const glm::dvec3 mean = power(other);
+    double square = 0.0, all = 0.0;
+    const auto a = one.irradiances(), b = other.irradiances();
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            square += std::pow(double(a[i][c]) - b[i][c], 2);
+            all += std::pow(double(b[i][c]), 2);
+        }
+    EXPECT_LT(std::sqrt(square / all), 1e-3);
+    EXPECT_GT(mean.x, 0.0);
+}
+
+// Nothing stands in the sky's way: a surface of any tilt, and its back, receive pi L of a sky of
+// one colour, and of a sky that is bright above what the cosine makes of it.
+TEST_P(AntiradianceLight, ReceivesTheSky) {
+    Scene scene = test::plain_scene(glm::vec3(0.0f));
+    scene.materials[0].double_sided = true;
+    test::add_triangle(scene, {0, 0, 0}, {0.2, 0.4, 1.0}, {1.0, 0.3, 0.1});
+    scene.environment = Environment();
+    scene.environment->factor = {2.0f, 3.0f, 5.0f};
+    const Solved even(scene, options_of(GetParam(), 128, 8));
+    for (const glm::vec4& e : even.irradiances())
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(even.exposure() * e[c], pi * scene.environment->factor[c], 1e-4);
+
+    scene.environment->width = 1;
+    scene.environment->height = 2;  // the upper half is green, the lower one blue
+    scene.environment->texels = {{0, 1, 0}, {0, 0, 1}};
+    const Solved halves(scene, options_of(GetParam(), 2048, 8));
+    for (std::size_t row = 0; row < halves.count(); ++row) {
+        const double up = halves.solver.elements().normals[halves.element(row)].y;
+        const glm::dvec3 e = halves.exposure() * glm::dvec3(halves.irradiances()[row]);
+        EXPECT_NEAR(e.x, 0.0, 1e-6);
+        EXPECT_NEAR(e.y, 3.0 * pi * 0.5 * (1.0 + up), 0.03);
+        EXPECT_NEAR(e.z, 5.0 * pi * 0.5 * (1.0 - up), 0.05);
+    }
+}
+
+TEST(AntiradianceSolver, FollowsItsLights) {
+    Scene scene = test::furnished_room(5);
+    AntiradianceOptions options = options_of(Math::strict, 32, 600);
+    options.steps = 12;
+    Solved solved(scene, options);
+    const auto before = solved.irradiances();
+    Light light = scene.lights[0];
+    light.intensity *= 2.0f;
+    solved.scene.set_light(0, light);
+    solved.solver.lights_changed();
+    EXPECT_TRUE(solved.solver.run());
+    const auto after = solved.irradiances();
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(after[i], 2.0f * before[i]);
+    EXPECT_EQ(solved.solver.status().residuals.size(), 12u);
+}
+
+TEST(AntiradianceSolver, GivesTheSameBitsInEveryGroupAndAFewInHalf) {
+    const Scene scene = test::furnished_room(5);
+    AntiradianceOptions options = options_of(Math::strict, 64, 800);
+    options.steps = 10;
+    const auto wanted = Solved(scene, options).irradiances();
+    for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{32}}) {
+        options.build.local_size = size;
+        EXPECT_EQ(Solved(scene, options).irradiances(), wanted) << size;
+    }
+    options.build.storage = Storage::half;
+    const auto half = Solved(scene, options).irradiances();
+    double most = 0.0;
+    for (const glm::vec4& e : wanted) most = std::max(most, double(e.x));
+    for (std::size_t i = 0; i < half.size(); ++i) EXPECT_NEAR(half[i].x, wanted[i].x, 5e-3 * most);
+}
+
+TEST(AntiradianceSolver, StopsWhenItIsToldTo) {
+    Solved solved(test::furnished_room(5), options_of(Math::strict, 32, 600), false);
+    int asked = 0;
+    EXPECT_FALSE(solved.solver.run([&](double) { return ++asked < 3; }));
+    EXPECT_EQ(asked, 3);
+    EXPECT_TRUE(solved.solver.run());
+    EXPECT_TRUE(solved.solver.status().converged);
+}
+
+TEST(AntiradianceSolver, RefusesWhatItCannotDo) {
+    const Scene scene = test::furnished_room(5);
+    const auto refused = [&](auto&& change) {
+        AntiradianceOptions options = options_of(Math::strict, 32, 300);
+        change(options);
+        EXPECT_THROW(Solved(scene, options, false), Error);
+    };
+    refused([](AntiradianceOptions& o) { o.bins = 31; });
+    refused([](AntiradianceOptions& o) { o.steps = -1; });
+    refused([](AntiradianceOptions& o) { o.most_steps = 0; });
+    refused([](AntiradianceOptions& o) { o.residual = std::nan(""); });
+    refused([](AntiradianceOptions& o) { o.links.bin_share = 0.0; });
+    refused([](AntiradianceOptions& o) { o.elements.wished = 0; });
+    AntiradianceOptions small = options_of(Math::strict, 32, 300);
+    small.memory_budget = 1000;
+    EXPECT_THROW(Solved(scene, small, false), DeviceError);
+    Scene empty = test::plain_scene();
+    EXPECT_THROW(Solved(empty, options_of(Math::strict, 32, 300), false), Error);
+}
+
+}  // namespace
+}  // namespace clgi
