@@ -57,7 +57,7 @@ public:
         out_.width = std::min(count, most_columns);
         out_.height = (count + most_columns - 1) / most_columns;
         out_.methods = {transfer_fine, transfer_levels};
-        out_.knobs = {"sh-order", "mask", "mask-block", "table", "coarse", "rings", "spp"};
+        out_.knobs = {"sh-order", "mask", "mask-block", "cells", "table", "coarse", "rings", "spp"};
         place();
         smooth_environment_of_scene();
         const reference::PathTracer full(scene_), smooth(smooth_);

@@ -8,6 +8,15 @@ namespace {
 
 using Values = std::vector<int>;
 
+constexpr CellIntegral integrals[] = {CellIntegral::monte_carlo, CellIntegral::centre,
+                                      CellIntegral::exact};
+
+const char* name_of(CellIntegral cells) {
+    return cells == CellIntegral::exact    ? "exact"
+           : cells == CellIntegral::centre ? "centre"
+                                           : "monte-carlo";
+}
+
 class List {
 public:
     List(bool quick, std::size_t triangles, bool levels, const BuildOptions& build)
@@ -26,6 +35,7 @@ public:
     std::vector<TransferSettings> operator()() {
         const auto mask = [](TransferSettings& to, int n) { to.options.masks.size = n; };
         const auto block = [](TransferSettings& to, int n) { to.options.masks.block = n; };
+        const auto cells = [](TransferSettings& to, int n) { to.options.cells = integrals[n]; };
         const auto table = [](TransferSettings& to, int n) {
             to.options.masks.planes = n > 0 ? EdgePlanes::table : EdgePlanes::exact;
             if (n > 0) to.options.masks.table_size = n;
@@ -37,6 +47,7 @@ public:
         const auto rings = [](TransferSettings& to, int n) { to.options.rings = n; };
         vary(fine_, "mask", {8, 32}, {8, 16, 32, 64, 128}, mask);
         vary(fine_, "mask-block", {8, 2}, {8, 4, 2, 1}, block);
+        vary(fine_, "cells", {0, 1, 2}, {0, 1, 2}, cells);
         vary(fine_, "table", {32, 0}, {32, 64, 128, 256, 0}, table);
         vary(fine_, "sh-order", {2, 4}, {2, 3, 4, 5, 6, 7, 8}, order);
         if (levels_) {
@@ -81,6 +92,7 @@ private:
         one.knobs = {{"sh-order", std::to_string(masks.bands - 1)},
                      {"mask", std::to_string(masks.size)},
                      {"mask-block", std::to_string(masks.block)},
+                     {"cells", name_of(one.options.cells)},
                      {"table", masks.planes == EdgePlanes::table ? std::to_string(masks.table_size)
                                                                  : "off"}};
         if (one.coarse > 0) {

@@ -33,7 +33,7 @@ void add_series(const Sweep& sweep, const std::string& series, std::vector<std::
 
 std::vector<std::string> transfer_summary(const Sweep& sweep) {
     std::vector<std::string> out;
-    for (const char* series : {"mask", "mask-block", "table", "sh-order", "coarse", "rings"})
+    for (const char* series : {"mask", "mask-block", "cells", "table", "sh-order", "coarse", "rings"})
         add_series(sweep, series, out);
     const auto pairs = at_equal_error(sweep, transfer_fine, transfer_levels, smooth_environment);
     if (!pairs.empty()) {
