@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
 #include <clgi/error.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,16 +24,22 @@ TEST(TransferSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
     for (const bool quick : {true, false}) {
         std::map<std::string, std::map<std::string, std::set<std::string>>> values;
         std::set<std::string> seen;
-        for (const TransferSettings& one : transfer_settings(quick, 16000, true)) {
+        for (const TransferSettings& one : transfer_settings(quick, 16000, true, true)) {
             std::string text = one.series;
             for (const auto& [name, value] : one.knobs) {
                 text += " " + name + " " + value;
                 values[one.series][name].insert(value);
             }
             EXPECT_TRUE(seen.insert(text).second) << text;
-            EXPECT_EQ(one.method, one.coarse > 0 ? transfer_levels : transfer_fine);
+            EXPECT_EQ(one.method, one.looks > 0    ? transfer_sets
+                                  : one.coarse > 0 ? transfer_levels
+                                                   : transfer_fine);
+            EXPECT_EQ(one.knobs.count("looks"), one.looks > 0 ? 1u : 0u);
             EXPECT_EQ(one.knobs.at("mask"), std::to_string(one.options.masks.size));
             EXPECT_EQ(one.knobs.at("sh-order"), std::to_string(one.options.masks.bands - 1));
+            EXPECT_EQ(one.knobs.at("cells") == "exact", one.options.cells == CellIntegral::exact);
+            EXPECT_EQ(one.knobs.at("cells") == "monte-carlo",
+                      one.options.cells == CellIntegral::monte_carlo);
             EXPECT_EQ(one.knobs.at("table") == "off",
                       one.options.masks.planes == EdgePlanes::exact);
         }
@@ -46,19 +53,31 @@ TEST(TransferSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
                 else
                     EXPECT_EQ(different.size(), 1u) << series << " varies " << name;
         }
-        EXPECT_EQ(varied, (std::set<std::string>{"mask", "mask-block", "table", "sh-order",
-                                                 "coarse", "rings"}));
+        EXPECT_EQ(varied, (std::set<std::string>{"mask", "mask-block", "cells", "table", "sh-order",
+                                                 "coarse", "rings", "looks"}));
     }
 }
 
 // Too few triangles, or a build without clgi::mesh: one level alone.
 TEST(TransferSweepSettings, DoWithoutTwoLevels) {
     for (const auto& list :
-         {transfer_settings(false, 12, true), transfer_settings(false, 16000, false)})
+         {transfer_settings(false, 12, true, true), transfer_settings(false, 16000, false, true)})
         for (const TransferSettings& one : list) {
             EXPECT_EQ(one.coarse, 0u);
-            EXPECT_EQ(one.method, transfer_fine);
+            EXPECT_NE(one.method, transfer_levels);
         }
+}
+
+// What stands still is looked at once.
+TEST(TransferSweepSettings, LookOnceAtWhatStandsStill) {
+    for (const bool quick : {true, false}) {
+        int with_sets = 0;
+        for (const TransferSettings& one : transfer_settings(quick, 16000, true, false)) {
+            EXPECT_LE(one.looks, 1);
+            with_sets += one.looks;
+        }
+        EXPECT_GT(with_sets, 0);
+    }
 }
 
 // A sun rings below 0 in five bands; smoothed it does not, and its mean stays.
@@ -105,6 +124,32 @@ Scene small_scene() {
     return scene;
 }
 
+// The sphere rolls without turning, from left to right in a second.
+Scene moving_scene() {
+    Scene scene = small_scene();
+    constexpr std::uint32_t first = 256;  // vertices of the floor
+    Animation animation;
+    animation.nodes.emplace_back();
+    PosedRange range;
+    range.first_vertex = first;
+    range.vertex_count = static_cast<std::uint32_t>(scene.positions.size()) - first;
+    for (std::size_t v = first; v < scene.positions.size(); ++v) {
+        animation.rest_positions.emplace_back(scene.positions[v]);
+        animation.rest_normals.push_back(scene.normals[v]);
+    }
+    animation.ranges = {range};
+    AnimationClip clip;
+    clip.duration = 1.0;
+    Curve curve;
+    curve.times = {0.0f, 1.0f};
+    curve.values = {-0.8f, 0.0f, 0.0f, 0.8f, 0.0f, 0.0f};
+    clip.curves = {curve};
+    clip.channels = {Channel{}};
+    animation.clips = {clip};
+    scene.animation = animation;
+    return scene;
+}
+
 class TransferSweep : public testing::Test {
 protected:
     static SweepSetup setup(const Scene& scene, const std::filesystem::path& folder) {
@@ -145,6 +190,17 @@ TEST_F(TransferSweep, FindsTheErrorOfMasks) {
     EXPECT_EQ(made().non_finite, 0u);
 }
 
+// 812 random directions err by about a thirtieth, integrals over cells by a hundredth.
+TEST_F(TransferSweep, TellsRandomDirectionsFromIntegrals) {
+    const auto cells = points_of(made(), "cells");
+    ASSERT_EQ(cells.size(), 3u);
+    for (const std::size_t truth : {full_environment, smooth_environment}) {
+        EXPECT_GT(cells[0]->error[truth], 1.5 * cells[2]->error[truth]);
+        EXPECT_LT(cells[0]->error[truth], 0.05);
+        EXPECT_LT(cells[1]->error[truth], 0.015);
+    }
+}
+
 TEST_F(TransferSweep, MeasuresBothMethodsAndThePathTracer) {
     std::map<std::string, int> count, front;
     std::map<std::string, std::vector<double>> traced;
@@ -162,7 +218,7 @@ TEST_F(TransferSweep, MeasuresBothMethodsAndThePathTracer) {
         for (std::size_t k = 0; k < 2; ++k)
             EXPECT_NEAR(traced[truth][k + 1] / traced[truth][k], 0.5, 0.15) << truth;
     }
-    for (const char* method : {transfer_fine, transfer_levels, path_tracer_name}) {
+    for (const char* method : {transfer_fine, transfer_levels, transfer_sets, path_tracer_name}) {
         if (method == transfer_levels && !can_simplify()) continue;
         EXPECT_GT(count[method], 0) << method;
         EXPECT_GT(front[method], 0) << method;
@@ -173,8 +229,8 @@ TEST_F(TransferSweep, WritesFilesThatStandAlone) {
     const test::TempFolder out;
     const std::string why = save_sweep(made(), {"clgi sweep <me>", "1.2.3"}, out.path());
     const std::string csv = text(out.path() / "sweep.csv");
-    EXPECT_EQ(csv.rfind("method,series,sh-order,mask,mask-block,table,coarse,rings,spp,ms,error "
-                        "full,front full,error smooth,front smooth,energy ratio\n",
+    EXPECT_EQ(csv.rfind("method,series,sh-order,mask,mask-block,cells,table,coarse,rings,looks,spp,"
+                        "ms,error full,front full,error smooth,front smooth,energy ratio\n",
                         0),
               0u)
         << csv.substr(0, 200);
@@ -186,20 +242,62 @@ TEST_F(TransferSweep, WritesFilesThatStandAlone) {
             if (c == '"') quoted = !quoted;
             columns += c == ',' && !quoted;
         }
-        EXPECT_EQ(columns, 15) << line;
+        EXPECT_EQ(columns, 17) << line;
     }
     const auto json = nlohmann::json::parse(text(out.path() / "sweep.json"));
     EXPECT_EQ(json.at("points").size(), made().points.size());
     EXPECT_EQ(json.at("references").size(), 2u);
+    for (const auto& point : json.at("points")) {
+        EXPECT_EQ(point.contains("look_ms"), point.at("method") == transfer_sets);
+        EXPECT_GT(point.value("look_ms", 1.0), 0.0);
+    }
     const std::string page = text(out.path() / "index.html");
+    EXPECT_NE(page.find("<h2>Visible sets</h2>"), std::string::npos);
     EXPECT_NE(page.find("places of vertices"), std::string::npos);
     EXPECT_EQ(page.find("<img"), std::string::npos) << "vertices are no picture";
     if (!why.empty()) GTEST_SKIP() << why;
     for (const char* name : {"error-full.svg", "error-smooth.svg"}) {
         const std::string plot = text(out.path() / name);
-        for (const char* words : {"milliseconds for all vertices", "transfer, front",
-                                  "two-level transfer, front", "path tracer"})
+        for (const char* words :
+             {"milliseconds for all vertices", "transfer, front", "two-level transfer, front",
+              "transfer with visible sets, front", "path tracer"})
             EXPECT_NE(plot.find(words), std::string::npos) << words;
+    }
+}
+
+// Receivers that look at what they see alone have the same masks, so the same error.
+TEST_F(TransferSweep, LooksAtTheSceneAsItIs) {
+    const auto sets = points_of(made(), "looks");
+    ASSERT_EQ(sets.size(), 1u);
+    EXPECT_EQ(sets[0]->knobs.at("looks"), "1");
+    EXPECT_EQ(sets[0]->error, points_of(made(), "mask")[1]->error);
+    EXPECT_GT(sets[0]->look_milliseconds.value_or(0.0), 0.0);
+}
+
+// Frames that were looked at lose nothing, and others the more, the farther they are from one.
+TEST_F(TransferSweep, LooksAtFramesOfTheClip) {
+    const Scene animated = moving_scene();
+    const auto errors = [&](double seconds) {
+        const Scene scene = posed(animated, pose_at(*animated.animation, 0, seconds));
+        const test::TempFolder out;
+        SweepSetup how = setup(scene, out.path());
+        how.path_tracer = false;
+        how.reference_samples = 256;
+        const Sweep sweep = sweep_transfer(how, {&animated, 0});
+        const auto looks = points_of(sweep, "looks");
+        EXPECT_EQ(looks.size(), 2u);
+        EXPECT_EQ(looks[0]->knobs.at("looks"), "2");
+        EXPECT_EQ(looks[1]->knobs.at("looks"), "8");
+        EXPECT_GT(*looks[1]->look_milliseconds, *looks[0]->look_milliseconds);
+        return std::array{looks[0]->error, looks[1]->error, points_of(sweep, "mask")[1]->error};
+    };
+    const auto [two, eight, all] = errors(0.5);
+    EXPECT_EQ(two, all);
+    EXPECT_EQ(eight, all);
+    const auto [few, more, every] = errors(1.0);  // the clip's end is none of them
+    for (const std::size_t truth : {full_environment, smooth_environment}) {
+        EXPECT_GT(few[truth], 2.0 * more[truth]);
+        EXPECT_GT(more[truth], every[truth]);
     }
 }
 

@@ -223,7 +223,8 @@ TEST_P(Transfer, IsTheSumOverOpenPixels) {
     eyes.normals.clear();
     for (int i = 0; i < 21; ++i)
         eyes.normals.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1), 0);
-    for (const CellIntegral integral : {CellIntegral::exact, CellIntegral::centre})
+    for (const CellIntegral integral :
+         {CellIntegral::exact, CellIntegral::centre, CellIntegral::monte_carlo})
         for (const MaskOptions& masks : {options(16, 1, 3), options(32, 2, 5), options(32, 4, 5),
                                          options(64, 4, 4), options(64, 8, 9)}) {
             const Drawn drawn = test::draw_masks(Blockers(triangles), eyes, masks, how);

@@ -84,6 +84,13 @@ void run_sweep(const SweepFlags& flags) {
     refuse(!of_atlas(flags), flags.atlas_only, "only with --method atlas");
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment,
                                    flags.device.quiet, of_atlas(flags));
+    report::TransferSweep motion;
+    Scene animated;  // as it was before it is posed
+    if (of_transfer(flags) && flags.animation.given()) {
+        motion.clip = clip_of("sweep", scene, flags.animation);
+        animated = scene;
+        motion.animated = &animated;
+    }
     pose_scene("sweep", flags.animation, scene);
     const report::PictureSweep pictures =
         of_atlas(flags) || of_transfer(flags) ? report::PictureSweep() : pictures_of(flags, scene);
@@ -104,7 +111,7 @@ void run_sweep(const SweepFlags& flags) {
     report::Sweep result;
     try {
         result = of_atlas(flags)      ? report::sweep_atlas(setup, atlas_of(flags))
-                 : of_transfer(flags) ? report::sweep_transfer(setup)
+                 : of_transfer(flags) ? report::sweep_transfer(setup, motion)
                                       : report::sweep_pictures(setup, pictures);
     } catch (const Error&) {
         if (interrupted()) throw Interrupted();

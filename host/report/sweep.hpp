@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct SweepPoint {
     std::string series;  // the knob that is varied alone, or "grid"; of the path tracer, the truth
     std::map<std::string, std::string> knobs;
     double milliseconds = 0.0;  // median of a whole frame or bake
+    // Of settings with visible sets: finding these, once, which is no part of a frame.
+    std::optional<double> look_milliseconds;
     std::vector<double> error;  // [truths] relative_error() against each
     double energy = 0.0;        // mean over the mean of the first truth
     std::vector<bool> front;    // [truths] on its method's Pareto front against this truth

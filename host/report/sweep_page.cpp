@@ -126,6 +126,28 @@ std::string fillings_table(const Sweep& sweep) {
     return out + "</table>\n";
 }
 
+// What visible sets take once, and what a frame with them.
+std::string sets_table(const Sweep& sweep) {
+    std::string rows;
+    for (const SweepPoint& point : sweep.points) {
+        if (!point.look_milliseconds) continue;
+        rows +=
+            fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{:.2f}</td>", point.method,
+                        escaped(knobs_text(point)), *point.look_milliseconds, point.milliseconds);
+        for (const double error : point.error)
+            rows += fmt::format("<td>{:.2f}</td>", 100.0 * error);
+        rows += "</tr>\n";
+    }
+    if (rows.empty()) return "";
+    std::string out =
+        "<h2>Visible sets</h2>\n<p>Looking is done once, before all frames, and is no part of "
+        "their time.</p>\n<table><tr><th>method</th><th>settings</th><th>looking, ms</th>"
+        "<th>ms</th>";
+    for (const SweepTruth& truth : sweep.truths)
+        out += fmt::format("<th>error %, {}</th>", truth.name);
+    return out + "</tr>\n" + rows + "</table>\n";
+}
+
 std::string math_table(const Sweep& sweep) {
     const std::vector<MathMode> modes = math_modes(sweep);
     if (modes.empty()) return "";
@@ -180,7 +202,8 @@ std::string sweep_page(const Sweep& sweep, const SweepNote& note,
             (sweep.of == SweepOf::pictures && t != unshadowed_bounce))
             out += gallery(sweep, t);
     }
-    return out + (sweep.of == SweepOf::atlas ? fillings_table(sweep) : "") + math_table(sweep) + "</body></html>\n";
+    return out + (sweep.of == SweepOf::atlas ? fillings_table(sweep) : "") + sets_table(sweep) +
+           math_table(sweep) + "</body></html>\n";
 }
 
 std::string save_sweep(const Sweep& sweep, const SweepNote& note,

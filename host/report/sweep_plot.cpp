@@ -38,7 +38,7 @@ std::string quoted(const std::string& name) {
 std::string script(const Sweep& sweep, std::size_t truth, const std::string& file) {
     constexpr struct {
         const char *all, *front;
-    } colors[] = {{"#9ecae1", "#08519c"}, {"#a1d99b", "#006d2c"}};
+    } colors[] = {{"#9ecae1", "#08519c"}, {"#a1d99b", "#006d2c"}, {"#bcbddc", "#54278f"}};
     const char* unit = sweep.of == SweepOf::atlas      ? "a bake"
                        : sweep.of == SweepOf::vertices ? "for all vertices"
                                                        : "a frame";

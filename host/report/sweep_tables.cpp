@@ -79,6 +79,7 @@ std::string sweep_json(const Sweep& sweep, const SweepNote& note) {
                                       {"knobs", point.knobs},
                                       {"ms", point.milliseconds},
                                       {"energy_ratio", point.energy}};
+        if (point.look_milliseconds) row["look_ms"] = *point.look_milliseconds;
         for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
             row["error"][sweep.truths[t].name] = point.error[t];
             row["front"][sweep.truths[t].name] = bool{point.front[t]};

@@ -38,8 +38,9 @@ Scene without_lamps(const Scene& scene) {
 
 class Run {
 public:
-    explicit Run(const SweepSetup& setup)
+    Run(const SweepSetup& setup, const TransferSweep& motion)
         : setup_(setup),
+          motion_(motion),
           progress_(setup.progress),
           scene_(without_lamps(setup.scene)),
           smooth_(scene_),
@@ -56,8 +57,9 @@ public:
         out_.triangles = scene_.triangles.size();
         out_.width = std::min(count, most_columns);
         out_.height = (count + most_columns - 1) / most_columns;
-        out_.methods = {transfer_fine, transfer_levels};
-        out_.knobs = {"sh-order", "mask", "mask-block", "table", "coarse", "rings", "spp"};
+        out_.methods = {transfer_fine, transfer_levels, transfer_sets};
+        out_.knobs = {"sh-order", "mask",  "mask-block", "cells", "table",
+                      "coarse",   "rings", "looks",      "spp"};
         place();
         smooth_environment_of_scene();
         const reference::PathTracer full(scene_), smooth(smooth_);
@@ -226,6 +228,14 @@ private:
         DynamicTransferOptions options = one.options;
         if (one.coarse > 0) options.coarse = coarse_mesh(scene_, one.coarse);
         DynamicTransferSolver solver(programs_, setup_.queue, scene_, device_scene_, options);
+        if (one.looks > 0) {
+            TransferLooks& looks = looks_[one.knobs];
+            if (times.empty())
+                looks = look_at_frames(setup_.queue, programs_, scene_, motion_, options, one.looks,
+                                       [&] { progress_.report(done_); });
+            solver.restrict(looks.sets);
+            point.look_milliseconds = looks.milliseconds;
+        }
         solver.transfer();  // warms up
         solver.light().wait();
         constexpr int runs = 3;
@@ -247,7 +257,8 @@ private:
     // once, whatever series they are in.
     void transfer() {
         const std::vector<TransferSettings> settings =
-            transfer_settings(setup_.quick, scene_.triangles.size(), can_simplify(), setup_.build);
+            transfer_settings(setup_.quick, scene_.triangles.size(), can_simplify(),
+                              motion_.animated != nullptr, setup_.build);
         std::map<std::map<std::string, std::string>, std::size_t> first;
         for (std::size_t k = 0; k < settings.size(); ++k) first.try_emplace(settings[k].knobs, k);
         std::vector<SweepPoint> points(settings.size());
@@ -255,9 +266,9 @@ private:
         const double steps = setup_.rounds * static_cast<double>(settings.size());
         for (int round = 0; round < setup_.rounds; ++round)
             for (std::size_t k = 0; k < settings.size(); ++k) {
-                progress_.report(
-                    (round * static_cast<double>(settings.size()) + static_cast<double>(k)) /
-                    steps);
+                done_ =
+                    (round * static_cast<double>(settings.size()) + static_cast<double>(k)) / steps;
+                progress_.report(done_);
                 if (first[settings[k].knobs] != k) continue;
                 if (round == 0 || times[k].front() <= slow)
                     measure(settings[k], times[k], points[k]);
@@ -276,6 +287,7 @@ private:
     static constexpr double slow = 3000.0;  // milliseconds: noise is small beside these
 
     const SweepSetup& setup_;
+    TransferSweep motion_;
     SweepProgress progress_;
     Scene scene_, smooth_;
     DeviceScene device_scene_;
@@ -283,12 +295,16 @@ private:
     std::vector<std::uint32_t> vertices_;  // of the scene, those that count
     std::vector<reference::Place> places_;
     std::vector<glm::dvec3> light_;  // of smooth_, cd/m^2 sr
+    std::map<std::map<std::string, std::string>, TransferLooks> looks_;  // by knobs
+    double done_ = 0.0;
     Mask counted_;
     Sweep out_;
 };
 
 }  // namespace
 
-Sweep sweep_transfer(const SweepSetup& setup) { return Run(setup)(); }
+Sweep sweep_transfer(const SweepSetup& setup, const TransferSweep& motion) {
+    return Run(setup, motion)();
+}
 
 }  // namespace clgi::report

@@ -11,6 +11,7 @@ namespace clgi::report {
 
 inline constexpr const char* transfer_fine = "transfer";
 inline constexpr const char* transfer_levels = "two-level transfer";
+inline constexpr const char* transfer_sets = "transfer with visible sets";
 
 // What irradiance is compared with, of Sweep::truths.
 enum TransferTruth : std::size_t {
@@ -20,11 +21,17 @@ enum TransferTruth : std::size_t {
                         // five bands or more, what is left is the error of the vectors
 };
 
-// Methods transfer_fine and transfer_levels, timed over transfer() alone, warm; truths "full" and
-// "smooth". Lights other than the environment are left out. Vertices count that have triangles and
-// sees_sky(), with their front sides. Throws what its parts throw, InputError for a scene without environment or without
-// triangles, and Error when cancelled.
-Sweep sweep_transfer(const SweepSetup& setup);
+// The motion that the pose of a sweep is a moment of.
+struct TransferSweep {
+    const Scene* animated = nullptr;  // with animation, before it was posed; null: it stands still
+    std::size_t clip = 0;
+};
+
+// Methods transfer_fine, transfer_levels and transfer_sets, timed over transfer() alone, warm;
+// truths "full" and "smooth". Lights other than the environment are left out. Vertices count that
+// have triangles and sees_sky(), with their front sides. Throws what its parts throw, InputError
+// for a scene without environment or without triangles, and Error when cancelled.
+Sweep sweep_transfer(const SweepSetup& setup, const TransferSweep& motion = {});
 
 // The settings that such a sweep tries, by series: the knob that is varied alone, from the least
 // accurate value on, or "grid". coarse: triangles of the far mesh; 0: none.
@@ -33,10 +40,24 @@ struct TransferSettings {
     std::map<std::string, std::string> knobs;
     DynamicTransferOptions options;  // without the mesh itself
     std::size_t coarse = 0;
+    int looks = 0;  // frames whose potentially visible sets masks look at; 0: at all triangles
 };
-// triangles: of the scene. levels: whether meshes can be simplified.
+// triangles: of the scene. levels: whether meshes can be simplified. moves: whether visible sets
+// are of the frames of a clip; else of the pose itself.
 std::vector<TransferSettings> transfer_settings(bool quick, std::size_t triangles, bool levels,
-                                                const BuildOptions& build = {});
+                                                bool moves, const BuildOptions& build = {});
+
+// Potentially visible sets of frames spread evenly over the clip, from its beginning on; without
+// motion of the scene as it is, however many frames.
+struct TransferLooks {
+    VisibleSets sets;           // for DynamicTransferSolver::restrict, of this scene and options
+    double milliseconds = 0.0;  // of looking, warm, and of making lists; without posing
+};
+// scene: in the pose that is measured. step: called before each frame.
+TransferLooks look_at_frames(const cl::CommandQueue& queue, const Programs& programs,
+                             const Scene& scene, const TransferSweep& motion,
+                             const DynamicTransferOptions& options, int frames,
+                             const std::function<void()>& step);
 
 // Radiance in the first bands of an environment's coefficients, smoothed by smoothing_window until
 // it is nowhere below 0 in any channel, and the picture of it.

@@ -27,13 +27,20 @@ void add_series(const Sweep& sweep, const std::string& series, std::vector<std::
         list([&](const SweepPoint& p) { return p.knobs.at(series); }),
         list(error(full_environment)), list(error(smooth_environment)),
         list([](const SweepPoint& p) { return fmt::format("{:.1f}", p.milliseconds); })));
+    if (points.front()->look_milliseconds)
+        out.push_back(fmt::format("Finding the visible sets, once before all frames, took {} ms.",
+                                  list([](const SweepPoint& p) {
+                                      return fmt::format("{:.0f}",
+                                                         p.look_milliseconds.value_or(0.0));
+                                  })));
 }
 
 }  // namespace
 
 std::vector<std::string> transfer_summary(const Sweep& sweep) {
     std::vector<std::string> out;
-    for (const char* series : {"mask", "mask-block", "table", "sh-order", "coarse", "rings"})
+    for (const char* series :
+         {"mask", "mask-block", "cells", "table", "sh-order", "coarse", "rings", "looks"})
         add_series(sweep, series, out);
     const auto pairs = at_equal_error(sweep, transfer_fine, transfer_levels, smooth_environment);
     if (!pairs.empty()) {
@@ -47,6 +54,7 @@ std::vector<std::string> transfer_summary(const Sweep& sweep) {
     }
     add_speedups(sweep, transfer_fine, out);
     add_speedups(sweep, transfer_levels, out);
+    add_speedups(sweep, transfer_sets, out);
     return out;
 }
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/planes.hpp>
 
-#include "opencl/check.hpp"
 #include "solvers/dynamic_transfer_state.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr const char* owner = "dynamic-transfer";
 
 MaskWeights windowed(MaskWeights weights, sh::Window kind) {
     if (kind == sh::Window::none) return weights;
@@ -26,27 +21,15 @@ MaskWeights windowed(MaskWeights weights, sh::Window kind) {
 DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQueue& on,
                                     const Scene& file, const DeviceScene& of,
                                     const DynamicTransferOptions& wanted)
-    : queue(on),
-      scene(of),
-      options(wanted),
-      glossy(wanted.gloss && of.has_lobes()),
-      vertices(file, of),
-      levels(blocker_levels(file, of, wanted.coarse, wanted.rings)),
+    : TransferBuffers(file, of, wanted),
+      queue(on),
       masks(programs, wanted.masks, wanted.build),
       sides(programs, wanted.build),
       projection(programs, wanted.build, wanted.masks.bands),
-      sky(scene, wanted.masks.bands, wanted.directional),
-      record(queue, owner),
+      record(queue, transfer_owner),
       cells(windowed(
           mask_weights(wanted.masks.size, wanted.masks.block, wanted.masks.bands, wanted.cells),
           wanted.window)) {
-    need_range(owner, "bounces", options.bounces, 0, 1);
-    vertices.add_other_sides(levels);
-    receivers.count = vertices.count();
-    receivers.stride = plane_stride(receivers.count);
-    both.triangle_count = static_cast<std::uint32_t>(levels.triangles.size());
-    both.stride = blocker_stride(both.triangle_count);
-    both.receivers_per_list = levels.receivers_per_list;
     const BufferTable rows = table();
     rows.check(queue.getInfo<CL_QUEUE_DEVICE>(), options.memory_budget, scene.bytes());
     rows.allocate(record);
@@ -71,54 +54,6 @@ void DynamicTransferSolver::State::build() const {
         masks.build({"exitance", levels.near.empty() ? "bounce" : "bounce_near"});
 }
 
-BufferTable DynamicTransferSolver::State::table() {
-    const char* vertex = "the scene's vertices";
-    const char* triangle = "the scene's triangles";
-    const std::size_t stride = receivers.stride;
-    const auto terms = static_cast<std::size_t>(sh::terms(options.masks.bands));
-    BufferTable t(owner);
-    t.add(receivers.planes, "receivers", vertex, RECEIVER_PLANES * stride * word);
-    t.add(receivers.masks, "masks", "mask size",
-          static_cast<std::size_t>(MASK_WORDS(options.masks.size)) * stride * word);
-    t.add(receivers.transfer, "transfer vectors", "bands", terms * stride * word);
-    t.add(irradiance, "irradiance", vertex, 3 * stride * word);
-    t.add(other_side, "other sides", vertex, vertices.other_side.size() * word);
-    t.add(fronts, "other sides", vertex, vertices.fronts.size() * word);
-    if (glossy) {
-        t.add(lobes, "transfer vectors of lobes", "bands", terms * stride * word);
-        t.add(gloss, "gloss", vertex, 3 * stride * word);
-        t.add(exponents, "exponents of lobes", vertex, stride * word);
-    }
-    t.add(triangles, "triangles that block", triangle,
-          levels.triangles.size() * sizeof(glm::uvec4));
-    t.add(both.corners, "blockers", triangle, BLOCKER_PLANES * word * both.stride);
-    t.add(both.boxes, "boxes of blockers", triangle,
-          both.stride / BLOCKER_CLUSTER * sizeof(BlockerBox));
-    t.add(both.lists, "lists of clusters", triangle, levels.lists.size() * word);
-    t.add(both.ranges, "lists of clusters", triangle, levels.ranges.size() * word);
-    t.add(fine.lists, "lists of clusters", triangle, 2 * word);
-    t.add(fine.ranges, "lists of clusters", triangle, 2 * word);
-    if (!levels.near.empty()) {
-        t.add(both.near_lists, "lists of singles", triangle, levels.near_lists.size() * word);
-        t.add(both.near, "lists of singles", triangle, levels.near.size() * word);
-    }
-    if (options.bounces > 0) {
-        t.add(reflectance, "reflectances", vertex, 3 * stride * word);
-        t.add(exitance, "light of triangles", triangle,
-              2 * levels.triangles.size() * sizeof(glm::vec4));
-        t.add(heights, "heights of pixels", "mask size",
-              pixel_heights(options.masks.size).size() * word);
-    }
-    t.add(drawn, "the table of planes", "table size", mask_table_bytes(options.masks));
-    t.add(weights, "weights of cells", "bands", cells.values.size() * word);
-    t.add(directions, "directions of cells", "mask size",
-          cells.directions.size() * sizeof(glm::vec4));
-    t.add(status, "counters", "nothing", MASK_STATUS_WORDS * word);
-    t.add_word(bad, "counters", 0);
-    sky.add_to(t);
-    return t;
-}
-
 void DynamicTransferSolver::State::write(const Scene& file) {
     record.fill(status, 0);
     put(other_side, vertices.other_side);
@@ -132,11 +67,6 @@ void DynamicTransferSolver::State::write(const Scene& file) {
     const std::uint32_t fine_clusters = blocker_stride(levels.fine_count) / BLOCKER_CLUSTER;
     put(fine.lists, std::vector<std::uint32_t>{0, 1});
     put(fine.ranges, std::vector<std::uint32_t>{0, fine_clusters});
-    const bool shared = levels.receivers_per_list != 1;
-    for (std::size_t i = 1; i < levels.ranges.size(); i += 2)
-        listed_triangles +=
-            std::size_t{levels.ranges[i]} * BLOCKER_CLUSTER * (shared ? receivers.count : 1);
-    listed_triangles += levels.near.size();
     put(weights, cells.values);
     put(directions, cells.directions);
     sky.write(record);

@@ -6,7 +6,7 @@ namespace clgi {
 
 cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
     if (!seen()) {
-        BufferTable t("dynamic-transfer");
+        BufferTable t(transfer_owner);
         t.add(seen, "bits of visible sets", "the scene's vertices",
               visible_words(both.triangle_count) * receivers.stride * sizeof(std::uint32_t));
         if (!heights())
@@ -48,7 +48,7 @@ void DynamicTransferSolver::State::restrict(const VisibleSets& sets) {
     // Those of the hierarchy stay: look() goes on with them.
     blockers.lists = blockers.ranges = blockers.near_lists = blockers.near = cl::Buffer();
     blockers.receivers_per_list = ~0u;
-    BufferTable t("dynamic-transfer");
+    BufferTable t(transfer_owner);
     t.add_word(blockers.lists, "lists of clusters", 0);
     t.add_word(blockers.ranges, "lists of clusters", 0);
     t.add(blockers.near_lists, "lists of singles", "the scene's vertices",

@@ -22,14 +22,36 @@ struct SceneReceivers {
 
     // [3][stride] of the receivers' diffuse reflectance: means of the triangles around them.
     std::vector<float> reflectances(const Scene& scene, const DeviceScene& device,
-                                   std::size_t stride) const;
+                                    std::size_t stride) const;
 };
 
-struct DynamicTransferSolver::State {
+inline constexpr const char* transfer_owner = "dynamic-transfer";
+
+// All that the solver allocates, and what its size follows from. Without kernels and queue.
+struct TransferBuffers {
+    // Throws Error for options out of range.
+    TransferBuffers(const Scene& file, const DeviceScene& of, const DynamicTransferOptions& wanted);
+
+    BufferTable table();
+
+    const DeviceScene& scene;
+    DynamicTransferOptions options;
+    bool glossy;
+    SceneReceivers vertices;
+    BlockerLevels levels;
+    EnvironmentLight sky;
+    ReceiverBuffers receivers;
+    BlockerBuffers both;               // levels, with the lists of the hierarchy
+    BlockerBuffers fine;               // the scene's triangles alone, one list
+    std::size_t listed_triangles = 0;  // of all receivers together
+    cl::Buffer triangles, irradiance, gloss, lobes, exponents, other_side, fronts, drawn, heights,
+        weights, directions, status, bad, reflectance, exitance;
+};
+
+struct DynamicTransferSolver::State : TransferBuffers {
     State(const Programs& programs, const cl::CommandQueue& on, const Scene& file,
           const DeviceScene& of, const DynamicTransferOptions& wanted);
 
-    BufferTable table();
     void build() const;
     void write(const Scene& file);
 
@@ -50,24 +72,13 @@ struct DynamicTransferSolver::State {
     void restrict(const VisibleSets& sets);
 
     cl::CommandQueue queue;
-    const DeviceScene& scene;
-    DynamicTransferOptions options;
-    bool glossy;
-    SceneReceivers vertices;
-    BlockerLevels levels;
     MaskPasses masks;
     ReceiverPasses sides;
     TransferPasses projection;
-    EnvironmentLight sky;
     mutable Recorder record;
     MaskWeights cells;
-    ReceiverBuffers receivers;
-    BlockerBuffers both;      // levels, with the lists of the hierarchy
-    BlockerBuffers blockers;  // with the lists that masks look at: the same, or visible sets
-    BlockerBuffers fine;      // the scene's triangles alone, one list
-    std::size_t listed_triangles = 0;  // of all receivers together
-    cl::Buffer triangles, irradiance, gloss, lobes, exponents, other_side, fronts, drawn, heights,
-        weights, directions, status, bad, seen, reflectance, exitance;
+    BlockerBuffers blockers;  // with the lists that masks look at: those of both, or visible sets
+    cl::Buffer seen;
     std::size_t bytes = 0;
 };
 

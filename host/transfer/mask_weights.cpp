@@ -5,6 +5,7 @@
 #include <clgi/mask_weights.hpp>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace clgi {
 namespace {
@@ -159,6 +160,9 @@ void check(int size, int block, int bands) {
 struct Cells {
     int size, block, side;
     double low(int k) const { return 2.0 * k * block / size - 1.0; }
+    int at(double x) const {  // the column or row of the pixel there
+        return std::clamp(static_cast<int>(0.5 * (x + 1.0) * size), 0, size - 1) / block;
+    }
     double middle(int k) const { return 0.5 * (low(k) + low(k + 1)); }
     double farthest(int k) const {  // squared, from the middle of the disc
         return std::max(low(k) * low(k), low(k + 1) * low(k + 1));
@@ -173,6 +177,49 @@ struct Cells {
         return out;
     }
 };
+
+// [cells][terms + 3]: the integrals of Y_i over the part of a cell in the disc, and of the
+// direction.
+std::vector<double> exact_sums(const Cells& grid, int bands) {
+    const auto terms = static_cast<std::size_t>(sh::terms(bands));
+    std::vector<double> sums;
+    // Limits have a root where the circle crosses a side.
+    const Rule smooth = gauss(8 * grid.block >= grid.size ? 16 : 8), cut = gauss(32);
+    for (int column = 0; column < grid.side; ++column)
+        for (int row = 0; row < grid.side; ++row) {
+            const std::size_t first = sums.size();
+            sums.resize(first + terms + 3);
+            const bool whole = grid.farthest(column) + grid.farthest(row) < 1.0;
+            integrate(grid.low(column), grid.low(column + 1), grid.low(row), grid.low(row + 1),
+                      whole ? smooth : cut, [&](double weight, const glm::dvec3& s) {
+                          const std::vector<double> y = sh::evaluate(s, bands);
+                          for (std::size_t i = 0; i < terms; ++i) sums[first + i] += weight * y[i];
+                          for (int k = 0; k < 3; ++k)
+                              sums[first + terms + static_cast<std::size_t>(k)] += weight * s[k];
+                      });
+        }
+    return sums;
+}
+
+// Puts the estimate from `count` random directions in the place of the integrals of Y_i.
+void monte_carlo(const Cells& grid, int bands, std::uint32_t count, std::vector<double>& sums) {
+    const auto terms = static_cast<std::size_t>(sh::terms(bands));
+    const std::size_t stride = terms + 3;
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        if (i % stride < terms) sums[i] = 0.0;
+    // Not std::uniform_real_distribution: its numbers differ between standard libraries.
+    std::mt19937_64 generator(static_cast<std::uint64_t>(grid.size));
+    const auto uniform = [&] { return std::ldexp(static_cast<double>(generator() >> 11), -53); };
+    for (std::uint32_t k = 0; k < count; ++k) {
+        // Uniform in the disc: the density of the direction is cos / pi.
+        const double area = uniform(), turn = 2.0 * pi * uniform();
+        const glm::dvec3 s(std::sqrt(area) * std::cos(turn), std::sqrt(area) * std::sin(turn),
+                           std::sqrt(1.0 - area));
+        const auto cell = static_cast<std::size_t>(grid.at(s.x) * grid.side + grid.at(s.y));
+        const std::vector<double> y = sh::evaluate(s, bands);
+        for (std::size_t i = 0; i < terms; ++i) sums[cell * stride + i] += y[i] * pi / count;
+    }
+}
 
 // Cells without a pixel give what they have to the nearest one that has some.
 void merge_empty(const Cells& grid, std::size_t stride, const std::vector<std::uint32_t>& pixels,
@@ -208,26 +255,14 @@ MaskWeights mask_weights(int size, int block, int bands, CellIntegral integral) 
     MaskWeights out;
     out.cells = grid.side * grid.side;
     out.bands = bands;
-    std::vector<double> sums(cells * stride);
     std::uint32_t all = 0;
-    // Limits have a root where the circle crosses a side.
-    const Rule smooth = gauss(8 * block >= size ? 16 : 8), cut = gauss(32);
     for (int column = 0; column < grid.side; ++column)
         for (int row = 0; row < grid.side; ++row) {
             out.pixels.push_back(grid.pixels(column, row));
             all += out.pixels.back();
-            const auto cell = static_cast<std::size_t>(column * grid.side + row);
-            const bool whole = grid.farthest(column) + grid.farthest(row) < 1.0;
-            integrate(grid.low(column), grid.low(column + 1), grid.low(row), grid.low(row + 1),
-                      whole ? smooth : cut, [&](double weight, const glm::dvec3& s) {
-                          const std::vector<double> y = sh::evaluate(s, bands);
-                          for (std::size_t i = 0; i < terms; ++i)
-                              sums[cell * stride + i] += weight * y[i];
-                          for (int k = 0; k < 3; ++k)
-                              sums[cell * stride + terms + static_cast<std::size_t>(k)] +=
-                                  weight * s[k];
-                      });
         }
+    std::vector<double> sums = exact_sums(grid, bands);
+    if (integral == CellIntegral::monte_carlo) monte_carlo(grid, bands, all, sums);
     merge_empty(grid, stride, out.pixels, sums);
     for (std::size_t cell = 0; cell < cells; ++cell) {
         double* c = &sums[cell * stride];

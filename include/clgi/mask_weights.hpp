@@ -25,9 +25,17 @@ namespace clgi {
 
 // What c_i of a cell is.
 enum class CellIntegral {
-    exact,  // the integral over all of the cell in the disc: without blockers nothing is lost
-    centre  // Y_i at the middle of the cell times pi times its share of pixels, as in [Kautz04];
-            // a middle outside the disc is moved to radius 0.999
+    exact,   // the integral over all of the cell in the disc: without blockers nothing is lost
+    centre,  // Y_i at the middle of the cell times pi times its share of pixels, as in [Kautz04];
+             // a middle outside the disc is moved to radius 0.999
+    // For comparison: pi / N times the sum of Y_i over those of N random directions, independent
+    // and with density cos / pi, whose pixel lies in the cell. N: the pixels in the disc. The
+    // directions depend on the size of the mask alone: all receivers share them, and every run.
+    // Over sets of directions the mean is the exact integral. Of all cells together the standard
+    // error is pi sqrt(variance of Y_i / N): 0 in the first band, and in every other term about
+    // 1 / sqrt(N) of the first term. Cells that no direction meets weigh nothing.
+    //                        [derived: Monte Carlo integration, which Kautz04, section 4, names]
+    monte_carlo
 };
 
 struct MaskWeights {

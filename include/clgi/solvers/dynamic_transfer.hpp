@@ -46,6 +46,13 @@ struct TransferStatus {
     std::uint32_t non_finite = 0;     // packets of receivers whose light is not finite
 };
 
+// What a DynamicTransferSolver of these will allocate, without look() and restrict(), and what
+// transfer(), light() and reflect() may take together. scene: what `device_scene` was made from.
+// Throws Error for options out of range; no memory is too small for it.
+CLGI_API Estimate estimate(const cl::Device& device, const Scene& scene,
+                           const DeviceScene& device_scene,
+                           const DynamicTransferOptions& options = {});
+
 // Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
 // outlive the solver. One thread at a time.
 //
