@@ -43,6 +43,14 @@ void Exchange::add(int bin, double solid_angle) {
     sum += solid_angle;
 }
 
+bool Exchange::is_ahead(std::size_t sender, std::size_t receiver, int bin) const {
+    const glm::dvec3 way = tree_.positions[receiver] - tree_.positions[sender];
+    if (tree_.is_flat(sender) && glm::dot(tree_.normals[sender], way) > 0.0) return true;
+    const double reach = (tree_.is_leaf(sender) ? 0.0 : tree_.radii[sender]) +
+                         (tree_.is_leaf(receiver) ? 0.0 : tree_.radii[receiver]);
+    return glm::dot(way, bins_.directions[static_cast<std::size_t>(bin)]) > reach;
+}
+
 // Gives each part that is in front of the receiver to the bin of its own direction.
 void Exchange::spread(const Corners& p, double angle, int depth) {
     if (angle > part_share * bin_ && depth < most_cuts) {
@@ -93,6 +101,7 @@ void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vec
             flat ? scales_[sender] * glm::dot(sends_.normal, bins_.directions[j]) : 1.0;
         const double factor = sums_[j] / (tree_.areas[sender] * cosine * bins_.solid_angles[j]);
         sums_[j] = 0.0;
+        if (!is_ahead(sender, receiver, bin)) continue;
         const auto rounded = static_cast<float>(factor);
         if (!std::isfinite(rounded))
             throw InputError("make_links: the form factor of element " + std::to_string(sender) +

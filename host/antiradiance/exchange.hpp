@@ -32,6 +32,10 @@ private:
     // Light on `way` meets the front of the receiver, or the receiver has no front.
     bool arrives(const glm::dvec3& way) const { return glm::dot(receives_.normal, way) >= 0.0; }
     void add(int bin, double solid_angle);
+    // Light that was let through comes from behind to what lies further along the bin, or it could
+    // go round in a bin for ever [derived: then antiradiance is exact after as many steps as
+    // elements lie behind each other, because no path along a bin returns].
+    bool is_ahead(std::size_t sender, std::size_t receiver, int bin) const;
     void spread(const Corners& corners, double solid_angle, int depth);
 
     const ElementTree& tree_;

@@ -14,6 +14,11 @@ constexpr double pi = 3.14159265358979323846;
 // would give less than 1e-6 of the light of a whole hemisphere. Flat clusters are rough by 1e-3.
 constexpr double least_rise = 1e-6, rough = 2e-3;
 
+// A link's bin may lie two spacings off its direction, so light gains at least this share of the
+// distance along the bin. Elements further apart than that are ordered along it, all leaves of one
+// before all leaves of the other.
+constexpr double least_ahead = 0.8;
+
 }  // namespace
 
 double Refine::seen(std::size_t element, std::size_t from) const {
@@ -45,6 +50,13 @@ bool Refine::hidden(std::size_t sender, std::size_t receiver) const {
     return height + tree_.radii[sender] * tilt <= rough * glm::length(way);
 }
 
+// Whether light may come through the sender to the receiver.
+bool Refine::passes(std::size_t sender, std::size_t receiver) const {
+    if (!tree_.is_flat(sender)) return true;
+    const glm::dvec3 way = tree_.positions[receiver] - tree_.positions[sender];
+    return glm::dot(tree_.normals[sender], way) <= 0.0;
+}
+
 bool Refine::operator()(ElementPair& pair, std::vector<ElementPair>& children) const {
     const std::uint32_t a = pair.a, b = pair.b;
     if (a == b) {
@@ -60,8 +72,11 @@ bool Refine::operator()(ElementPair& pair, std::vector<ElementPair>& children) c
     pair.to_b = pair.to_b && !hidden(a, b);
     if (!pair.to_a && !pair.to_b) return false;
 
-    const bool cut_a = !tree_.is_leaf(a) && seen(a, b) > limit_;
-    const bool cut_b = !tree_.is_leaf(b) && seen(b, a) > limit_;
+    const bool apart = glm::distance(tree_.positions[a], tree_.positions[b]) * least_ahead >
+                           tree_.radii[a] + tree_.radii[b] ||
+                       (!(pair.to_b && passes(a, b)) && !(pair.to_a && passes(b, a)));
+    const bool cut_a = !tree_.is_leaf(a) && (!apart || seen(a, b) > limit_);
+    const bool cut_b = !tree_.is_leaf(b) && (!apart || seen(b, a) > limit_);
     if (!cut_a && !cut_b) return true;
     if (cut_a && (!cut_b || tree_.radii[a] >= tree_.radii[b])) {
         for (std::uint32_t c = a + 1; c < tree_.ends[a]; c = tree_.ends[c])

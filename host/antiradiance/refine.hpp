@@ -30,6 +30,7 @@ public:
 
 private:
     bool hidden(std::size_t sender, std::size_t receiver) const;
+    bool passes(std::size_t sender, std::size_t receiver) const;
 
     const ElementTree& tree_;
     const double limit_;
