@@ -194,6 +194,38 @@ TEST(GltfAnimation, BrokenOnesAreLeftOutWithALine) {
     EXPECT_EQ(left_out(draft), "an animation channel of a node that has a matrix is left out");
 }
 
+// Nine scales, each on top of the last, overflow: the third column is infinite, the place is not.
+TEST(GltfAnimation, LightsAndCamerasStayWhereTheirNodeOverflows) {
+    for (const float scale : {3e38f, -3e38f}) {
+        GltfDraft draft = test::triangle_draft();
+        draft.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}}};
+        draft.document["extensionsUsed"] = {"KHR_lights_punctual"};
+        draft.add("cameras",
+                  {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+        const int times = test::scalars(draft, {0, 1});
+        const int values = draft.vec3({{1, 1, 1}, {scale, scale, scale}});
+        for (int node = 1; node <= 9; ++node) {
+            draft.add("nodes", {{"children", {node + 1}}});
+            test::animate(draft, node, "scale", times, values);
+        }
+        json& last = draft.document["nodes"][9];
+        last = {{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+        json& clips = draft.document["animations"];
+        for (int node = 2; node <= 9; ++node) {
+            json channel = clips[static_cast<std::size_t>(node - 1)]["channels"][0];
+            clips[0]["channels"].push_back(channel);
+        }
+        const Scene scene = draft.load();
+        ASSERT_TRUE(scene.animation);
+        const Scene late = posed_at(scene, 1.0);
+        EXPECT_EQ(late.lights[0].direction, glm::vec3(0, 0, -1));
+        EXPECT_EQ(late.cameras[0].forward, glm::vec3(0, 0, -1));
+        EXPECT_EQ(late.cameras[0].right, glm::vec3(1, 0, 0));
+        EXPECT_NO_THROW(validate(late));
+        EXPECT_VEC_NEAR(posed_at(scene, 0.1).lights[0].direction, glm::dvec3(0, 0, -1), near);
+    }
+}
+
 // 2^20 keys that the 40 samplers of a clip share: more numbers than the file has bytes. The first
 // 31 have become curves when the budget ends.
 TEST(GltfAnimation, HasABudgetOfNumbers) {
