@@ -26,6 +26,12 @@ private:
     std::clock_t start_ = std::clock();
 };
 
+int keys(GltfDraft& draft, std::size_t count) {
+    std::vector<float> times(count);
+    for (std::size_t i = 0; i < count; ++i) times[i] = static_cast<float>(i);
+    return scalars(draft, times);
+}
+
 bool says(const Scene& scene, const std::string& text) {
     return std::any_of(scene.warnings.begin(), scene.warnings.end(),
                        [&](const std::string& line) { return line.find(text) == 0; });
@@ -41,6 +47,39 @@ TEST_F(AnimationHostile, JointsOfManyRangesAreBounded) {
     EXPECT_FALSE(scene.animation);
     EXPECT_TRUE(says(scene, "animation is left out: it has more than 134217728 numbers"));
     EXPECT_EQ(scene.triangles.size(), 320u);
+}
+
+// A step of the clip computes all nodes: 40,000 of them at 10,000 keys.
+TEST_F(AnimationHostile, ALongChainWithManyKeysHasBounds) {
+    GltfDraft draft = triangle_draft();
+    for (int i = 0; i < 40'000; ++i) draft.add("nodes", {{"children", {i}}});
+    animate(draft, 40'000, "translation", keys(draft, 10'000),
+            draft.accessor(-1, 10'000, "VEC3", float_type), "STEP");
+    const Bounds found = *motion_bounds(draft.load(), 0);
+    EXPECT_GE(found.high.x, 1.0);
+    EXPECT_LE(found.high.x, 1.1);
+}
+
+// A step also looks up every channel; here 20,000 drive the same node.
+TEST_F(AnimationHostile, ManyChannelsWithManyKeysHaveBounds) {
+    GltfDraft draft = triangle_draft();
+    const json sampler = {{"input", keys(draft, 10'000)},
+                          {"output", draft.accessor(-1, 10'000, "VEC3", float_type)}};
+    const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}};
+    draft.add("animations", {{"samplers", json::array({sampler})},
+                             {"channels", std::vector<json>(20'000, channel)}});
+    EXPECT_GE(motion_bounds(draft.load(), 0)->high.x, 1.0);
+}
+
+// 1,000 channels share one curve of 200,000 keys.
+TEST_F(AnimationHostile, ChannelsThatShareACurveWalkItOnce) {
+    GltfDraft draft = triangle_draft();
+    const json sampler = {{"input", keys(draft, 200'000)},
+                          {"output", draft.accessor(-1, 200'000, "VEC3", float_type)}};
+    const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}};
+    draft.add("animations", {{"samplers", json::array({sampler})},
+                             {"channels", std::vector<json>(1'000, channel)}});
+    EXPECT_GE(motion_bounds(draft.load(), 0)->high.x, 1.0);
 }
 
 }  // namespace
