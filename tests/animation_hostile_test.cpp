@@ -82,5 +82,23 @@ TEST_F(AnimationHostile, ChannelsThatShareACurveWalkItOnce) {
     EXPECT_GE(motion_bounds(draft.load(), 0)->high.x, 1.0);
 }
 
+// 60,000 vertices with 10,000 sets of joints, which are two accessors without bytes.
+TEST_F(AnimationHostile, SetsOfJointsAreBounded) {
+    constexpr std::size_t vertices = 60'000;
+    GltfDraft draft;
+    json attributes = {{"POSITION", draft.accessor(-1, vertices, "VEC3", float_type)}};
+    const int joints = draft.accessor(-1, vertices, "VEC4", uint8_type);
+    const int weights = draft.accessor(-1, vertices, "VEC4", float_type);
+    for (int set = 0; set < 10'000; ++set) {
+        attributes["JOINTS_" + std::to_string(set)] = joints;
+        attributes["WEIGHTS_" + std::to_string(set)] = weights;
+    }
+    std::vector<std::uint16_t> corners(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) corners[i] = static_cast<std::uint16_t>(i);
+    draft.show({{"attributes", attributes}, {"indices", draft.indices(corners)}}, {{"skin", 0}});
+    draft.add("skins", {{"joints", {0}}});
+    EXPECT_NE(refusal(draft).find("too many sets of joints"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace clgi::test
