@@ -194,14 +194,121 @@ TEST(GltfAnimation, BrokenOnesAreLeftOutWithALine) {
     EXPECT_EQ(left_out(draft), "an animation channel of a node that has a matrix is left out");
 }
 
-// 2^20 keys that 40 samplers share: more numbers than the file has bytes.
+// Keys without a number, and times.
+TEST(GltfAnimation, NumbersThatAreNotFiniteAreLeftOutWithALine) {
+    for (const float bad : {NAN, INFINITY}) {
+        GltfDraft draft = strip_draft();
+        json& sampler = draft.document["animations"][0]["samplers"][0];
+        sampler["output"] = test::vec4s(draft, {0, 0, 0, 1, 0, bad, 0, 1});
+        EXPECT_EQ(left_out(draft),
+                  "animation is left out: animation: clip 0, curve 0 has values that are not "
+                  "finite");
+        draft = strip_draft();
+        draft.document["animations"][0]["samplers"][0]["input"] = test::scalars(draft, {0, bad});
+        EXPECT_EQ(left_out(draft),
+                  "animation is left out: animation: clip 0, curve 0 has key times that do not "
+                  "rise at key 1");
+    }
+    // Other uses of the same numbers are refused as before.
+    GltfDraft shared = test::triangle_draft();
+    const int bad = shared.vec3({{0, 0, 0}, {NAN, 0, 0}, {0, 1, 0}});
+    shared.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = bad;
+    test::animate(shared, 0, "scale", test::scalars(shared, {0, 1, 2}), bad);
+    EXPECT_NE(test::refusal(shared).find("POSITION of vertex 1 is not finite"), std::string::npos);
+    shared.document["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 0;
+    EXPECT_EQ(test::refusal(shared), "");
+    const json places = {{"attributes", {{"TRANSLATION", bad}}}};
+    shared.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = places;
+    EXPECT_NE(test::refusal(shared).find("element 1 is not finite"), std::string::npos);
+    GltfDraft skin = strip_draft();
+    std::vector<float> binds(32, 0.0f);
+    binds[17] = NAN;
+    const int matrices = skin.accessor(skin.view(binds), 2, "MAT4", test::float_type);
+    skin.document["skins"][0]["inverseBindMatrices"] = matrices;
+    json& samplers = skin.document["animations"][0]["samplers"];
+    json unused = samplers[0];
+    unused["output"] = matrices;
+    samplers.push_back(unused);
+    EXPECT_NE(test::refusal(skin).find("element 1 is not finite"), std::string::npos);
+}
+
+// What glTF 2.0, section 3.11, allows: floats; of rotations and weights normalised integers too.
+TEST(GltfAnimation, KeysInOtherFormatsAreRefused) {
+    const auto refused = [](const char* path, const auto& numbers, std::size_t count,
+                            const char* type, int component, bool normalized) {
+        GltfDraft draft = strip_draft();
+        const int values = draft.accessor(draft.view(numbers), count, type, component, normalized);
+        const int node = std::string(path) == "weights" ? 0 : 2;
+        test::animate(draft, node, path, test::scalars(draft, {0, 1}), values);
+        return test::refusal(draft);
+    };
+    const std::vector<float> floats(32, 1.0f);
+    const std::vector<std::int16_t> shorts(8, 20000);
+    const std::vector<std::uint32_t> longs(8, 1);
+    const auto expect = [](const std::string& message, const char* because) {
+        EXPECT_NE(message.find(because), std::string::npos) << "it said: " << message;
+    };
+    const char* shape = "key values of the wrong shape";
+    const char* format = "key values of a format that is not allowed";
+    expect(refused("translation", floats, 2, "MAT3", test::float_type, false), shape);
+    expect(refused("scale", floats, 2, "MAT3", test::float_type, false), shape);
+    expect(refused("rotation", floats, 2, "MAT4", test::float_type, false), shape);
+    expect(refused("translation", shorts, 2, "VEC3", test::int16_type, true), format);
+    expect(refused("scale", shorts, 2, "VEC3", test::int16_type, false), format);
+    expect(refused("rotation", shorts, 2, "VEC4", test::int16_type, false), format);
+    expect(refused("rotation", longs, 2, "VEC4", test::uint32_type, true), format);
+    expect(refused("weights", shorts, 2, "SCALAR", test::int16_type, false), format);
+    EXPECT_EQ(refused("rotation", shorts, 2, "VEC4", test::int16_type, true), "");
+    EXPECT_EQ(refused("weights", shorts, 2, "SCALAR", test::uint16_type, true), "");
+    EXPECT_EQ(refused("translation", floats, 2, "VEC3", test::float_type, false), "");
+}
+
+// Nine scales, each on top of the last, overflow: the third column is infinite, the place is not.
+TEST(GltfAnimation, LightsAndCamerasStayWhereTheirNodeOverflows) {
+    for (const float scale : {3e38f, -3e38f}) {
+        GltfDraft draft = test::triangle_draft();
+        draft.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}}};
+        draft.document["extensionsUsed"] = {"KHR_lights_punctual"};
+        draft.add("cameras",
+                  {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+        const int times = test::scalars(draft, {0, 1});
+        const int values = draft.vec3({{1, 1, 1}, {scale, scale, scale}});
+        for (int node = 1; node <= 9; ++node) {
+            draft.add("nodes", {{"children", {node + 1}}});
+            test::animate(draft, node, "scale", times, values);
+        }
+        json& last = draft.document["nodes"][9];
+        last = {{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+        json& clips = draft.document["animations"];
+        for (int node = 2; node <= 9; ++node) {
+            json channel = clips[static_cast<std::size_t>(node - 1)]["channels"][0];
+            clips[0]["channels"].push_back(channel);
+        }
+        const Scene scene = draft.load();
+        ASSERT_TRUE(scene.animation);
+        const Scene late = posed_at(scene, 1.0);
+        EXPECT_EQ(late.lights[0].direction, glm::vec3(0, 0, -1));
+        EXPECT_EQ(late.cameras[0].forward, glm::vec3(0, 0, -1));
+        EXPECT_EQ(late.cameras[0].right, glm::vec3(1, 0, 0));
+        EXPECT_NO_THROW(validate(late));
+        EXPECT_VEC_NEAR(posed_at(scene, 0.1).lights[0].direction, glm::dvec3(0, 0, -1), near);
+    }
+}
+
+// 2^20 keys that the 40 samplers of a clip share: more numbers than the file has bytes. The first
+// 31 have become curves when the budget ends.
 TEST(GltfAnimation, HasABudgetOfNumbers) {
     GltfDraft draft = strip_draft();
     std::vector<float> times(std::size_t{1} << 20);
     for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<float>(i);
     const int input = test::scalars(draft, times);
     const int output = draft.accessor(-1, times.size(), "VEC3", test::float_type);
-    for (int clip = 0; clip < 40; ++clip) test::animate(draft, 2, "scale", input, output);
+    json& clip = draft.document["animations"][0];
+    for (int sampler = 1; sampler <= 40; ++sampler) {
+        clip["samplers"].push_back({{"input", input}, {"output", output}});
+        clip["channels"].push_back(
+            {{"sampler", sampler}, {"target", {{"node", 2}, {"path", "scale"}}}});
+    }
     EXPECT_EQ(left_out(draft), "animation is left out: it has more than 134217728 numbers");
 }
 

@@ -275,6 +275,57 @@ TEST(SaveGlbAnimation, ClipsThatMoveNothingKeepTheirNumber) {
     expect_same(scene, posed_at(after, 0.5, 0), {0, 1, 2, 3}, 1e-6, "clip 0");
 }
 
+// The format holds clips still by a key; where every node has a matrix, by one of a node more.
+TEST(SaveGlbAnimation, ClipsKeepTheirNumberWhereEveryNodeHasAMatrix) {
+    GltfDraft draft =
+        triangle_draft({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 0, 0, 1}}});
+    draft.document["meshes"][0]["primitives"][0]["targets"] = {
+        {{"POSITION", draft.vec3(Floats3(3, {0, 0, 1}))}}};
+    draft.add("nodes", json::object());  // carries nothing
+    const int times = scalars(draft, {0, 1});
+    const int moves = draft.vec3({{0, 0, 0}, {1, 0, 0}});
+    animate(draft, 1, "translation", times, moves);
+    animate(draft, 0, "weights", times, scalars(draft, {0, 1}));
+    animate(draft, 1, "translation", times, moves);
+    for (std::size_t i = 0; i < 3; ++i)
+        draft.document["animations"][i]["name"] = "clip " + std::to_string(i);
+    const Scene before = draft.load(), after = reload(before);
+    ASSERT_EQ(before.animation->nodes.size(), 1u);
+    ASSERT_TRUE(before.animation->nodes[0].matrix);
+    ASSERT_EQ(after.animation->clips.size(), 3u);
+    EXPECT_EQ(after.animation->nodes.size(), 1u);
+    for (std::size_t clip = 0; clip < 3; ++clip) {
+        EXPECT_EQ(after.animation->clips[clip].name, "clip " + std::to_string(clip));
+        EXPECT_VEC_NEAR(posed_at(after, 1.0, clip).positions[0],
+                        glm::dvec3(2, 0, clip == 1 ? 1 : 0), 0.0);
+    }
+}
+
+// Readers make quaternions unit; the format asks writers for it.
+TEST(SaveGlbAnimation, RotationsAreWrittenUnit) {
+    for (const char* interpolation : {"STEP", "LINEAR"}) {
+        GltfDraft draft = triangle_draft({{"rotation", {0, 0, 3, 4}}});
+        draft.document["nodes"][0]["children"] = {1};
+        draft.add("nodes", {{"mesh", 0}, {"rotation", {0, 0, 0, 0}}});  // turns nothing
+        animate(draft, 0, "rotation", scalars(draft, {0, 1, 2}),
+                vec4s(draft, {0, 0, 3, 4, 0, 0.5f, 0, 0, 0, 0, 0, 0}), interpolation);
+        animate(draft, 0, "translation", scalars(draft, {0, 1}),
+                draft.vec3({{0, 0, 0}, {0, 0, 7}}));
+        const Scene scene = draft.load();
+        expect_kept(scene, interpolation);
+        const Scene after = reload(scene);
+        const std::vector<AnimatedNode>& nodes = after.animation->nodes;
+        ASSERT_EQ(nodes.size(), 2u);
+        EXPECT_NEAR(nodes[0].rotation.z, 0.6, 1e-12);
+        EXPECT_NEAR(nodes[0].rotation.w, 0.8, 1e-12);
+        EXPECT_EQ(nodes[1].rotation, glm::dquat(1, 0, 0, 0));
+        const std::vector<float> unit = {0, 0, 0.6f, 0.8f, 0, 1, 0, 0, 0, 0, 0, 1};
+        EXPECT_EQ(after.animation->clips[0].curves[0].values, unit);
+        const std::vector<float> places = {0, 0, 0, 0, 0, 7};
+        EXPECT_EQ(after.animation->clips[1].curves[0].values, places);
+    }
+}
+
 TEST(SaveGlbAnimation, RefusesTrianglesThatShareMovingVertices) {
     Scene scene = bent_strip();
     scene.triangles.push_back(scene.triangles[0]);  // of no part

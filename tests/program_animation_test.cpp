@@ -96,7 +96,8 @@ TEST_F(AnimationProgram, RefusesWhatItCannotPlay) {
     expect_one_error_line(run("render " + scene + " --quiet --fps 24 --method atlas" + o), 1);
     expect_one_error_line(run("render " + scene + " --quiet --fps 24 --gbuffer gl" + o), 1);
     expect_one_error_line(run("render " + scene + " --quiet --fps 24 --replicates 2" + o), 1);
-    EXPECT_NE(run("render " + scene + " --quiet --fps 0" + o).code, 0);
+    for (const char* fps : {"0", "-1", "1e-308", "0.0009", "1000001", "inf", "nan"})
+        expect_one_error_line(run("render " + scene + " --quiet --frames 2 --fps " + fps + o), 1);
 }
 
 TEST_F(AnimationProgram, AStepsCostIsTold) {

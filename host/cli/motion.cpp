@@ -33,6 +33,9 @@ Camera orbited(const Camera& camera, const glm::dvec3& centre, double angle) {
 
 void prepare_motion(const RenderFlags& flags, Scene& scene) {
     if (!flags.fps) return pose_scene("render", flags.animation, scene);
+    // Frame times must be finite, and apart from each other.
+    if (!(*flags.fps >= 1e-3 && *flags.fps <= 1e6))
+        throw Error(fmt::format("render: --fps is {}, 0.001 to 1000000 needed", *flags.fps));
     if (flags.gbuffer != "cl")
         throw Error("render: --fps goes not with --gbuffer gl, which draws the scene as loaded");
     if (flags.replicates > 1 || !flags.ask.target_error.empty() || !flags.ask.time_budget.empty())

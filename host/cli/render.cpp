@@ -269,8 +269,7 @@ void add_render(CLI::App& app) {
                      "Play the animation at F frames a second from --time on; every frame is kept, "
                      "FILE.0000.exr and so on")
         ->type_name("F")
-        ->default_str("none")
-        ->check(CLI::PositiveNumber);
+        ->default_str("none");
     command
         ->add_option("--replicates", flags->replicates,
                      "Render N randomised replicates, keep the mean and its standard error")

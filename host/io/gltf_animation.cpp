@@ -10,8 +10,8 @@ namespace clgi::io::gltf {
 
 namespace {
 
-// Floats of keys, vertices and targets together: half a gigabyte. Samplers and primitives may share
-// accessors, so the file need not be as large.
+// Floats of keys, vertices, targets and matrices of joints together: half a gigabyte. Samplers and
+// primitives may share accessors, so the file need not be as large.
 constexpr std::size_t most_numbers = std::size_t{1} << 27;
 
 std::optional<ChannelTarget> target_of(const std::string& path) {
@@ -68,8 +68,7 @@ bool AnimationReader::spend(std::size_t numbers) {
     }
     document_.warnings.add("animation is left out: it has more than " +
                            std::to_string(most_numbers) + " numbers");
-    active_ = false;
-    out_ = {};
+    active_ = false;  // out_ may be at work further up, finish() empties it
     return false;
 }
 
@@ -156,8 +155,9 @@ void AnimationReader::read_clip(const tinygltf::Animation& source, AnimationClip
         const auto [found, fresh] = read.try_emplace(
             {channel.sampler, components}, static_cast<std::uint32_t>(clip.curves.size()));
         if (fresh) {
-            clip.curves.push_back(read_curve(source.samplers[channel.sampler], components));
+            Curve curve = read_curve(source.samplers[channel.sampler], components);
             if (!active_) return;
+            clip.curves.push_back(std::move(curve));
             clip.duration = std::max(clip.duration, double{clip.curves.back().times.back()});
         }
         made.curve = found->second;
@@ -166,7 +166,12 @@ void AnimationReader::read_clip(const tinygltf::Animation& source, AnimationClip
 }
 
 void AnimationReader::finish(Scene& scene) {
-    if (!active_) return;
+    if (active_) read_all(scene);
+    if (active_) scene.animation = std::move(out_);
+    out_ = {};
+}
+
+void AnimationReader::read_all(const Scene& scene) {
     const auto carried = [&](const std::vector<int>& nodes, std::vector<Carried>& out) {
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             if (!moving_[nodes[i]]) continue;
@@ -176,7 +181,10 @@ void AnimationReader::finish(Scene& scene) {
     };
     carried(document_.light_nodes, out_.lights);
     carried(document_.camera_nodes, out_.cameras);
-    if (out_.ranges.empty() && out_.lights.empty() && out_.cameras.empty()) return;
+    if (out_.ranges.empty() && out_.lights.empty() && out_.cameras.empty()) {
+        active_ = false;
+        return;
+    }
     try {
         read_nodes();
         for (std::vector<Carried>* list : {&out_.lights, &out_.cameras})
@@ -188,10 +196,9 @@ void AnimationReader::finish(Scene& scene) {
         for (std::size_t i = 0; i < out_.clips.size() && active_; ++i)
             within([&] { return "clip " + std::to_string(i) + ":"; },
                    [&] { read_clip(document_.model.animations[i], out_.clips[i]); });
-        if (!active_) return;
-        validate_animation(out_, scene);
-        scene.animation = std::move(out_);
+        if (active_) validate_animation(out_, scene);
     } catch (const InputError& error) {
+        active_ = false;
         document_.warnings.add(std::string("animation is left out: ") + error.what());
     }
 }

@@ -32,6 +32,7 @@ private:
     bool is_skinned(const AppendedPart& part) const;
     bool spend(std::size_t numbers);  // false: too many, nothing will be read
     void need(int node);
+    void read_all(const Scene& scene);
     void read_rest(const AppendedPart& part, PosedRange& range);
     void read_influences(const AppendedPart& part, PosedRange& range);
     void read_differences(const AppendedPart& part, PosedRange& range);

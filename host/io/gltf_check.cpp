@@ -60,14 +60,44 @@ void check_skin(const tinygltf::Skin& skin, const Model& model) {
             " inverse bind matrices for ", skin.joints.size(), " joints");
 }
 
+// Formats of components as bits; which of the two an integer is depends on "normalized".
+enum : unsigned {
+    floats = 1,
+    unsigned_integers = 2,  // of 8 or 16 bits
+    unsigned_units = 4,
+    signed_integers = 8,
+    signed_units = 16,
+    long_integers = 32,
+    any_unit = floats | unsigned_units | signed_units,
+    any_small = any_unit | unsigned_integers | signed_integers,
+    joints = unsigned_integers | unsigned_units,
+    unit_floats = floats | unsigned_units,
+    signed_floats = floats | signed_units
+};
+
+unsigned format_of(const Accessor& accessor) {
+    const int type = accessor.componentType;
+    if (type == TINYGLTF_COMPONENT_TYPE_FLOAT) return floats;
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) return long_integers;
+    const bool has_sign =
+        type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
+    if (accessor.normalized) return has_sign ? signed_units : unsigned_units;
+    return has_sign ? signed_integers : unsigned_integers;
+}
+
 void check_channel(const tinygltf::AnimationChannel& channel,
                    const tinygltf::AnimationSampler& curve, const Model& model) {
-    static const std::map<std::string, std::size_t> rows_of = {
-        {"translation", 3}, {"scale", 3}, {"rotation", 4}, {"weights", 1}};
-    const auto expected = rows_of.find(channel.target_path);
-    if (expected == rows_of.end() || channel.target_node < 0) return;  // of an extension
+    static const std::map<std::string, std::pair<std::size_t, unsigned>> rows_and_formats = {
+        {"translation", {3, floats}},
+        {"scale", {3, floats}},
+        {"rotation", {4, any_unit}},
+        {"weights", {1, any_unit}}};
+    const auto expected = rows_and_formats.find(channel.target_path);
+    if (expected == rows_and_formats.end() || channel.target_node < 0) return;  // of an extension
+    const auto [height, formats] = expected->second;
     const Accessor& output = model.accessors[curve.output];
-    require(rows(output) == expected->second, "has key values of the wrong shape");
+    require(rows(output) == height && columns(output) == 1, "has key values of the wrong shape");
+    require((format_of(output) & formats) != 0, "has key values of a format that is not allowed");
 
     // A cubic spline has a tangent, a value and a tangent a key.
     std::size_t values = curve.interpolation == "CUBICSPLINE" ? 3 : 1;
@@ -94,31 +124,6 @@ void check_animation(const tinygltf::Animation& animation, const Model& model) {
                 animation.samplers.size(), " samplers");
         check_channel(channel, animation.samplers[sampler], model);
     });
-}
-
-// Formats of components as bits; which of the two an integer is depends on "normalized".
-enum : unsigned {
-    floats = 1,
-    unsigned_integers = 2,  // of 8 or 16 bits
-    unsigned_units = 4,
-    signed_integers = 8,
-    signed_units = 16,
-    long_integers = 32,
-    any_unit = floats | unsigned_units | signed_units,
-    any_small = any_unit | unsigned_integers | signed_integers,
-    joints = unsigned_integers | unsigned_units,
-    unit_floats = floats | unsigned_units,
-    signed_floats = floats | signed_units
-};
-
-unsigned format_of(const Accessor& accessor) {
-    const int type = accessor.componentType;
-    if (type == TINYGLTF_COMPONENT_TYPE_FLOAT) return floats;
-    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) return long_integers;
-    const bool has_sign =
-        type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
-    if (accessor.normalized) return has_sign ? signed_units : unsigned_units;
-    return has_sign ? signed_integers : unsigned_integers;
 }
 
 enum Use { plain, quantized, target, instance };
@@ -168,7 +173,8 @@ public:
           accessors_(document.model.accessors),
           largest_index_(accessors_.size()),
           finite_(accessors_.size()),
-          mended_(accessors_.size()) {}
+          mended_(accessors_.size()),
+          needed_(accessors_.size()) {}
 
     void check(const Primitive& primitive) {
         if (primitive.attributes.empty()) return;
@@ -190,10 +196,20 @@ public:
         check_attributes(copies_of(node), copy_count(document_, node), instance);
     }
 
-    // Accessors of animations and skins, and those that nothing uses.
+    // Animations that hold such numbers are left out.
+    void pass_over(const tinygltf::Animation& animation) {
+        for (const tinygltf::AnimationSampler& sampler : animation.samplers)
+            mended_[sampler.input] = mended_[sampler.output] = true;
+    }
+
+    void need(const tinygltf::Skin& skin) {
+        if (skin.inverseBindMatrices >= 0) needed_[skin.inverseBindMatrices] = true;
+    }
+
+    // Accessors of skins and copies, and those that nothing uses.
     void check_others() {
         for (std::size_t i = 0; i < accessors_.size(); ++i) {
-            if (mended_[i]) continue;
+            if (mended_[i] && !needed_[i]) continue;
             of_entry("accessors", i, [&] { require_finite(static_cast<int>(i), "element "); });
         }
     }
@@ -201,6 +217,7 @@ public:
 private:
     void check_attributes(const Attributes& attributes, std::size_t count, Use use) {
         for (const auto& [key, accessor] : attributes) {
+            if (use == instance) needed_[accessor] = true;
             if (use != instance && key != "POSITION") mended_[accessor] = true;
             const Format* format = find_format(key, use);
             if (!format) continue;
@@ -255,6 +272,7 @@ private:
     std::vector<std::optional<std::uint32_t>> largest_index_;
     std::vector<bool> finite_;
     std::vector<bool> mended_;  // used where numbers that are not finite are mended
+    std::vector<bool> needed_;  // used where they cannot be
 };
 
 }  // namespace
@@ -273,6 +291,9 @@ void check_meshes(const Document& document) {
         each(".primitives", mesh.primitives, [&](const Primitive& p) { checker.check(p); });
     });
     each("nodes", document.model.nodes, [&](const Node& node) { checker.check_copies(node); });
+    for (const tinygltf::Animation& animation : document.model.animations)
+        checker.pass_over(animation);
+    for (const tinygltf::Skin& skin : document.model.skins) checker.need(skin);
     checker.check_others();
 }
 

@@ -28,8 +28,10 @@ glm::dvec3 or_up(const glm::dvec3& normal) {
 }
 
 // Vertices times active morph targets, over the whole file: seconds of work, which no real file
-// comes near, but which a thousand targets on one large array would exceed by far.
+// comes near, but which a thousand targets on one large array would exceed by far. The same for
+// vertices times the joints of their sets.
 constexpr std::size_t most_differences = std::size_t{1} << 30;
+constexpr std::size_t most_influences = std::size_t{1} << 29;
 
 // A transform for positions and what it does to normals and to the sense of triangles.
 struct Placement {
@@ -191,6 +193,8 @@ PosedVertices Poser::pose(const Primitive& primitive, const Node& node, const gl
         for (std::size_t i = 0; i < vertices.size(); ++i) place(i, rigid);
         return pose;
     }
+    influences_read_ += 4 * joints.size() * vertices.size();
+    require(influences_read_ <= most_influences, "too many sets of joints");
     // The skin alone places its vertices; the node's own matrix has no say.
     const std::vector<glm::dmat4>& matrices = joint_matrices(node.skin);
     for (std::size_t i = 0; i < vertices.size(); ++i) {

@@ -54,6 +54,7 @@ private:
     Document& document_;
     std::map<int, std::vector<glm::dmat4>> joint_matrices_;  // of the skins met so far
     std::size_t differences_read_ = 0;
+    std::size_t influences_read_ = 0;
 };
 
 // For a mesh without normals: gives every triangle three vertices of its own, which carry the

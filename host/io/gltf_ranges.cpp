@@ -145,7 +145,11 @@ void AnimationReader::read_differences(const AppendedPart& part, PosedRange& ran
 }
 
 void AnimationReader::add(const AppendedPart& part, const Scene& scene) {
-    if (!active_ || !is_moved(part) || !spend(6 * part.topology.vertices.size())) return;
+    if (!active_ || !is_moved(part)) return;
+    // A skinned range has a matrix for each joint of its skin in every pose.
+    const int skin = is_skinned(part) ? document_.model.nodes[part.node].skin : -1;
+    const std::size_t joints = skin < 0 ? 0 : document_.model.skins[skin].joints.size();
+    if (!spend(6 * part.topology.vertices.size() + 16 * joints)) return;
     PosedRange range;
     range.vertex_count = static_cast<std::uint32_t>(part.topology.vertices.size());
     range.first_vertex = static_cast<std::uint32_t>(scene.positions.size()) - range.vertex_count;
@@ -158,7 +162,10 @@ void AnimationReader::add(const AppendedPart& part, const Scene& scene) {
     read_rest(part, range);
     read_influences(part, range);
     read_differences(part, range);
-    if (active_) out_.ranges.push_back(range);
+    if (active_)
+        out_.ranges.push_back(range);
+    else
+        out_ = {};
 }
 
 }  // namespace clgi::io::gltf

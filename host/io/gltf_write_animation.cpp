@@ -1,12 +1,29 @@
 // save_glb: the nodes of an animation, what they show and carry, and the clips that drive them.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 
 #include "io/gltf_write_posed.hpp"
+#include "scene/node_matrix.hpp"
 
 namespace clgi::io::gltf {
 
 namespace {
+
+// As poses take it.
+glm::dquat unit(const glm::dquat& q) {
+    return is_rotation(q) ? q / glm::length(q) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
+
+// Floats that are unit but for their rounding are kept.
+void make_unit(float* xyzw) {
+    const glm::dquat q(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+    if (std::abs(glm::length(q) - 1.0) < 1e-6) return;
+    const glm::dquat made = unit(q);
+    const double components[4] = {made.x, made.y, made.z, made.w};
+    std::transform(components, components + 4, xyzw,
+                   [](double component) { return static_cast<float>(component); });
+}
 
 Node node_of(const AnimatedNode& source) {
     Node node;
@@ -15,7 +32,7 @@ Node node_of(const AnimatedNode& source) {
         node.matrix = matrix_numbers(*source.matrix);
         return node;
     }
-    const glm::dquat& q = source.rotation;
+    const glm::dquat q = unit(source.rotation);
     node.translation = numbers(source.translation);
     node.rotation = {q.x, q.y, q.z, q.w};
     node.scale = numbers(source.scale);
@@ -142,7 +159,11 @@ private:
             type = TINYGLTF_TYPE_SCALAR;
             count = curve.values.size();
         }
-        sampler.output = out_.add_array(curve.values, count, type, TINYGLTF_COMPONENT_TYPE_FLOAT);
+        std::vector<float> values = curve.values;
+        // Tangents belong to the values of a cubic as they are.
+        if (target == ChannelTarget::rotation && curve.interpolation != Interpolation::cubic)
+            for (std::size_t i = 0; i < values.size(); i += 4) make_unit(&values[i]);
+        sampler.output = out_.add_array(values, count, type, TINYGLTF_COMPONENT_TYPE_FLOAT);
         return add(samplers_, std::move(sampler));
     }
 
@@ -171,19 +192,28 @@ private:
         out_.model.animations.push_back(std::move(written));
     }
 
-    // The format has no clip without a channel; clips keep their numbers.
+    // The format has no clip without a channel; clips keep their numbers. What has a matrix takes
+    // no channel: where all nodes have one, another node is held.
     void hold_still(tinygltf::Animation& written) {
-        for (std::size_t i = 0; i < animation_.nodes.size(); ++i) {
-            if (animation_.nodes[i].matrix) continue;
-            const glm::vec3 place(animation_.nodes[i].translation);
-            const Curve curve{Interpolation::step, 3, {0.0f}, {place.x, place.y, place.z}};
-            tinygltf::AnimationChannel to;
-            to.sampler = sampler_of(curve, ChannelTarget::translation);
-            to.target_node = first_ + static_cast<int>(i);
-            to.target_path = path_of(ChannelTarget::translation);
-            written.channels.push_back(std::move(to));
-            return;
+        const auto held = std::find_if(animation_.nodes.begin(), animation_.nodes.end(),
+                                       [](const AnimatedNode& node) { return !node.matrix; });
+        glm::vec3 place(0.0f);
+        tinygltf::AnimationChannel to;
+        if (held != animation_.nodes.end()) {
+            place = glm::vec3(held->translation);
+            to.target_node = first_ + static_cast<int>(held - animation_.nodes.begin());
+        } else {
+            if (still_ < 0) {
+                Node node;
+                node.name = "still";  // tinygltf writes null for a node of nothing
+                out_.roots.push_back(still_ = add(out_.model.nodes, std::move(node)));
+            }
+            to.target_node = still_;
         }
+        const Curve curve{Interpolation::step, 3, {0.0f}, {place.x, place.y, place.z}};
+        to.sampler = sampler_of(curve, ChannelTarget::translation);
+        to.target_path = path_of(ChannelTarget::translation);
+        written.channels.push_back(std::move(to));
     }
 
     const Scene& scene_;
@@ -192,6 +222,7 @@ private:
     LightWriter& lights_;
     GlbModel& out_;
     const int first_;                        // of the animation's nodes, in the model
+    int still_ = -1;                         // a node that carries nothing
     std::vector<std::vector<int>> morphed_;  // nodes that show the weights of the animation's nodes
     std::vector<tinygltf::AnimationSampler> samplers_;  // of the clip at work
 };

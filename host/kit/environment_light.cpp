@@ -63,6 +63,11 @@ bool EnvironmentLight::update() {
     return true;
 }
 
+// A failure before them, which comes long after the call, ends the passes that were enqueued.
+bool EnvironmentLight::is_projected() const {
+    return projected_() && projected_.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() >= CL_COMPLETE;
+}
+
 void EnvironmentLight::project(Recorder& record, const TransferPasses& passes) {
     const double own = scene_->environment() ? double{scene_->environment()->rotation} : 0.0;
     const std::vector<float> rotation = environment_rotation(own + turned_, projection_.bands);
@@ -71,14 +76,16 @@ void EnvironmentLight::project(Recorder& record, const TransferPasses& passes) {
         record.write(buffers_.lights, lights_.data(), lights_.size() * sizeof(lights_[0]));
     const cl::CommandQueue& queue = record.queue();
     const std::size_t texels = std::size_t{projection_.params.width} * projection_.params.height;
-    if (!projected_) {
+    if (!is_projected()) {
+        projected_ = cl::Event();
+        record.fill(buffers_.non_finite, 0);  // rows may have run before columns failed
         record("transfer.project_rows", texels, [&](const WaitList& wait) {
             return passes.project_rows(queue, projection_.params, buffers_, wait);
         });
         record("transfer.project_columns", projection_.params.width, [&](const WaitList& wait) {
             return passes.project_columns(queue, projection_.params, buffers_, wait);
         });
-        projected_ = true;
+        if (!record.cancelled()) projected_ = record.last();
     }
     record("transfer.project_environment", static_cast<std::size_t>(sh::terms(projection_.bands)),
            [&](const WaitList& wait) {

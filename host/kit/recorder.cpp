@@ -20,6 +20,10 @@ Recorder::Recorder(const cl::CommandQueue& queue, std::string owner)
 void Recorder::begin(const WaitList& wait, const Progress& progress) {
     forget_failed();
     before_.insert(before_.end(), wait.begin(), wait.end());
+    const auto ended = [](const cl::Event& event) {
+        return event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() <= CL_COMPLETE;
+    };
+    running_.erase(std::remove_if(running_.begin(), running_.end(), ended), running_.end());
     progress_ = progress;
     cancelled_ = false;
     fills_.clear();
@@ -35,6 +39,7 @@ WaitList Recorder::waits() const {
 void Recorder::passed(const cl::Event& event) {
     before_.clear();
     end_.assign(1, event);
+    running_.push_back(event);  // PoCL 3.1 aborts where a command fails whose event nobody holds
 }
 
 void Recorder::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <clgi/scene.hpp>
 #include <cmath>
-#include <set>
 
 #include "scene/range_matrices.hpp"
 
@@ -11,7 +10,7 @@ namespace clgi {
 namespace {
 
 constexpr std::size_t most_keys = 10000, most_samples = 1000;  // with times between keys
-constexpr std::size_t most_boxes = std::size_t{1} << 22;       // over all samples: a second of work
+constexpr std::size_t most_steps = std::size_t{1} << 22;       // over all samples: a second of work
 
 struct Box {
     glm::dvec3 low = glm::dvec3(INFINITY);
@@ -84,10 +83,16 @@ std::vector<double> even_choice(const std::vector<double>& all, std::size_t coun
 
 // All keys, then up to three times between any two; at most `most`.
 std::vector<double> sample_times(const AnimationClip& clip, std::size_t most) {
-    std::set<double> keys;
-    for (const Channel& channel : clip.channels)
-        for (const float time : clip.curves[channel.curve].times) keys.insert(time);
-    std::vector<double> out = even_choice({keys.begin(), keys.end()}, std::min(most, most_keys));
+    std::vector<bool> used(clip.curves.size());  // channels may share a curve
+    for (const Channel& channel : clip.channels) used[channel.curve] = true;
+    std::vector<double> keys;
+    for (std::size_t curve = 0; curve < used.size(); ++curve)
+        if (used[curve])
+            keys.insert(keys.end(), clip.curves[curve].times.begin(),
+                        clip.curves[curve].times.end());
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    std::vector<double> out = even_choice(keys, std::min(most, most_keys));
     const std::size_t left =
         std::min(most, most_samples) - std::min({most, most_samples, out.size()});
     std::vector<double> between;
@@ -122,10 +127,12 @@ std::optional<Bounds> motion_bounds(const Scene& scene, std::size_t clip) {
     if (!scene.animation || scene.animation->ranges.empty()) return std::nullopt;
     const Animation& animation = *scene.animation;
     std::vector<RangeBoxes> boxes;
-    std::size_t matrices = 0;
+    std::size_t steps = animation.nodes.size();  // of a sample
+    for (const Channel& channel : animation.clips[clip].channels)
+        steps += animation.clips[clip].curves[channel.curve].components;
     for (const PosedRange& range : animation.ranges) {
         boxes.push_back(boxes_of(animation, range));
-        matrices += boxes.back().rest.size();
+        steps += boxes.back().rest.size() + boxes.back().targets.size();
     }
     Box box;
     const auto add_pose = [&](const Pose& pose) {
@@ -135,7 +142,7 @@ std::optional<Bounds> motion_bounds(const Scene& scene, std::size_t clip) {
                 pose.weights.data() + animation.nodes[range.node].first_weight, box);
         }
     };
-    const std::size_t most = std::max<std::size_t>(most_boxes / matrices, 2);
+    const std::size_t most = std::max<std::size_t>(most_steps / steps, 2);
     add_pose(pose_at(animation, clip, 0.0));
     for (const double time : sample_times(animation.clips[clip], most))
         add_pose(pose_at(animation, clip, time));

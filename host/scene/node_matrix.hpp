@@ -38,8 +38,10 @@ struct NodePlace {
     glm::dvec3 right;
 
 private:
+    // Zero for numbers that are not finite as well. Above 1e150 squares overflow.
     static glm::dvec3 unit_or_zero(const glm::dvec3& v, double least) {
-        return glm::length(v) > least ? glm::normalize(v) : glm::dvec3(0.0);
+        const double length = glm::length(v);
+        return length > least && length <= 1e150 ? v / length : glm::dvec3(0.0);
     }
 };
 

@@ -140,8 +140,8 @@ CLGI_API Scene posed(const Scene& scene, const Pose& pose);
 // A box around all that moves, over the whole of a clip: boxes around the vertices of every joint,
 // at all keys and at up to three times between any two (1000 times together), with a margin of a
 // sixteenth for what lies between. Of more than 10,000 keys an even choice counts, the first and
-// the last among them; of fewer where a scene has more than 400 matrices of joints and nodes.
-// Nothing if no vertex moves.
+// the last among them; of fewer where nodes, components of channels, morph targets and joints of
+// all ranges are more than 400. Nothing if no vertex moves.
 CLGI_API std::optional<Bounds> motion_bounds(const Scene& scene, std::size_t clip);
 
 }  // namespace clgi

@@ -30,7 +30,7 @@ public:
     void turn(double angle) { turned_ = angle; }
 
     // The whole projection; or, with the picture projected before, what light, turn and update
-    // have changed.
+    // have changed. A picture whose passes failed or were left out is projected again.
     void project(Recorder& record, const TransferPasses& passes);
 
     const cl::Buffer& light() const { return buffers_.light; }  // [terms] float4, exposed cd/m^2 sr
@@ -39,9 +39,12 @@ public:
     }  // [1] uint: floats of the
        // picture read as 0
 private:
+    bool is_projected() const;
+
     const DeviceScene* scene_;
     EnvironmentProjection projection_;
-    bool directional_, projected_ = false;
+    bool directional_;
+    cl::Event projected_;  // the end of the passes that read the picture
     double turned_ = 0.0;
     std::vector<DirectionalLight> lights_;
     std::size_t room_ = 0;  // directional lights that there are buffers for

@@ -93,6 +93,7 @@ private:
     WaitList end_;        // the last command; kept up to date, so that a sequence that fails half-way
                           // leaves behind what the next one must wait for
     WaitList fills_;      // of a picture made of fills
+    WaitList running_;    // commands that had not ended by the last begin(), and those since
     std::vector<PassEvent> events_;
 };
 
