@@ -1,0 +1,92 @@
+// clgi render --method antiradiance: pictures, statistics and refusals.
+// SPDX-License-Identifier: MIT
+#include <clgi/io/gltf.hpp>
+#include <clgi/io/image.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "rooms.hpp"
+
+namespace {
+
+using namespace clgi;
+using nlohmann::json;
+
+class AntiradianceProgram : public test::Program {
+protected:
+    std::string room() const {
+        Scene scene = test::furnished_room(7);
+        scene.cameras = {test::camera_at({0.15, 2.2, 2.85}, {2.4, 0.8, 1.2}, 1.1f)};
+        const std::string path = file("room.glb").string();
+        io::save_glb(scene, path);
+        return path;
+    }
+    test::Outcome render(const std::string& flags) const {
+        return run("render " + room() + " --method antiradiance --size 64x48 --elements 1000 -o " +
+                   file("out.exr").string() + " " + flags);
+    }
+    double mean() const {
+        const io::Image image = io::load_image(file("out.exr").string());
+        double sum = 0.0;
+        for (const float value : image.find("G")->values) sum += value;
+        return sum / (64.0 * 48.0);
+    }
+};
+
+TEST_F(AntiradianceProgram, RendersAndSaysWhatItDid) {
+    const test::Outcome outcome =
+        render("--bins 64 --frames 2 --orbit --stats " + file("s.json").string());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("elements"), std::string::npos);
+    const json stats = json::parse(read("s.json"));
+    EXPECT_EQ(stats.at("method"), "antiradiance");
+    const json& found = stats.at("antiradiance");
+    EXPECT_NEAR(found.at("leaves").get<double>(), 1000.0, 300.0);
+    EXPECT_EQ(found.at("bins"), 64);
+    EXPECT_EQ(found.at("iteration"), "symmetric");
+    EXPECT_EQ(found.at("converged"), true);
+    EXPECT_EQ(found.at("diverged"), false);
+    EXPECT_LT(found.at("residual"), 1e-3);
+    EXPECT_GT(found.at("links"), 1000);
+    EXPECT_EQ(stats.at("frames"), 2);
+    bool local = false;
+    for (const json& pass : stats.at("passes")) local |= pass.at("name") == "antiradiance.local";
+    EXPECT_TRUE(local);
+}
+
+// Direct light is part of the picture unless it is left out; what more steps add is light.
+TEST_F(AntiradianceProgram, HasTheLightThatWasAskedFor) {
+    ASSERT_EQ(render("--quiet").code, 0);
+    const double all = mean();
+    ASSERT_EQ(render("--quiet --no-direct").code, 0);
+    const double indirect = mean();
+    ASSERT_EQ(render("--quiet --no-direct --iterations 1").code, 0);
+    const double first = mean();
+    EXPECT_GT(all, 1.5 * indirect);
+    EXPECT_GT(indirect, 0.0);
+    // One step has the first reflection, and nothing blocks it.
+    EXPECT_NE(first, indirect);
+    ASSERT_EQ(render("--quiet --no-direct --iteration asymmetric").code, 0);
+    EXPECT_NEAR(mean(), indirect, 0.01 * indirect);
+}
+
+TEST_F(AntiradianceProgram, RefusesInOneLine) {
+    const auto refused = [&](const std::string& flags, const std::string& part) {
+        const test::Outcome outcome = render(flags);
+        EXPECT_EQ(outcome.code, 1) << flags;
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    };
+    refused("--vpls 3", "--vpls goes not with --method antiradiance");
+    refused("--mask 32", "--mask goes only with --method transfer");
+    refused("--bins 33", "bins is 33, an even number from 32 to 4096 needed");
+    refused("--bins 8", "--bins");
+    refused("--gbuffer gl", "--gbuffer gl goes not with --method antiradiance");
+    refused("--camera 7", "--camera is 7, the scene has 1");
+    refused("--iteration both", "--iteration");
+    const test::Outcome other =
+        run("render " + room() + " --bins 64 -o " + file("out.exr").string());
+    EXPECT_EQ(other.code, 1);
+    EXPECT_NE(other.err.find("--bins goes only with --method antiradiance"), std::string::npos);
+}
+
+}  // namespace
