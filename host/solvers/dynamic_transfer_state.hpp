@@ -43,8 +43,10 @@ struct DynamicTransferSolver::State {
     void shade(const cl::Buffer& vectors, const cl::Buffer& out);
     void light();
     void bounce();
-    void reflect(const glm::vec3& eye);
+    void reflect(const glm::vec4& eye);
 
+    // Buffers beside those of the start: of the budget, what these leave.
+    void allocate_more(const BufferTable& more);
     cl::Event look(const WaitList& wait);
     VisibleSets sets();
     void restrict(const VisibleSets& sets);
@@ -69,6 +71,7 @@ struct DynamicTransferSolver::State {
     cl::Buffer triangles, irradiance, gloss, lobes, exponents, other_side, fronts, drawn, heights,
         weights, directions, status, bad, seen, reflectance, exitance;
     std::size_t bytes = 0;
+    std::size_t bytes_of_sets = 0;  // of these
 };
 
 }  // namespace clgi
