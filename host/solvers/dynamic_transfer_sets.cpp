@@ -75,8 +75,8 @@ VisibleSets DynamicTransferSolver::State::sets() {
 
 void DynamicTransferSolver::State::restrict(const VisibleSets& sets) {
     check(sets, receivers.count, both.triangle_count);
-    // Those of the hierarchy stay: look() goes on with them. Those of before stay until all that may
-    // fail is done.
+    // Those of the hierarchy stay: look() goes on with them. Those of before stay until all that
+    // may fail is done.
     BlockerBuffers made = blockers;
     made.lists = made.ranges = made.near_lists = made.near = cl::Buffer();
     made.receivers_per_list = ~0u;

@@ -148,8 +148,7 @@ struct DynamicTransferView::State {
         if (solver.options().bounces == 0) return;
         record("transfer.bounce", run.count, [&](const WaitList& wait) {
             return solver.passes().bounce(queue, receivers, solver.blockers(), solver.heights(),
-                                          solver.exitance(), arriving,
-                                          picture.counter(), wait);
+                                          solver.exitance(), arriving, picture.counter(), wait);
         });
     }
 
@@ -157,8 +156,8 @@ struct DynamicTransferView::State {
         Recorder& record = picture.record();
         record("transfer.shade", receivers.count, [&](const WaitList& wait) {
             return solver.passes().shade(record.queue(), receivers, receivers.transfer,
-                                         solver.environment(), SHADE_CLAMP, out,
-                                         picture.counter(), wait);
+                                         solver.environment(), SHADE_CLAMP, out, picture.counter(),
+                                         wait);
         });
     }
 

@@ -249,11 +249,10 @@ std::size_t need_room(Lists& lists, int rings, const DeviceScene& scene, std::si
     std::size_t words = 0;
     for (const std::uint32_t vertex : scene.vertex_order()) words += lists.words(vertex, rings);
     if (words * sizeof(std::uint32_t) > most)
-        throw DeviceError("blocker_levels: the vertices' lists of triangles need up to " +
-                          std::to_string(words * sizeof(std::uint32_t)) + " bytes, " +
-                          std::to_string(most) +
-                          " are allowed; give more triangles in coarse, which has " +
-                          std::to_string(coarse));
+        throw DeviceError(
+            "blocker_levels: the vertices' lists of triangles need up to " +
+            std::to_string(words * sizeof(std::uint32_t)) + " bytes, " + std::to_string(most) +
+            " are allowed; give more triangles in coarse, which has " + std::to_string(coarse));
     return words;
 }
 
@@ -297,8 +296,8 @@ BlockerLevels blocker_levels(const Scene& scene, const DeviceScene& device_scene
         ordered.push_back(all[t]);
         add(all[t]);
     }
-    Lists lists(nearest_coarse(scene.positions, pieces, fine, ordered), fine, ordered.size(), welded,
-                count, clusters * BLOCKER_CLUSTER);
+    Lists lists(nearest_coarse(scene.positions, pieces, fine, ordered), fine, ordered.size(),
+                welded, count, clusters * BLOCKER_CLUSTER);
     out.near.reserve(need_room(lists, rings, device_scene, most_bytes, coarse.size()));
     out.receivers_per_list = 1;
     out.lists = {0};

@@ -52,7 +52,8 @@ public:
                    const WaitList& wait = {}) const;
 
     // probes [4][params.probe_stride]: what arrives at the probes becomes what is missing in shown
-    // there; the last plane becomes the sum of what is shown. states [columns * rows] uint: PROBE_...
+    // there; the last plane becomes the sum of what is shown. states [columns * rows] uint:
+    // PROBE_...
     cl::Event compare_probes(const cl::CommandQueue& queue, const ProbeParams& params,
                              const GBuffer& seen, const cl::Buffer& shown,
                              const cl::Buffer& probes, const cl::Buffer& states,

@@ -43,7 +43,8 @@ struct TransferStatus {
     std::uint32_t bad_receivers = 0;  // whose position or normal is not finite
     std::uint32_t bad_blockers = 0;   // triangles that are not finite; they block nothing
     std::uint32_t bad_texels = 0;     // floats of the environment that are not finite, read as 0
-    // Packets of receivers whose light is not finite, and receivers for which the bounce makes it so.
+    // Packets of receivers whose light is not finite, and receivers for which the bounce makes it
+    // so.
     std::uint32_t non_finite = 0;
 };
 
@@ -71,9 +72,9 @@ public:
 
     // Potentially visible sets of an animation known before [Kautz04, section 3.2]. look() enqueues
     // the search for the triangles that receivers see of the geometry as it is now; sets() waits
-    // and has those of all looks since it was called last. After restrict(), masks look at such sets
-    // alone; they are bit for bit those of before in the frames that were looked at, with exact
-    // planes. look() itself always sees everything. Both take memory, of the budget as well.
+    // and has those of all looks since it was called last. After restrict(), masks look at such
+    // sets alone; they are bit for bit those of before in the frames that were looked at, with
+    // exact planes. look() itself always sees everything. Both take memory, of the budget as well.
     cl::Event look(const WaitList& wait = {});
     VisibleSets sets();
     void restrict(const VisibleSets& sets);
