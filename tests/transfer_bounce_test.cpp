@@ -174,8 +174,7 @@ TEST_P(TransferBounce, CountsWhatIsNotFinite) {
         const cl::Buffer irradiance = test::upload(before);
         const cl::Buffer counted = test::upload(std::vector<cl_uint>{7});
         test::mask_passes({}, how).bounce(
-            test::device().queue, drawn.receivers, drawn.blockers,
-            test::upload(pixel_heights(32)),
+            test::device().queue, drawn.receivers, drawn.blockers, test::upload(pixel_heights(32)),
             test::upload(std::vector<glm::vec4>(40, glm::vec4(1, 1, light, 0))), irradiance,
             counted);
         EXPECT_EQ(test::download<cl_uint>(counted, 1)[0], light == 1.0f ? 7u : 9u) << light;
@@ -190,10 +189,14 @@ TEST_P(TransferBounce, RefusesWhatDoesNotFit) {
     const cl::CommandQueue& queue = test::device().queue;
     const cl::Buffer heights = test::upload(pixel_heights(32)), one = test::empty<float>(1);
     const cl::Buffer some = test::upload(std::vector<float>(2000, 0.0f));
-    EXPECT_NO_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, some, some));
-    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, one, some, some, some), Error);
-    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, one, some, some), Error);
-    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, one, some), Error);
+    EXPECT_NO_THROW(
+        passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, some, some));
+    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, one, some, some, some),
+                 Error);
+    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, one, some, some),
+                 Error);
+    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, one, some),
+                 Error);
     const cl::Buffer none(test::device().context, CL_MEM_READ_WRITE, 2);
     EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, some, none),
                  Error);

@@ -211,12 +211,13 @@ TEST_P(TransferProbes, AreComparedWithTheGlossThatIsShown) {
                 << k;
         EXPECT_EQ(missing[3 * probe_stride + k], k == 0 ? 0.0f : 3.0f) << k;
     }
-    // What has failed, or shows nothing, stays so; NaN fails where there is a lobe.
+    // What has failed, or shows nothing, stays so; what is not finite fails where there is a lobe.
     probes[0] = probes[3] = nan;
+    probes[4] = std::numeric_limits<float>::infinity();
     probes[2] = 1.0f, probes[probe_stride + 2] = 1.0f, probes[2 * probe_stride + 2] = 1.0f;
-    EXPECT_EQ(states_after({1, 1, 2, 1, 0, 0, 9, 9}, test::upload(probes)),
+    EXPECT_EQ(states_after({1, 1, 2, 1, 1, 0, 9, 9}, test::upload(probes)),
               (std::vector<cl_uint>{PROBE_AGREES, PROBE_AGREES, PROBE_FAILS, PROBE_FAILS,
-                                    PROBE_NOWHERE, PROBE_NOWHERE, 9, 9}));
+                                    PROBE_FAILS, PROBE_NOWHERE, 9, 9}));
 }
 
 }  // namespace
