@@ -311,6 +311,11 @@ TEST(DynamicTransferSolver, RefusesWhatItCannotDo) {
     options = {};
     options.coarse = {{0, 1, 9}};
     EXPECT_THROW(make(options), Error);
+    for (const int bounces : {-1, 2}) {
+        options = {};
+        options.bounces = bounces;
+        EXPECT_THROW(make(options), Error);
+    }
     Scene other = scene;
     test::add_floor(other, 2.0);
     EXPECT_THROW(DynamicTransferSolver(test::programs(), test::device().queue, other, device),

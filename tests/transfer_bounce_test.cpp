@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/planes.hpp>
 #include <cmath>
+#include <limits>
 
 #include "mask_tools.hpp"
 #include "math_modes.hpp"
@@ -33,9 +34,11 @@ TEST_P(TransferBounce, OfASurroundingSurfaceIsItsRadiance) {
                 exitance[t] = t < 20 ? glm::vec4(1, 2, 3, 0) : glm::vec4(5, 7, 11, 0);
             const std::uint32_t stride = drawn.receivers.stride;
             const cl::Buffer irradiance = test::upload(std::vector<float>(3 * stride, 0.5f));
+            const cl::Buffer counted = test::upload(std::vector<cl_uint>{7});
             test::mask_passes({}, how).bounce(test::device().queue, drawn.receivers, drawn.blockers,
                                               test::upload(pixel_heights(32)),
-                                              test::upload(exitance), irradiance);
+                                              test::upload(exitance), irradiance, counted);
+            EXPECT_EQ(test::download<cl_uint>(counted, 1)[0], 7u);
             const auto found = test::download<float>(irradiance, 3 * stride);
             // Corners go counter-clockwise seen from the front.
             const auto& t = around[0];
@@ -156,16 +159,47 @@ TEST_P(TransferBounce, AgreesWithThePathTracer) {
     }
 }
 
+// Light that the bounce makes infinite is counted; what was not finite before has been.
+TEST_P(TransferBounce, CountsWhatIsNotFinite) {
+    const float infinite = std::numeric_limits<float>::infinity();
+    const BuildOptions how{.math = GetParam()};
+    test::Eyes eyes;
+    eyes.positions.assign(3, eyes.positions[0]);
+    eyes.normals.assign(3, eyes.normals[0]);
+    const test::Drawn drawn = test::draw_masks(test::Blockers(test::icosahedron()), eyes, {}, how);
+    const std::uint32_t stride = drawn.receivers.stride;
+    for (const float light : {1.0f, infinite, -infinite, std::nanf("")}) {
+        std::vector<float> before(3 * stride, 0.5f);
+        before[stride + 1] = infinite;
+        const cl::Buffer irradiance = test::upload(before);
+        const cl::Buffer counted = test::upload(std::vector<cl_uint>{7});
+        test::mask_passes({}, how).bounce(
+            test::device().queue, drawn.receivers, drawn.blockers, test::upload(pixel_heights(32)),
+            test::upload(std::vector<glm::vec4>(40, glm::vec4(1, 1, light, 0))), irradiance,
+            counted);
+        EXPECT_EQ(test::download<cl_uint>(counted, 1)[0], light == 1.0f ? 7u : 9u) << light;
+        EXPECT_EQ(std::isfinite(test::download<float>(irradiance, 3 * stride)[2 * stride]),
+                  light == 1.0f);
+    }
+}
+
 TEST_P(TransferBounce, RefusesWhatDoesNotFit) {
     const test::Drawn drawn = test::draw_masks(test::Blockers(test::icosahedron()));
     const MaskPasses& passes = test::mask_passes({}, {.math = GetParam()});
     const cl::CommandQueue& queue = test::device().queue;
     const cl::Buffer heights = test::upload(pixel_heights(32)), one = test::empty<float>(1);
     const cl::Buffer some = test::upload(std::vector<float>(2000, 0.0f));
-    EXPECT_NO_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, some));
-    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, one, some, some), Error);
-    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, one, some), Error);
-    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, one), Error);
+    EXPECT_NO_THROW(
+        passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, some, some));
+    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, one, some, some, some),
+                 Error);
+    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, one, some, some),
+                 Error);
+    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, one, some),
+                 Error);
+    const cl::Buffer none(test::device().context, CL_MEM_READ_WRITE, 2);
+    EXPECT_THROW(passes.bounce(queue, drawn.receivers, drawn.blockers, heights, some, some, none),
+                 Error);
     EXPECT_THROW(passes.exitance(queue, {20, 16, 0, 0}, one, some, some, some, some), Error);
     EXPECT_THROW(passes.exitance(queue, {20, 16, 0, 0}, some, some, one, some, some), Error);
     EXPECT_THROW(passes.exitance(queue, {20, 16, 0, 0}, some, some, some, some, one), Error);

@@ -29,7 +29,10 @@ struct Glossy {
     }
 
     // [25][stride], 0 where no receiver is.
-    std::vector<float> lobes(const glm::vec3& eye, std::vector<float> exponents) const {
+    std::vector<float> lobes(const glm::vec3& eye, const std::vector<float>& exponents) const {
+        return lobes(glm::vec4(eye, 0.0f), exponents);
+    }
+    std::vector<float> lobes(const glm::vec4& eye, std::vector<float> exponents) const {
         exponents.resize(drawn.receivers.stride);
         const cl::Buffer out = test::empty<float>(25 * std::size_t{drawn.receivers.stride});
         passes().integrate_gloss(test::device().queue, drawn.receivers, values, directions,
@@ -89,6 +92,44 @@ TEST_P(Gloss, WithoutADirectionIsNoNumber) {
         for (const float far : {nan, 1e25f, std::numeric_limits<float>::infinity()}) {
             const std::vector<float> lost = glossy.lobes({0, 0, far}, {3, 4, 5});
             for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(std::isnan(lost[i])) << lanes << far;
+        }
+    }
+}
+
+// A direction to the eye gives each receiver what an eye at that place from it would, near or far.
+TEST_P(Gloss, OfADirectionIsThatOfAnEyeThere) {
+    const glm::vec3 direction(0.3f, -0.2f, 2.0f);
+    for (const int width : {1, 8}) {
+        const Glossy glossy({}, {.math = GetParam(), .packet_width = width});
+        const std::uint32_t stride = glossy.drawn.receivers.stride;
+        const auto found = glossy.lobes(glm::vec4(direction, 1.0f), {3, 4, 5});
+        const glm::vec3 places[] = {{0, 0, 0}, {0.5f, 0.25f, 0}, {-1, 0, 0.125f}};
+        for (std::size_t i = 0; i < 3; ++i)
+            for (const float away : {1.0f, 64.0f}) {
+                const auto wanted = glossy.lobes(places[i] + away * direction, {3, 4, 5});
+                for (std::size_t k = 0; k < 25; ++k)
+                    EXPECT_NEAR(found[k * stride + i], wanted[k * stride + i], 2e-5f)
+                        << i << ", " << k << ", " << away;
+            }
+    }
+}
+
+// Receivers of pixels that show nothing have frames of zeros at the origin. An eye there loses
+// nothing.
+TEST_P(Gloss, OfNoSurfaceIsNothing) {
+    for (const int width : {1, 8}) {
+        const Glossy glossy({}, {.math = GetParam(), .packet_width = width});
+        const std::uint32_t stride = glossy.drawn.receivers.stride;
+        auto planes = test::download<float>(glossy.drawn.receivers.planes,
+                                            RECEIVER_PLANES * std::size_t{stride});
+        for (std::size_t k = 0; k < RECEIVER_PLANES; ++k) planes[k * stride + 1] = 0.0f;
+        test::device().queue.enqueueWriteBuffer(glossy.drawn.receivers.planes, CL_TRUE, 0,
+                                                planes.size() * sizeof(float), planes.data());
+        const auto found = glossy.lobes(glm::vec3(0, 0, 0), {3, 0, 5});
+        for (std::size_t k = 0; k < 25; ++k) {
+            EXPECT_TRUE(std::isnan(found[k * stride])) << k;  // a surface at the eye
+            EXPECT_EQ(found[k * stride + 1], 0.0f) << k;
+            EXPECT_TRUE(std::isfinite(found[k * stride + 2])) << k;
         }
     }
 }

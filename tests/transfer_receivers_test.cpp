@@ -225,88 +225,6 @@ TEST_P(TransferReceivers, LightPixelsBetweenThem) {
     }
 }
 
-// 6 x 5 pixels, probes at (1, 1), (3, 1), (5, 1), (1, 3) and so on.
-constexpr std::uint32_t probe_stride = 16, picture_stride = 32;
-const ProbeParams probing{6, 5, picture_stride, probe_stride, 2, 3, 2, 0.25f};
-
-TEST_P(TransferReceivers, ComparesProbesWithWhatIsShown) {
-    std::vector<float> shown(3 * picture_stride), probes(3 * probe_stride);
-    std::vector<int> ids(2 * picture_stride, 3);
-    for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = static_cast<float>(i % 13) + 1.0f;
-    const std::size_t pixels[] = {7, 9, 11, 19, 21, 23};
-    for (std::size_t k = 0; k < 6; ++k)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float a = shown[c * picture_stride + pixels[k]];
-            // More by a third and by half, of the larger one; channels that make up for each other.
-            const float by[] = {1.3f, 1.4f, c == 0 ? 1.5f : 0.5f, 0.77f, 0.7f, 1.0f};
-            probes[c * probe_stride + k] = k == 5 && c == 1 ? nan : a * by[k];
-        }
-    ids[GBUFFER_TRIANGLE * picture_stride + 21] = -1;
-    GBuffer seen;
-    seen.planes = test::empty<float>(GBUFFER_PLANES * picture_stride);
-    seen.ids = test::upload(ids);
-    seen.stride = picture_stride;
-    const cl::Buffer values = test::upload(probes);
-    const cl::Buffer states = test::upload(std::vector<cl_uint>(8, 9));
-    passes(GetParam())
-        .compare_probes(test::device().queue, probing, seen, test::upload(shown), values, states);
-    EXPECT_EQ(test::download<cl_uint>(states, 8),
-              (std::vector<cl_uint>{PROBE_AGREES, PROBE_FAILS, PROBE_FAILS, PROBE_AGREES,
-                                    PROBE_NOWHERE, PROBE_FAILS, 9, 9}));
-    const auto missing = test::download<float>(values, probes.size());
-    for (std::size_t k = 0; k < 5; ++k)
-        for (std::size_t c = 0; c < 3; ++c)
-            EXPECT_NEAR(missing[c * probe_stride + k],
-                        probes[c * probe_stride + k] - shown[c * picture_stride + pixels[k]], 1e-6);
-}
-
-TEST_P(TransferReceivers, FlagsPixelsAroundProbesThatFailAndMendsTheOthers) {
-    // What is missing is a linear function of the place of the probe.
-    std::vector<float> missing(3 * probe_stride), shown(3 * picture_stride);
-    const auto lacks = [](double x, double y, std::size_t c) {
-        return static_cast<float>((1.0 + c) * x - 2.0 * y + 0.5 * c);
-    };
-    for (std::size_t k = 0; k < 6; ++k)
-        for (std::size_t c = 0; c < 3; ++c)
-            missing[c * probe_stride + k] = lacks(1 + 2.0 * (k % 3), 1 + 2.0 * (k / 3), c);
-    for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = static_cast<float>(i % 7);
-    std::vector<int> ids(2 * picture_stride, 0);
-    ids[GBUFFER_TRIANGLE * picture_stride + 8] = -1;
-    GBuffer seen;
-    seen.planes = test::empty<float>(GBUFFER_PLANES * picture_stride);
-    seen.ids = test::upload(ids);
-    seen.stride = picture_stride;
-    const cl::Buffer values = test::upload(shown);
-    const cl::Buffer flags = test::upload(std::vector<std::uint8_t>(32, 9));
-    // The probe at (5, 3) fails; the one at (1, 3) sees nothing.
-    const std::vector<cl_uint> states = {PROBE_AGREES,  PROBE_AGREES, PROBE_AGREES,
-                                         PROBE_NOWHERE, PROBE_AGREES, PROBE_FAILS};
-    passes(GetParam())
-        .undersampled(test::device().queue, probing, seen, test::upload(missing),
-                      test::upload(states), values, flags);
-    const auto marks = test::download<std::uint8_t>(flags, 32);
-    const auto found = test::download<float>(values, shown.size());
-    for (std::uint32_t pixel = 0; pixel < 30; ++pixel) {
-        const std::uint32_t x = pixel % 6, y = pixel / 6;
-        const bool flagged = x >= 3 && y >= 1 && pixel != 8;
-        EXPECT_EQ(marks[pixel], flagged ? 1 : 0) << pixel;
-        // Exact where all four probes around are seen and agree; beside the border the nearest do.
-        const double px = std::max(x, 1u), py = std::clamp(y, 1u, 3u);
-        if (x < 3 && y > 1) continue;  // one of them sees nothing
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::size_t at = c * picture_stride + pixel;
-            const float mend = flagged || pixel == 8 ? 0.0f : lacks(px, py, c);
-            EXPECT_NEAR(found[at], shown[at] + mend, 1e-5) << pixel << ", " << c;
-        }
-    }
-    // (2, 2): half of the square's probes at (1, 1) and (3, 1), a quarter at (3, 3).
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float mean = (lacks(1, 1, c) + lacks(3, 1, c) + lacks(3, 3, c)) / 3.0f;
-        EXPECT_NEAR(found[c * picture_stride + 14], shown[c * picture_stride + 14] + mean, 1e-5);
-    }
-    EXPECT_EQ(marks[30], 9);
-}
-
 TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {
     const DeviceScene scene = test::on_device(two_triangles());
     const Reflectance r = reflectance(0.6f, 0.5f);
@@ -342,6 +260,10 @@ TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {
             EXPECT_NEAR(found[at], radiance[at] + gloss, 1e-5f * (1 + gloss)) << pixel << ", " << c;
         }
 }
+
+// 6 x 5 pixels, probes at (1, 1), (3, 1), (5, 1), (1, 3) and so on.
+constexpr std::uint32_t probe_stride = 16, picture_stride = 32;
+const ProbeParams probing{6, 5, picture_stride, probe_stride, 2, 3, 2, 0.25f};
 
 TEST_P(TransferReceivers, RefuseWhatDoesNotFit) {
     const DeviceScene scene = test::on_device(two_triangles());
@@ -380,6 +302,10 @@ TEST_P(TransferReceivers, RefuseWhatDoesNotFit) {
     wrong.step = 1;
     EXPECT_THROW(p.undersampled(queue, wrong, wide, some, some, some, some), Error);
     EXPECT_THROW(p.undersampled(queue, probing, wide, some, some, some, one), Error);
+    EXPECT_THROW(p.compare_gloss(queue, probing, scene, wide, some, one, some, some), Error);
+    EXPECT_THROW(p.compare_gloss(queue, probing, scene, wide, some, some, one, some), Error);
+    const cl::Buffer three = test::empty<float>(3 * probe_stride);
+    EXPECT_THROW(p.compare_probes(queue, probing, wide, some, three, some), Error);
     EXPECT_THROW(p.add_gloss(queue, {6, stride, 1, 0}, scene, seen, one, some, some), Error);
     EXPECT_THROW(p.add_gloss(queue, {6, stride, 1, 0}, scene, other, some, some, some), Error);
 }

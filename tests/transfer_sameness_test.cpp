@@ -331,7 +331,7 @@ TEST(TransferInputs, OfTooFewBytesAreRefused) {
          [&](const cl::Buffer& x) { integrate(with(r, &R::transfer, x), zeros, zeros); }},
         {"transfer.integrate_gloss", "exponents", 16 * 4,
          [&](const cl::Buffer& x) {
-             passes.integrate_gloss(queue, r, zeros, zeros, x, glm::vec3(1.0f), r.transfer);
+             passes.integrate_gloss(queue, r, zeros, zeros, x, glm::vec4(1.0f), r.transfer);
          }},
         {"transfer.shade", "transfer", vectors,
          [&](const cl::Buffer& x) { passes.shade(queue, r, x, zeros, 0, r.transfer, scratch); }},

@@ -302,8 +302,8 @@ TEST_P(Transfer, OfGlossIsTheLobeAroundTheMirroredView) {
                     .integrate_gloss(
                         test::device().queue, drawn.receivers, test::upload(weights.values),
                         test::upload(weights.directions),
-                        test::upload(std::vector<float>(16, static_cast<float>(exponent))), eye,
-                        lobes);
+                        test::upload(std::vector<float>(16, static_cast<float>(exponent))),
+                        glm::vec4(eye, 0.0f), lobes);
                 const auto values = test::download<float>(lobes, 25 * 16);
                 std::vector<double> found;
                 for (int k = 0; k < 25; ++k) found.push_back(values[16 * k]);

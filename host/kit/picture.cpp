@@ -44,8 +44,9 @@ BufferTable Picture::table() {
     return t;
 }
 
-void Picture::allocate(const BufferTable& table) {
-    table.check(record_.queue().getInfo<CL_QUEUE_DEVICE>(), options_.memory_budget, scene_.bytes());
+void Picture::allocate(const BufferTable& table, std::size_t taken) {
+    table.check(record_.queue().getInfo<CL_QUEUE_DEVICE>(), options_.memory_budget,
+                scene_.bytes() + taken);
     table.allocate(record_);
     bytes_ = table.bytes();
     build_draw(gbuffer_, scene_, emitters_.set().views.size());

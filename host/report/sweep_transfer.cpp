@@ -175,7 +175,7 @@ private:
         if (counted_.pixels == 0) throw InputError("sweep: no vertex sees the environment");
     }
 
-    void trace(const reference::PathTracer& tracer, TransferTruth truth, double from) {
+    void trace(const reference::PathTracer& tracer, IrradianceTruth truth, double from) {
         progress_.part(from, 0.1);
         const int most = setup_.quick ? 16 : 256;
         for (int samples = 1; samples <= most; samples *= 4) {

@@ -14,7 +14,7 @@ inline constexpr const char* transfer_levels = "two-level transfer";
 inline constexpr const char* transfer_sets = "transfer with visible sets";
 
 // What irradiance is compared with, of Sweep::truths.
-enum TransferTruth : std::size_t {
+enum IrradianceTruth : std::size_t {
     full_environment,   // the picture as it is: what light in so few bands lacks is part of the
                         // error
     smooth_environment  // its first five bands alone, smoothed until no direction is below 0: with

@@ -136,11 +136,11 @@ void DynamicTransferSolver::State::bounce() {
                               exitance, wait);
     });
     record("transfer.bounce", receivers.count, [&](const WaitList& wait) {
-        return masks.bounce(queue, receivers, blockers, heights, exitance, irradiance, wait);
+        return masks.bounce(queue, receivers, blockers, heights, exitance, irradiance, bad, wait);
     });
 }
 
-void DynamicTransferSolver::State::reflect(const glm::vec3& eye) {
+void DynamicTransferSolver::State::reflect(const glm::vec4& eye) {
     if (!glossy) return;
     record("transfer.integrate_gloss", receivers.count, [&](const WaitList& wait) {
         return masks.integrate_gloss(queue, receivers, weights, directions, exponents, eye, lobes,
@@ -182,10 +182,16 @@ cl::Event DynamicTransferSolver::light(const WaitList& wait) {
 }
 
 cl::Event DynamicTransferSolver::reflect(const glm::vec3& eye, const WaitList& wait) {
+    return reflect(glm::vec4(eye, 0.0f), wait);
+}
+
+cl::Event DynamicTransferSolver::reflect(const glm::vec4& eye, const WaitList& wait) {
     state_->record.begin(wait);
     state_->reflect(eye);
     return state_->record.last();
 }
+
+cl::Event DynamicTransferSolver::last() const { return state_->record.last(); }
 
 bool DynamicTransferSolver::run(const Progress& progress) {
     State& s = *state_;

@@ -32,7 +32,7 @@ TransferBuffers::TransferBuffers(const Scene& file, const DeviceScene& of,
       options(checked(wanted)),
       glossy(wanted.gloss && of.has_lobes()),
       vertices(file, of),
-      levels(blocker_levels(file, of, wanted.coarse, wanted.rings)),
+      levels(blocker_levels(file, of, wanted.coarse, wanted.rings, wanted.memory_budget)),
       sky(scene, wanted.masks.bands, wanted.directional) {
     vertices.add_other_sides(levels);
     receivers.count = vertices.count();
@@ -98,7 +98,9 @@ BufferTable TransferBuffers::table() {
 
 Estimate estimate(const cl::Device& device, const Scene& scene, const DeviceScene& device_scene,
                   const DynamicTransferOptions& options) {
-    TransferBuffers buffers(scene, device_scene, options);
+    DynamicTransferOptions without_budget = options;
+    without_budget.memory_budget = 0;  // an estimate tells what a budget would refuse
+    TransferBuffers buffers(scene, device_scene, without_budget);
     Estimate out;
     out.bytes = buffers.table().bytes();
 

@@ -43,6 +43,10 @@ void SceneReceivers::add_other_sides(BlockerLevels& levels) const {
         if (levels.near_lists.empty()) continue;
         for (std::uint32_t i = levels.near_lists[v]; i < levels.near_lists[v + 1]; ++i)
             near.push_back(std::uint32_t{near[i]});
+        if (near.size() > RECEIVER_NONE)
+            throw DeviceError(
+                "dynamic-transfer: lists of singles have more than 2^32 triangles; "
+                "give more triangles in coarse");
         levels.near_lists.push_back(static_cast<std::uint32_t>(near.size()));
     }
 }

@@ -1,8 +1,45 @@
 // Potentially visible sets of the receivers of a scene.              [Kautz04, section 3.2]
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <functional>
+#include <string>
+
 #include "solvers/dynamic_transfer_state.hpp"
 
 namespace clgi {
+namespace {
+
+void check(const VisibleSets& sets, std::uint32_t receivers, std::uint32_t triangles) {
+    const std::vector<std::uint32_t>& lists = sets.near_lists;
+    const std::string what = std::string(transfer_owner) + ": the sets ";
+    if (lists.size() != std::size_t{receivers} + 1)
+        throw Error(what + "are of " + std::to_string(lists.size()) + " receivers less one, " +
+                    std::to_string(receivers) + " needed");
+    if (lists.front() != 0 || lists.back() != sets.near.size())
+        throw Error(what + "begin at " + std::to_string(lists.front()) + " and end at " +
+                    std::to_string(lists.back()) + ", 0 and " + std::to_string(sets.near.size()) +
+                    " needed");
+    const auto falls = std::adjacent_find(lists.begin(), lists.end(), std::greater<>());
+    if (falls != lists.end())
+        throw Error(what + "of receiver " + std::to_string(falls - lists.begin()) +
+                    " end before they begin");
+    for (const std::uint32_t triangle : sets.near)
+        if (triangle >= triangles)
+            throw Error(what + "name triangle " + std::to_string(triangle) + ", there are " +
+                        std::to_string(triangles));
+}
+
+}  // namespace
+
+void DynamicTransferSolver::State::allocate_more(const BufferTable& more) {
+    // 0 would be no budget.
+    const std::size_t left = options.memory_budget - std::min(bytes, options.memory_budget);
+    more.check(queue.getInfo<CL_QUEUE_DEVICE>(),
+               options.memory_budget > 0 ? std::max<std::size_t>(left, 1) : 0,
+               scene.bytes() + bytes);
+    more.allocate(record);
+    bytes += more.bytes();
+}
 
 cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
     if (!seen()) {
@@ -12,9 +49,7 @@ cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
         if (!heights())
             t.add(heights, "heights of pixels", "mask size",
                   pixel_heights(options.masks.size).size() * sizeof(float));
-        t.check(queue.getInfo<CL_QUEUE_DEVICE>(), 0, scene.bytes() + bytes);
-        t.allocate(record);
-        bytes += t.bytes();
+        allocate_more(t);
         put(heights, pixel_heights(options.masks.size));
         record.fill(seen, 0);
         masks.build({"visible"});
@@ -37,29 +72,32 @@ VisibleSets DynamicTransferSolver::State::sets() {
 }
 
 void DynamicTransferSolver::State::restrict(const VisibleSets& sets) {
-    if (sets.near_lists.size() != std::size_t{receivers.count} + 1 ||
-        sets.near_lists.back() != sets.near.size())
-        throw Error("dynamic-transfer: the sets are of " + std::to_string(sets.near_lists.size()) +
-                    " receivers less one, " + std::to_string(receivers.count) + " needed");
-    for (const std::uint32_t triangle : sets.near)
-        if (triangle >= blockers.triangle_count)
-            throw Error("dynamic-transfer: the sets name triangle " + std::to_string(triangle) +
-                        ", there are " + std::to_string(blockers.triangle_count));
-    // Those of the hierarchy stay: look() goes on with them.
-    blockers.lists = blockers.ranges = blockers.near_lists = blockers.near = cl::Buffer();
-    blockers.receivers_per_list = ~0u;
+    check(sets, receivers.count, both.triangle_count);
+    // Those of the hierarchy stay: look() goes on with them. Those of before stay until all that
+    // may fail is done.
+    BlockerBuffers made = blockers;
+    made.lists = made.ranges = made.near_lists = made.near = cl::Buffer();
+    made.receivers_per_list = ~0u;
     BufferTable t(transfer_owner);
-    t.add_word(blockers.lists, "lists of clusters", 0);
-    t.add_word(blockers.ranges, "lists of clusters", 0);
-    t.add(blockers.near_lists, "lists of singles", "the scene's vertices",
+    t.add_word(made.lists, "lists of clusters", 0);
+    t.add_word(made.ranges, "lists of clusters", 0);
+    t.add(made.near_lists, "lists of singles", "the scene's vertices",
           sets.near_lists.size() * sizeof(std::uint32_t));
-    t.add(blockers.near, "lists of singles", "the scene's vertices",
+    t.add(made.near, "lists of singles", "the scene's vertices",
           sets.near.size() * sizeof(std::uint32_t));
-    t.check(queue.getInfo<CL_QUEUE_DEVICE>(), 0, scene.bytes() + bytes);
-    t.allocate(record);
-    put(blockers.near_lists, sets.near_lists);
-    put(blockers.near, sets.near);
     masks.build({"mask_near"});
+    if (options.bounces > 0) masks.build({"bounce_near"});
+    allocate_more(t);
+    try {
+        put(made.near_lists, sets.near_lists);
+        put(made.near, sets.near);
+    } catch (...) {
+        bytes -= t.bytes();
+        throw;
+    }
+    blockers = made;
+    bytes -= bytes_of_sets;
+    bytes_of_sets = t.bytes();
     listed_triangles = sets.near.size();
 }
 

@@ -65,8 +65,10 @@ struct DynamicTransferSolver::State : TransferBuffers {
     void shade(const cl::Buffer& vectors, const cl::Buffer& out);
     void light();
     void bounce();
-    void reflect(const glm::vec3& eye);
+    void reflect(const glm::vec4& eye);
 
+    // Buffers beside those of the start: of the budget, what these leave.
+    void allocate_more(const BufferTable& more);
     cl::Event look(const WaitList& wait);
     VisibleSets sets();
     void restrict(const VisibleSets& sets);
@@ -80,6 +82,7 @@ struct DynamicTransferSolver::State : TransferBuffers {
     BlockerBuffers blockers;  // with the lists that masks look at: those of both, or visible sets
     cl::Buffer seen;
     std::size_t bytes = 0;
+    std::size_t bytes_of_sets = 0;  // of these
 };
 
 }  // namespace clgi

@@ -22,6 +22,11 @@ constexpr std::uint32_t batch = 32768;
 // are rounded by, and less than anything that casts a shadow one can see.
 constexpr float lift = 1.52587890625e-5f;  // 2^-16
 
+// Of the receivers that a view sees: a place, or with w 1 a direction.
+glm::vec4 to_eye(const View& view) {
+    return view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
+}
+
 PictureOptions without_sky(PictureOptions options) {
     options.emitters.environment_lights = 0;
     return options;
@@ -45,10 +50,11 @@ struct DynamicTransferView::State {
         probe(static_cast<std::uint32_t>(options.probe_step));
         BufferTable all = picture.table();
         add_to(all);
-        picture.allocate(all);
+        picture.allocate(all, solver.bytes());
         passes.build({"show"});
         if (solver.glossy()) passes.build({"add_gloss"});
         if (some_pixels()) passes.build({"pixels", "place", "compare_probes", "undersampled"});
+        if (some_pixels() && solver.glossy()) passes.build({"compare_gloss"});
         write();
     }
 
@@ -94,7 +100,8 @@ struct DynamicTransferView::State {
         t.add(receivers.masks, "masks", size,
               static_cast<std::size_t>(MASK_WORDS(masks.size)) * stride * word);
         t.add(receivers.transfer, "transfer vectors", size, terms * stride * word);
-        t.add(arriving, "irradiance of receivers", size, 3 * stride * word);
+        t.add(arriving, "irradiance of receivers", size, 4 * stride * word);
+        if (solver.glossy()) t.add(shining, "gloss of receivers", size, 4 * stride * word);
         t.add(exponents, "exponents of lobes", size, stride * word);
         t.add(probe_list.pixels, "probes", size, probes.size() * word);
         t.add(probe_list.listed, "probes", size, word);
@@ -114,7 +121,7 @@ struct DynamicTransferView::State {
         };
         put(probe_list.pixels, probes);
         put(probe_list.listed, {static_cast<std::uint32_t>(probes.size())});
-        if (!all_pixels()) return;
+        if (!all_pixels()) return put(list.listed, {0});  // a picture without probes lists none
         std::vector<std::uint32_t> all(count());
         for (std::uint32_t i = 0; i < count(); ++i) all[i] = i;
         put(list.pixels, all);
@@ -137,27 +144,38 @@ struct DynamicTransferView::State {
             return solver.passes().integrate(queue, receivers, solver.weights(),
                                              solver.directions(), wait);
         });
-        shade();
+        shade(arriving);
         if (solver.options().bounces == 0) return;
         record("transfer.bounce", run.count, [&](const WaitList& wait) {
             return solver.passes().bounce(queue, receivers, solver.blockers(), solver.heights(),
-                                          solver.exitance(), arriving, wait);
+                                          solver.exitance(), arriving, picture.counter(), wait);
         });
     }
 
-    void shade() {
+    void shade(const cl::Buffer& out) {
         Recorder& record = picture.record();
         record("transfer.shade", receivers.count, [&](const WaitList& wait) {
             return solver.passes().shade(record.queue(), receivers, receivers.transfer,
-                                         solver.environment(), SHADE_CLAMP, arriving,
-                                         picture.counter(), wait);
+                                         solver.environment(), SHADE_CLAMP, out, picture.counter(),
+                                         wait);
         });
     }
 
-    void place(const PixelParams& run, const cl::Buffer& shown) {
+    // What the lobes of those receivers reflect; their transfer vectors are lost.
+    void gloss_pixels(const View& view) {
+        Recorder& record = picture.record();
+        record("transfer.integrate_gloss", receivers.count, [&](const WaitList& wait) {
+            return solver.passes().integrate_gloss(record.queue(), receivers, solver.weights(),
+                                                   solver.directions(), exponents, to_eye(view),
+                                                   receivers.transfer, wait);
+        });
+        shade(shining);
+    }
+
+    void place(const PixelParams& run, const cl::Buffer& light, const cl::Buffer& shown) {
         Recorder& record = picture.record();
         record("transfer.place", run.count, [&](const WaitList& wait) {
-            return passes.place(record.queue(), run, list, arriving, shown, wait);
+            return passes.place(record.queue(), run, list, light, shown, wait);
         });
     }
 
@@ -169,9 +187,7 @@ struct DynamicTransferView::State {
 
     void show(const View& view, const cl::Buffer& light, const cl::Buffer& shown) {
         Recorder& record = picture.record();
-        const glm::vec4 eye =
-            view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
-        const ShowVerticesParams params{eye, count(), probing.pixel_stride,
+        const ShowVerticesParams params{to_eye(view), count(), probing.pixel_stride,
                                         scene.info().triangle_count, solver.receivers().stride};
         record("transfer.show", count(), [&](const WaitList& wait) {
             return passes.show(record.queue(), params, scene, solver.other_side(),
@@ -180,7 +196,7 @@ struct DynamicTransferView::State {
     }
 
     // Lists the pixels at which probes differ from what is shown.
-    void list_undersampled() {
+    void list_undersampled(const View& view) {
         Recorder& record = picture.record();
         const auto number = static_cast<std::uint32_t>(probes.size());
         light_pixels(run_of(0, number), probe_list);
@@ -188,43 +204,57 @@ struct DynamicTransferView::State {
             return passes.compare_probes(record.queue(), probing, picture.gbuffer(),
                                          picture.irradiance(), arriving, states, wait);
         });
-        record("transfer.undersampled", count(), [&](const WaitList& wait) {
-            return passes.undersampled(record.queue(), probing, picture.gbuffer(), arriving, states,
-                                       picture.irradiance(), flags, wait);
-        });
+        if (solver.glossy()) {
+            gloss_pixels(view);
+            record("transfer.compare_gloss", number, [&](const WaitList& wait) {
+                return passes.compare_gloss(record.queue(), probing, scene, picture.gbuffer(),
+                                            picture.irradiance(), gloss, shining, states, wait);
+            });
+        }
+        mend(arriving, picture.irradiance());
+        if (solver.glossy()) mend(shining, gloss);
         record("parallel.list", count(), [&](const WaitList& wait) {
             return parallel.list(record.queue(), count(), flags, list.pixels, list.listed, scratch,
                                  wait);
         });
     }
 
-    void light_listed(const View& view) {
+    // Flags are the same for whatever is shown.
+    void mend(const cl::Buffer& missing, const cl::Buffer& shown) {
         Recorder& record = picture.record();
+        record("transfer.undersampled", count(), [&](const WaitList& wait) {
+            return passes.undersampled(record.queue(), probing, picture.gbuffer(), missing, states,
+                                       shown, flags, wait);
+        });
+    }
+
+    void light_listed(const View& view) {
         for (std::uint32_t first = 0; first < count(); first += batch) {
             const PixelParams run = run_of(first, std::min(batch, count() - first));
             light_pixels(run, list);
-            place(run, picture.irradiance());
+            place(run, arriving, picture.irradiance());
             if (!solver.glossy()) continue;
-            record("transfer.integrate_gloss", run.count, [&](const WaitList& wait) {
-                return solver.passes().integrate_gloss(
-                    record.queue(), receivers, solver.weights(), solver.directions(), exponents,
-                    glm::vec3(view.eye), receivers.transfer, wait);
-            });
-            shade();
-            place(run, gloss);
+            gloss_pixels(view);
+            place(run, shining, gloss);
         }
     }
 
     cl::Event render(const Camera& camera, const WaitList& wait) {
-        const glm::vec3 eye = scene.frame().to_local(camera.position);
-        const WaitList ready = {solver.glossy() ? solver.reflect(eye, wait) : cl::Event()};
-        const View view = picture.begin(camera, solver.glossy() ? ready : wait);
+        WaitList ready = wait;
+        if (solver.glossy())
+            solver.reflect(to_eye(make_view(camera, scene.frame(), picture.options().width,
+                                            picture.options().height)),
+                           wait);
+        // Also of a queue out of order, where nothing else orders two recorders.
+        if (const cl::Event lit = solver.last(); lit()) ready.push_back(lit);
+        const View view = picture.begin(camera, ready);
         if (!all_pixels()) {
             show(view, solver.irradiance(), picture.irradiance());
             if (solver.glossy()) show(view, solver.gloss(), gloss);
         }
-        if (some_pixels() && !all_pixels() && !probes.empty()) list_undersampled();
-        if (some_pixels()) light_listed(view);
+        const bool probed = some_pixels() && !all_pixels() && !probes.empty();
+        if (probed) list_undersampled(view);
+        if (probed || all_pixels()) light_listed(view);
         picture.combine(view);
         if (solver.glossy()) {
             Recorder& record = picture.record();
@@ -248,7 +278,7 @@ struct DynamicTransferView::State {
     std::vector<std::uint32_t> probes;  // pixels
     ReceiverBuffers receivers;          // at pixels
     PixelList probe_list, list;
-    cl::Buffer gloss, arriving, exponents, states, flags, scratch;
+    cl::Buffer gloss, arriving, shining, exponents, states, flags, scratch;
 };
 
 DynamicTransferView::DynamicTransferView(const Programs& programs, const cl::CommandQueue& queue,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <string>
+#include <utility>
 
 #include "opencl/check.hpp"
 #include "scene/disjoint_sets.hpp"
@@ -105,49 +106,100 @@ void sort_once(std::vector<std::uint32_t>& values) {
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-// Both levels for one receiver.
-struct Listed {
-    std::vector<std::uint32_t> ranges, near;
-    bool known = false;
-};
+// The coarse triangles, and the scene's own where a piece has none of them.
+std::vector<glm::uvec3> with_lacking(std::vector<glm::uvec3> coarse,
+                                     const std::vector<glm::uvec3>& fine,
+                                     const std::vector<std::uint32_t>& pieces) {
+    std::vector<bool> has(pieces.size(), false);
+    for (const glm::uvec3& t : coarse) has[pieces[t.x]] = true;
+    for (const glm::uvec3& t : fine)
+        if (!has[pieces[t.x]]) coarse.push_back(t);
+    return coarse;
+}
 
 class Lists {
 public:
-    // fine, coarse: vertices of the scene, in the order of the device and of the clusters. behind:
+    // fine: vertices of the scene, in the order of the device; coarse_of: the place of the coarse
+    // triangle that stands for each. coarse: how many there are. welded: below count. behind:
     // triangles before the coarse ones.
-    Lists(const Scene& scene, const std::vector<glm::uvec3>& fine,
-          const std::vector<glm::uvec3>& coarse, std::uint32_t behind)
-        : welded_(weld(scene.positions, scene.triangles)),
-          count_(welded_.empty() ? 0 : *std::max_element(welded_.begin(), welded_.end()) + 1),
-          rings_(on_welded(fine), count_),
-          coarse_of_(
-              nearest_coarse(scene.positions, connected(scene, welded_, count_), fine, coarse)),
-          fine_of_(coarse.size()),
+    Lists(std::vector<std::uint32_t> coarse_of, const std::vector<glm::uvec3>& fine,
+          std::size_t coarse, const std::vector<std::uint32_t>& welded, std::uint32_t count,
+          std::uint32_t behind)
+        : welded_(welded),
+          rings_(on_welded(fine), count),
+          coarse_of_(std::move(coarse_of)),
+          fine_of_(coarse),
           behind_(behind),
-          listed_(count_) {
+          listed_(count) {
         for (std::uint32_t t = 0; t < fine.size(); ++t)
             if (coarse_of_[t] != absent) fine_of_[coarse_of_[t]].push_back(t);
     }
 
-    const Listed& of(std::uint32_t scene_vertex, int rings) {
+    // Words that the ranges and singles of a vertex take at most.
+    std::size_t words(std::uint32_t scene_vertex, int rings) {
         const std::uint32_t vertex = welded_[scene_vertex];
-        Listed& out = listed_[vertex];
-        if (out.known) return out;
-        out.known = true;
-        std::vector<std::uint32_t> fine = rings_.around(vertex, rings), own;
-        for (const std::uint32_t t : fine)
-            if (coarse_of_[t] != absent) own.push_back(coarse_of_[t]);
-        sort_once(own);
+        std::size_t& out = listed_[vertex].words;
+        if (out > 0) return out;
+        const std::vector<std::uint32_t> fine = rings_.around(vertex, rings);
+        const std::vector<std::uint32_t> own = coarse_of(fine);
+        out = 2 * (own.size() + 1);  // a range before each and one behind
+        for (const std::uint32_t c : own) out += fine_of_[c].size();
+        for (const std::uint32_t t : fine) out += coarse_of_[t] == absent;
+        std::uint32_t cluster = absent;
+        for (const std::uint32_t c : own)
+            if (c / BLOCKER_CLUSTER != cluster) {
+                cluster = c / BLOCKER_CLUSTER;
+                out += BLOCKER_CLUSTER;
+            }
+        return out;
+    }
+
+    // Adds the ranges and singles of a vertex to `out`.
+    void add(std::uint32_t scene_vertex, int rings, BlockerLevels& out) {
+        const std::uint32_t vertex = welded_[scene_vertex];
+        Listed& listed = listed_[vertex];
+        if (listed.known) {
+            repeat(out.ranges, listed.ranges);
+            repeat(out.near, listed.near);
+            return;
+        }
+        listed.ranges.first = out.ranges.size();
+        listed.near.first = out.near.size();
+        listed.known = true;
+        std::vector<std::uint32_t> fine = rings_.around(vertex, rings);
+        const std::vector<std::uint32_t> own = coarse_of(fine);
         for (const std::uint32_t c : own)
             fine.insert(fine.end(), fine_of_[c].begin(), fine_of_[c].end());
         sort_once(fine);
         for (const std::uint32_t t : fine)
             if (!rings_.touches(t, vertex)) out.near.push_back(t);
-        add_coarse(own, out);
-        return out;
+        add_coarse(own, listed.ranges.first, out);
+        listed.ranges.second = out.ranges.size();
+        listed.near.second = out.near.size();
     }
 
 private:
+    using Run = std::pair<std::size_t, std::size_t>;  // first and end
+    struct Listed {                                   // what has been added for a welded vertex
+        Run ranges, near;
+        std::size_t words = 0;
+        bool known = false;
+    };
+
+    // Those that stand for some fine triangles, ascending.
+    std::vector<std::uint32_t> coarse_of(const std::vector<std::uint32_t>& fine) const {
+        std::vector<std::uint32_t> out;
+        for (const std::uint32_t t : fine)
+            if (coarse_of_[t] != absent) out.push_back(coarse_of_[t]);
+        sort_once(out);
+        return out;
+    }
+
+    static void repeat(std::vector<std::uint32_t>& values, const Run& run) {
+        for (std::size_t i = run.first; i < run.second; ++i)
+            values.push_back(std::uint32_t{values[i]});
+    }
+
     std::vector<glm::uvec3> on_welded(const std::vector<glm::uvec3>& triangles) const {
         std::vector<glm::uvec3> out;
         for (const glm::uvec3& t : triangles)
@@ -156,7 +208,8 @@ private:
     }
 
     // All but its own: clusters where whole ones are left, else singles.
-    void add_coarse(const std::vector<std::uint32_t>& own, Listed& out) const {
+    void add_coarse(const std::vector<std::uint32_t>& own, std::size_t first_range,
+                    BlockerLevels& out) const {
         const auto count = static_cast<std::uint32_t>(fine_of_.size());
         for (std::uint32_t first = 0; first < count; first += BLOCKER_CLUSTER) {
             const std::uint32_t end = std::min(first + BLOCKER_CLUSTER, count);
@@ -164,7 +217,7 @@ private:
             if (from == own.end() || *from >= end) {
                 const std::uint32_t cluster = (behind_ + first) / BLOCKER_CLUSTER;
                 const std::size_t size = out.ranges.size();
-                if (size > 0 && out.ranges[size - 2] + out.ranges[size - 1] == cluster)
+                if (size > first_range && out.ranges[size - 2] + out.ranges[size - 1] == cluster)
                     ++out.ranges[size - 1];
                 else
                     out.ranges.insert(out.ranges.end(), {cluster, 1});
@@ -175,8 +228,7 @@ private:
         }
     }
 
-    std::vector<std::uint32_t> welded_;
-    std::uint32_t count_;  // welded vertices
+    const std::vector<std::uint32_t>& welded_;
     Rings rings_;
     std::vector<std::uint32_t> coarse_of_;             // [fine]
     std::vector<std::vector<std::uint32_t>> fine_of_;  // [coarse]
@@ -184,10 +236,31 @@ private:
     std::vector<Listed> listed_;  // [welded]
 };
 
+// Words that all lists need, before anything is listed: the fewer coarse triangles, the more each
+// stands for.
+std::size_t need_room(Lists& lists, int rings, const DeviceScene& scene, std::size_t most_bytes,
+                      std::size_t coarse) {
+    // Places in lists are numbers of 32 bits.
+    std::size_t most = std::size_t{absent} * sizeof(std::uint32_t);
+    if (most_bytes > 0) most = std::min(most, most_bytes);
+    const auto context = scene.positions().getInfo<CL_MEM_CONTEXT>();
+    for (const cl::Device& device : context.getInfo<CL_CONTEXT_DEVICES>())
+        most = std::min<std::size_t>(most, device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
+    std::size_t words = 0;
+    for (const std::uint32_t vertex : scene.vertex_order()) words += lists.words(vertex, rings);
+    if (words * sizeof(std::uint32_t) > most)
+        throw DeviceError(
+            "blocker_levels: the vertices' lists of triangles need up to " +
+            std::to_string(words * sizeof(std::uint32_t)) + " bytes, " + std::to_string(most) +
+            " are allowed; give more triangles in coarse, which has " + std::to_string(coarse));
+    return words;
+}
+
 }  // namespace
 
 BlockerLevels blocker_levels(const Scene& scene, const DeviceScene& device_scene,
-                             const std::vector<glm::uvec3>& coarse, int rings) {
+                             const std::vector<glm::uvec3>& coarse, int rings,
+                             std::size_t most_bytes) {
     need_range("blocker_levels", "rings", rings, 0, 2);
     check_scene(scene, device_scene);
     const std::vector<std::uint32_t> place = places(scene, device_scene);
@@ -214,20 +287,24 @@ BlockerLevels blocker_levels(const Scene& scene, const DeviceScene& device_scene
     const std::uint32_t point = out.triangles.back().x;
     out.triangles.resize(std::size_t{clusters} * BLOCKER_CLUSTER,
                          glm::uvec4(point, point, point, 0));
+    const std::vector<std::uint32_t> welded = weld(scene.positions, scene.triangles);
+    const std::uint32_t count = *std::max_element(welded.begin(), welded.end()) + 1;
+    const std::vector<std::uint32_t> pieces = connected(scene, welded, count);
+    const std::vector<glm::uvec3> all = with_lacking(coarse, fine, pieces);
     std::vector<glm::uvec3> ordered;
-    for (const std::uint32_t t : cluster_order(scene, coarse)) {
-        ordered.push_back(coarse[t]);
-        add(coarse[t]);
+    for (const std::uint32_t t : cluster_order(scene, all)) {
+        ordered.push_back(all[t]);
+        add(all[t]);
     }
-    Lists lists(scene, fine, ordered, clusters * BLOCKER_CLUSTER);
+    Lists lists(nearest_coarse(scene.positions, pieces, fine, ordered), fine, ordered.size(),
+                welded, count, clusters * BLOCKER_CLUSTER);
+    out.near.reserve(need_room(lists, rings, device_scene, most_bytes, coarse.size()));
     out.receivers_per_list = 1;
     out.lists = {0};
     out.near_lists = {0};
     for (const std::uint32_t vertex : device_scene.vertex_order()) {
-        const Listed& listed = lists.of(vertex, rings);
-        out.ranges.insert(out.ranges.end(), listed.ranges.begin(), listed.ranges.end());
+        lists.add(vertex, rings, out);
         out.lists.push_back(static_cast<std::uint32_t>(out.ranges.size() / 2));
-        out.near.insert(out.near.end(), listed.near.begin(), listed.near.end());
         out.near_lists.push_back(static_cast<std::uint32_t>(out.near.size()));
     }
     if (out.ranges.empty()) out.ranges = {0, 0};

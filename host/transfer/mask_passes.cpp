@@ -221,7 +221,7 @@ cl::Event MaskPasses::exitance(const cl::CommandQueue& queue, const BounceParams
 cl::Event MaskPasses::bounce(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                              const BlockerBuffers& b, const cl::Buffer& heights,
                              const cl::Buffer& exitance, const cl::Buffer& irradiance,
-                             const WaitList& wait) const {
+                             const cl::Buffer& non_finite, const WaitList& wait) const {
     const PassKernel& pass = has_singles(b) ? bounce_near_ : bounce_;
     need_countable(pass, "irradiance", 3, r.stride);
     need_receivers(pass, r);
@@ -232,13 +232,14 @@ cl::Event MaskPasses::bounce(const cl::CommandQueue& queue, const ReceiverBuffer
     need(pass, "heights", heights, mask_table_bytes(exact));
     need(pass, "exitance", exitance, 2 * std::size_t{b.triangle_count} * sizeof(glm::vec4));
     need(pass, "irradiance", irradiance, 3 * word * r.stride);
+    need(pass, "non_finite", non_finite, word);
     const std::vector<float> z = pixel_heights(masks_.size);
     const auto pixels = std::count_if(z.begin(), z.end(), [](float height) { return height > 0; });
     const MaskParams params{r.count, r.stride, b.stride, b.receivers_per_list, 0, 0, 0, 0};
     const BounceParams share{b.triangle_count, r.stride,
                              glm::pi<float>() / static_cast<float>(pixels), 0};
     return launch(pass, queue, r.count, wait, params, share, r.planes, Listed{b}, heights, exitance,
-                  irradiance);
+                  irradiance, non_finite);
 }
 
 std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuffers& r,
@@ -269,13 +270,13 @@ cl::Event MaskPasses::integrate(const cl::CommandQueue& queue, const ReceiverBuf
 
 cl::Event MaskPasses::integrate_gloss(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                                       const cl::Buffer& weights, const cl::Buffer& directions,
-                                      const cl::Buffer& exponents, const glm::vec3& eye,
+                                      const cl::Buffer& exponents, const glm::vec4& eye,
                                       const cl::Buffer& lobes, const WaitList& wait) const {
     const std::size_t items = need_integral(integrate_gloss_, r, weights, directions, lobes);
     need(integrate_gloss_, "exponents", exponents, word * r.stride);
     return launch(integrate_gloss_, queue, items, wait,
-                  IntegrateParams{glm::vec4(eye, 0.0f), r.count, r.stride, 0, 0}, r.planes, r.masks,
-                  weights, directions, exponents, lobes);
+                  IntegrateParams{eye, r.count, r.stride, 0, 0}, r.planes, r.masks, weights,
+                  directions, exponents, lobes);
 }
 
 cl::Event MaskPasses::shade(const cl::CommandQueue& queue, const ReceiverBuffers& r,

@@ -44,7 +44,7 @@ void need_probes(const PassKernel& pass, const ProbeParams& params, const GBuffe
     need_stride(pass, "probe_stride", params.probe_stride, count);
     need_seen(pass, seen, params.pixel_stride);
     need(pass, "shown", shown, irradiance_bytes(pass.storage, params.pixel_stride));
-    need(pass, "probes", probes, 3 * word * params.probe_stride);
+    need(pass, "probes", probes, 4 * word * params.probe_stride);
     need(pass, "states", states, count * word);
 }
 
@@ -59,12 +59,14 @@ ReceiverPasses::ReceiverPasses(const Programs& programs, const BuildOptions& opt
     place_ = kernel("place");
     show_ = kernel("show");
     compare_probes_ = kernel("compare_probes");
+    compare_gloss_ = kernel("compare_gloss");
     undersampled_ = kernel("undersampled");
     add_gloss_ = kernel("add_gloss");
 }
 
 void ReceiverPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({other_sides_, pixels_, place_, show_, compare_probes_, undersampled_, add_gloss_},
+    build_named({other_sides_, pixels_, place_, show_, compare_probes_, compare_gloss_,
+                 undersampled_, add_gloss_},
                 passes);
 }
 
@@ -123,6 +125,18 @@ cl::Event ReceiverPasses::compare_probes(const cl::CommandQueue& queue, const Pr
     need_probes(compare_probes_, params, seen, shown, probes, states);
     return launch(compare_probes_, queue, std::size_t{params.columns} * params.rows, wait, params,
                   seen.ids, shown, probes, states);
+}
+
+cl::Event ReceiverPasses::compare_gloss(const cl::CommandQueue& queue, const ProbeParams& params,
+                                        const DeviceScene& scene, const GBuffer& seen,
+                                        const cl::Buffer& shown, const cl::Buffer& gloss,
+                                        const cl::Buffer& probes, const cl::Buffer& states,
+                                        const WaitList& wait) const {
+    need_probes(compare_gloss_, params, seen, shown, probes, states);
+    need(compare_gloss_, "gloss", gloss,
+         irradiance_bytes(compare_gloss_.storage, params.pixel_stride));
+    return launch(compare_gloss_, queue, std::size_t{params.columns} * params.rows, wait, params,
+                  scene.materials(), seen.planes, seen.ids, shown, gloss, probes, states);
 }
 
 cl::Event ReceiverPasses::undersampled(const cl::CommandQueue& queue, const ProbeParams& params,

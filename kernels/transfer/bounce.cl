@@ -5,9 +5,10 @@
 //                                             [Kautz04, section 3.1: the Nusselt analog; derived]
 //
 // Work size    1D, one work-item a receiver; any local size; tail guarded
-// Writes       adds to the irradiance of its receiver
+// Writes       adds to the irradiance of its receiver, and to non_finite where that makes it so
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/receivers.h"
+#include "finite.clh"
 #include "transfer/nearest.clh"
 
 kernel void transfer_bounce(
@@ -17,7 +18,8 @@ kernel void transfer_bounce(
     BLOCKER_ARGUMENTS,
     global const float*      restrict heights,    // [CLGI_MASK][MASK_COLUMNS] z of pixels
     global const float4*     restrict exitance,   // [triangle_count] fronts, then backs: rgb
-    global float*            restrict irradiance) // [3][receiver_stride] exposed lux
+    global float*            restrict irradiance, // [3][receiver_stride] exposed lux
+    global uint*             restrict non_finite) // [1]
 {
     uint receiver = (uint)get_global_id(0);
     if (receiver >= params.receiver_count) return;
@@ -38,7 +40,12 @@ kernel void transfer_bounce(
         }
     }
     uint stride = params.receiver_stride;
-    irradiance[receiver] += bounce.per_pixel * sum.x;
-    irradiance[stride + receiver] += bounce.per_pixel * sum.y;
-    irradiance[2 * stride + receiver] += bounce.per_pixel * sum.z;
+    global float* at = irradiance + receiver;
+    float3 before = (float3)(at[0], at[stride], at[2 * stride]);
+    float3 after = before + bounce.per_pixel * sum;
+    // What arrived before is counted by the pass that wrote it.
+    if (is_finite3(before) && !is_finite3(after)) atomic_inc(non_finite);
+    at[0] = after.x;
+    at[stride] = after.y;
+    at[2 * stride] = after.z;
 }

@@ -5,7 +5,7 @@
 //                  [Kautz04, section 4.1, per-vertex sampling; derived: undersampling is measured]
 //
 // Work size    1D, one work-item a probe; any local size; tail guarded
-// Writes       difference and state of its probe
+// Writes       difference, what is shown, and state of its probe
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/receivers.h"
@@ -16,7 +16,8 @@ kernel void transfer_compare_probes(
     const ProbeParams    params,
     global const int*    restrict ids,     // [GBUFFER_ID_PLANES][pixel_stride]
     global const float*  restrict shown,   // [3][pixel_stride] interpolated
-    global float*        restrict probes,  // [3][probe_stride] what arrives -> what is missing
+    global float*        restrict probes,  // [4][probe_stride] what arrives -> what is missing, and
+                                           // the sum of what is shown
     global uint*         restrict states)  // [columns * rows] PROBE_...
 {
     uint probe = (uint)get_global_id(0);
@@ -34,6 +35,7 @@ kernel void transfer_compare_probes(
         whole_b += fabs(b);
         probes[c * params.probe_stride + probe] = b - a;
     }
+    probes[3 * params.probe_stride + probe] = whole_a;
     int agrees = is_finite(apart) && apart <= params.threshold * fmax(whole_a, whole_b);
     uint state = agrees ? PROBE_AGREES : PROBE_FAILS;
     states[probe] = ids[GBUFFER_TRIANGLE * stride + pixel] >= 0 ? state : PROBE_NOWHERE;

@@ -17,7 +17,7 @@
 //              in any of them, and 2 (2 bands - 1) terms for the turn; R^2 / 8 bytes a receiver
 // Work size    1D, one work-item a packet of receivers; any local size; tail guarded
 // Writes       the vectors of its receivers; NaN for a lobe whose exponent is NaN, and where the eye
-//              is at the receiver, or too far for a float
+//              is at the receiver, or too far for a float; 0 where the frame is (transfer/pixels.cl)
 // SPDX-License-Identifier: MIT
 #include "transfer/disc.clh"
 #include "transfer/sh.clh"
@@ -100,10 +100,16 @@ kernel void transfer_integrate(
 #ifdef CLGI_GLOSS
     floatp eye[3], mirrored[3];
     load_axis(planes + RECEIVER_POSITION * stride, stride, eye);
+    // A direction is the same everywhere.
+    if (params.eye.w != 0.0f) eye[0] = eye[1] = eye[2] = packet_zero;
     eye[0] = packet_splat(params.eye.x) - eye[0];
     eye[1] = packet_splat(params.eye.y) - eye[1];
     eye[2] = packet_splat(params.eye.z) - eye[2];
-    floatp distance = sqrt(dot_axis(eye, eye));
+    // Where no surface is, the frame is zero: no light is lost there, wherever the eye is.
+    uintp frame = packet_magnitude(normal[0]) | packet_magnitude(normal[1]) |
+                  packet_magnitude(normal[2]);
+    floatp distance = packet_select(sqrt(dot_axis(eye, eye)), packet_splat(1.0f),
+                                    as_intp(frame) == (intp)(0));
     // In the receiver's frame the mirror is a change of sign.
     mirrored[0] = -dot_axis(tangent, eye) / distance;
     mirrored[1] = -dot_axis(bitangent, eye) / distance;

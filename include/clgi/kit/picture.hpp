@@ -35,9 +35,10 @@ public:
     Picture(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& scene,
             const PictureOptions& options, std::string owner);
 
-    // A solver adds its own rows to this table, then calls allocate once.
+    // A solver adds its own rows to this table, then calls allocate once. taken: bytes that it has
+    // on the device beside the scene's.
     BufferTable table();
-    void allocate(const BufferTable& table);
+    void allocate(const BufferTable& table, std::size_t taken = 0);
 
     // Reads the scene's lights again, after DeviceScene::set_light.
     void lights_changed();

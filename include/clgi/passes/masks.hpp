@@ -111,11 +111,12 @@ public:
                        const cl::Buffer& exitance, const WaitList& wait = {}) const;
 
     // Adds to irradiance [3][receivers.stride] what the triangles that receivers see reflect to
-    // them. heights: as for visible. exitance: of blockers.triangle_count.
+    // them. heights: as for visible. exitance: of blockers.triangle_count. non_finite: [1] uint,
+    // counts receivers whose light becomes so.
     cl::Event bounce(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
                      const BlockerBuffers& blockers, const cl::Buffer& heights,
                      const cl::Buffer& exitance, const cl::Buffer& irradiance,
-                     const WaitList& wait = {}) const;
+                     const cl::Buffer& non_finite, const WaitList& wait = {}) const;
 
     // Transfer vectors from masks -> transfer. weights, directions: MaskWeights::values and
     // directions, of the same size, block and bands.
@@ -124,11 +125,12 @@ public:
                         const WaitList& wait = {}) const;
 
     // The same for the receivers' Phong lobes seen from `eye`, local frame (docs/materials.md): the
-    // inner product with light, times the lobe's share of reflectance, is radiance. exponents:
-    // [stride] float. lobes: [terms][stride].
+    // inner product with light, times the lobe's share of reflectance, is radiance. eye: w 0: a
+    // place; w 1: xyz is the direction to the eye, everywhere. exponents: [stride] float. lobes:
+    // [terms][stride].
     cl::Event integrate_gloss(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
                               const cl::Buffer& weights, const cl::Buffer& directions,
-                              const cl::Buffer& exponents, const glm::vec3& eye,
+                              const cl::Buffer& exponents, const glm::vec4& eye,
                               const cl::Buffer& lobes, const WaitList& wait = {}) const;
 
     // What arrives: transfer [terms][stride] (diffuse or lobes) times light [terms] float4, as

@@ -51,15 +51,23 @@ public:
                    const cl::Buffer& light, const cl::Buffer& shown,
                    const WaitList& wait = {}) const;
 
-    // probes [3][params.probe_stride]: what arrives at the probes becomes what is missing in shown
-    // there; states [columns * rows] uint: PROBE_...
+    // probes [4][params.probe_stride]: what arrives at the probes becomes what is missing in shown
+    // there; the last plane becomes the sum of what is shown. states [columns * rows] uint:
+    // PROBE_...
     cl::Event compare_probes(const cl::CommandQueue& queue, const ProbeParams& params,
                              const GBuffer& seen, const cl::Buffer& shown,
                              const cl::Buffer& probes, const cl::Buffer& states,
                              const WaitList& wait = {}) const;
 
+    // The same of gloss [3][params.pixel_stride] as it is shown, after compare_probes: more probes
+    // fail where materials have lobes. shown: what arrives. seen has base colours and materials.
+    cl::Event compare_gloss(const cl::CommandQueue& queue, const ProbeParams& params,
+                            const DeviceScene& scene, const GBuffer& seen, const cl::Buffer& shown,
+                            const cl::Buffer& gloss, const cl::Buffer& probes,
+                            const cl::Buffer& states, const WaitList& wait = {}) const;
+
     // flags [width * height] uchar of pixels around probes that fail; elsewhere what probes miss is
-    // added to shown [3][pixel_stride].
+    // added to shown [3][pixel_stride], at most by the share of it that they miss.
     cl::Event undersampled(const cl::CommandQueue& queue, const ProbeParams& params,
                            const GBuffer& seen, const cl::Buffer& probes, const cl::Buffer& states,
                            const cl::Buffer& shown, const cl::Buffer& flags,
@@ -76,7 +84,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel other_sides_, pixels_, place_, show_, compare_probes_, undersampled_, add_gloss_;
+    PassKernel other_sides_, pixels_, place_, show_, compare_probes_, compare_gloss_, undersampled_,
+        add_gloss_;
 };
 
 }  // namespace clgi

@@ -69,7 +69,7 @@ typedef struct {
 } MaskParams;
 
 typedef struct {
-    float4 eye;  // xyz: where the receivers are seen from, local frame; for gloss
+    float4 eye;  // for gloss; xyz: local frame; w: 1: the direction to the eye, everywhere
     uint receiver_count;
     uint stride;  // of the planes of receivers, the words of masks and the transfer vectors
     uint pad0_;

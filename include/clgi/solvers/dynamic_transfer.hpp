@@ -43,7 +43,9 @@ struct TransferStatus {
     std::uint32_t bad_receivers = 0;  // whose position or normal is not finite
     std::uint32_t bad_blockers = 0;   // triangles that are not finite; they block nothing
     std::uint32_t bad_texels = 0;     // floats of the environment that are not finite, read as 0
-    std::uint32_t non_finite = 0;     // packets of receivers whose light is not finite
+    // Packets of receivers whose light is not finite, and receivers for which the bounce makes it
+    // so.
+    std::uint32_t non_finite = 0;
 };
 
 // What a DynamicTransferSolver of these will allocate, without look() and restrict(), and what
@@ -77,9 +79,9 @@ public:
 
     // Potentially visible sets of an animation known before [Kautz04, section 3.2]. look() enqueues
     // the search for the triangles that receivers see of the geometry as it is now; sets() waits
-    // and has those of all looks since it was called last. After restrict(), masks look at such sets
-    // alone; they are bit for bit those of before in the frames that were looked at, with exact
-    // planes. look() itself always sees everything.
+    // and has those of all looks since it was called last. After restrict(), masks look at such
+    // sets alone; they are bit for bit those of before in the frames that were looked at, with
+    // exact planes. look() itself always sees everything. Both take memory, of the budget as well.
     cl::Event look(const WaitList& wait = {});
     VisibleSets sets();
     void restrict(const VisibleSets& sets);
@@ -94,6 +96,11 @@ public:
     // Enqueues what the lobes of materials reflect to an eye, local frame: gloss(). For a scene
     // without lobes, and without DynamicTransferOptions::gloss, no kernel is enqueued.
     cl::Event reflect(const glm::vec3& eye, const WaitList& wait = {});
+    // The same; w 1: xyz is the direction to the eye, everywhere: orthographic cameras.
+    cl::Event reflect(const glm::vec4& eye, const WaitList& wait = {});
+
+    // What was enqueued last.
+    cl::Event last() const;
 
     // transfer() and light(); false if progress cancelled. Waits after each part.
     bool run(const Progress& progress = nullptr);

@@ -14,7 +14,8 @@ struct DynamicTransferViewOptions {
     // lights are part of it, they light nothing else.
     PictureOptions picture;
     // Pixels around probes that differ from what is interpolated between vertices by more than
-    // this, of the larger of the two, become receivers themselves. 0: all; infinity: none.
+    // this, of the larger of the two, become receivers themselves. 0: all; infinity: none. What
+    // differs is irradiance, or where materials have lobes gloss, of all that they reflect.
     float threshold = 0.1f;
     int probe_step = 8;  // pixels between probes: 2 to 64
 };
