@@ -237,6 +237,51 @@ TEST(AntiradianceSolver, GivesTheSameBitsInEveryGroupAndAFewInHalf) {
     for (std::size_t i = 0; i < half.size(); ++i) EXPECT_NEAR(half[i].x, wanted[i].x, 5e-3 * most);
 }
 
+// Models of millimetres and of a kilometre, in half storage too: a power of two changes no bit.
+TEST(AntiradianceSolver, GivesTheSameBitsAtEveryScale) {
+    AntiradianceOptions options = options_of(Math::strict, 64, 500);
+    options.steps = 10;
+    options.build.storage = Storage::half;
+    const auto wanted = Solved(test::furnished_room(5), options).irradiances();
+    EXPECT_GT(wanted[0].x, 0.0f);
+    for (const double scale : {0x1p-8, 0x1p8}) {
+        Scene scene = test::furnished_room(5);
+        for (glm::dvec3& position : scene.positions) position *= scale;
+        scene.lights[0].position *= scale;
+        scene.lights[0].intensity *= static_cast<float>(scale * scale);
+        EXPECT_EQ(Solved(scene, options).irradiances(), wanted) << scale;
+    }
+}
+
+// One triangle that is one element, and nothing that could light it.
+TEST(AntiradianceSolver, LightsASingleElement) {
+    Scene scene = test::plain_scene();
+    test::add_triangle(scene, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
+    scene.environment = Environment();
+    AntiradianceOptions options = options_of(Math::strict, 64, 1);
+    options.elements.backs = false;
+    options.elements.max_area = 10.0;
+    const Solved solved(scene, options);
+    ASSERT_EQ(solved.count(), 1u);
+    EXPECT_NEAR(solved.exposure() * solved.irradiances()[0].x, pi, 1e-5);
+}
+
+TEST(AntiradianceSolver, AsymmetricStepsCanBeStopped) {
+    AntiradianceOptions options = options_of(Math::strict, 32, 600);
+    options.iteration = Iteration::asymmetric;
+    Solved solved(test::furnished_room(5), options, false);
+    int asked = 0;
+    EXPECT_FALSE(solved.solver.run([&](double share) {
+        EXPECT_LE(share, 1.0);
+        return ++asked < 2;
+    }));
+    EXPECT_EQ(asked, 2);
+    EXPECT_FALSE(solved.solver.status().converged);
+    EXPECT_EQ(solved.solver.status().residuals.size(), 2u);
+    options.steps = 5;
+    EXPECT_EQ(Solved(test::furnished_room(5), options).solver.status().residuals.size(), 5u);
+}
+
 TEST(AntiradianceSolver, StopsWhenItIsToldTo) {
     Solved solved(test::furnished_room(5), options_of(Math::strict, 32, 600), false);
     int asked = 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <random>
@@ -242,14 +243,42 @@ TEST(AntiradiancePasses, RefuseWhatDoesNotFit) {
     for (const int bins : {0, 30, 33, 4098})
         EXPECT_THROW(AntiradiancePasses(test::programs(), bins), Error) << bins;
     const AntiradiancePasses passes(test::programs(), 32);
-    const cl::Buffer word = test::empty<cl_uint>(1);
-    LinkBuffers links{word, word, word, word, word, 4, 1, 3, 0};
-    const ElementRows rows{word, word, word, word};
-    EXPECT_THROW(passes.global(test::device().queue, {0, 1, 0, 0}, word, links, rows), Error);
-    EXPECT_THROW(passes.pull(test::device().queue, {1, 1, 0, 0}, word, links, rows), Error);
-    EXPECT_THROW(
-        passes.local(test::device().queue, {0, 1, 0, 0}, word, links, rows, word, LeafBuffers{}),
-        Error);
+    const cl::CommandQueue& queue = test::device().queue;
+    const cl::Buffer tiny = test::empty<char>(1);
+    const auto zeros = [](std::size_t floats) {
+        return test::upload(std::vector<float>(floats, 0.0f));
+    };
+    const std::size_t row = 4 * 32;
+    cl::Buffer list = zeros(1), directions = zeros(row);
+    LinkBuffers links{zeros(4 * 8), zeros(5), zeros(1), zeros(1), zeros(1), 4, 1, 3, 1};
+    ElementRows rows{zeros(row), zeros(row), zeros(4 * row), zeros(4 * row)};
+    LeafBuffers leaves{zeros(12), zeros(12), zeros(12), zeros(12), zeros(12), zeros(1)};
+    const ElementParams one{0, 1, 0, 0};
+    const auto global = [&] { passes.global(queue, one, list, links, rows).wait(); };
+    const auto pull = [&] { passes.pull(queue, one, list, links, rows).wait(); };
+    const auto local = [&] {
+        passes.local(queue, one, list, links, rows, directions, leaves).wait();
+    };
+    // No light is to arrive: the first element has no links.
+    EXPECT_NO_THROW(local());
+    // Every buffer alone, too small for each pass that takes it.
+    const auto refuse = [&](cl::Buffer& buffer, std::initializer_list<std::function<void()>> who) {
+        const cl::Buffer kept = buffer;
+        buffer = tiny;
+        for (const auto& pass : who) EXPECT_THROW(pass(), Error);
+        buffer = kept;
+    };
+    refuse(list, {global, pull, local});
+    refuse(links.elements, {global, pull, local});
+    for (cl::Buffer* buffer : {&links.first_links, &links.senders, &links.bins, &links.form_factors,
+                               &rows.sky, &rows.incident, &rows.exitant})
+        refuse(*buffer, {global, local});
+    refuse(rows.next, {pull, local});
+    for (cl::Buffer* buffer :
+         {&directions, &leaves.sources, &leaves.reflectances, &leaves.radiances,
+          &leaves.irradiances, &leaves.changes, &leaves.non_finite})
+        refuse(*buffer, {local});
+    EXPECT_NO_THROW(local());
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(AntiradianceProgram, HasTheLightThatWasAskedFor) {
     const double indirect = mean();
     ASSERT_EQ(render("--quiet --no-direct --iterations 1").code, 0);
     const double first = mean();
-    EXPECT_GT(all, 1.5 * indirect);
+    EXPECT_GT(all, 1.2 * indirect);
     EXPECT_GT(indirect, 0.0);
     // One step has the first reflection, and nothing blocks it.
     EXPECT_NE(first, indirect);

@@ -278,7 +278,7 @@ TEST_P(TransferReceivers, RefuseWhatDoesNotFit) {
     const PixelList list{some, some}, short_list{one, some};
     const ReceiverBuffers out = receivers(std::vector<float>(RECEIVER_PLANES * stride));
     const PixelParams run{0, 7, stride, stride, 0, 0, 0, 0};
-    EXPECT_NO_THROW(p.place(queue, run, list, some, some));
+    EXPECT_NO_THROW(p.place(queue, run, list, some, some).wait());
     EXPECT_THROW(p.place(queue, run, short_list, some, some), Error);
     EXPECT_THROW(p.place(queue, run, list, one, some), Error);
     EXPECT_THROW(p.place(queue, run, list, some, one), Error);
@@ -295,7 +295,7 @@ TEST_P(TransferReceivers, RefuseWhatDoesNotFit) {
     GBuffer wide = other;
     wide.planes = wide.ids = some;
     ProbeParams wrong = probing;
-    EXPECT_NO_THROW(p.compare_probes(queue, wrong, wide, some, some, some));
+    EXPECT_NO_THROW(p.compare_probes(queue, wrong, wide, some, some, some).wait());
     wrong.columns = 4;
     EXPECT_THROW(p.compare_probes(queue, wrong, wide, some, some, some), Error);
     wrong = probing;

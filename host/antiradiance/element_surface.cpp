@@ -18,7 +18,9 @@ glm::dvec2 weights_at(const std::array<glm::dvec3, 3>& corners, const glm::dvec3
             scale * glm::dot(glm::cross(edge1, to), normal)};
 }
 
-void list_elements(const ElementTree& tree, const DirectionBins& bins, ElementSurface& out) {
+// Areas are those of the local frame, so that intensities are about as large in every scene.
+void list_elements(const ElementTree& tree, const DirectionBins& bins, double scale,
+                   ElementSurface& out) {
     const auto count = static_cast<std::uint32_t>(tree.count());
     out.elements.resize(count);
     std::uint32_t levels = 0, inner = 0;
@@ -39,7 +41,7 @@ void list_elements(const ElementTree& tree, const DirectionBins& bins, ElementSu
     for (std::uint32_t row = 0; row < out.leaves.size(); ++row) {
         const std::uint32_t i = out.leaves[row];
         const glm::dvec3 normal = tree.normals[i] * bins.hemisphere_scale(tree.normals[i]);
-        out.elements[i].normal = glm::vec4(glm::dvec4(normal, tree.areas[i]));
+        out.elements[i].normal = glm::vec4(glm::dvec4(normal, tree.areas[i] * scale * scale));
         out.elements[i].row = row;
     }
     const auto level = [&](std::uint32_t i) { return tree.levels[i]; };
@@ -57,7 +59,7 @@ void list_elements(const ElementTree& tree, const DirectionBins& bins, ElementSu
 ElementSurface make_element_surface(const ElementTree& tree, const DirectionBins& bins,
                                     const Scene& scene, const DeviceScene& device) {
     ElementSurface out;
-    list_elements(tree, bins, out);
+    list_elements(tree, bins, device.frame().scale, out);
     std::vector<std::uint32_t> on_device(scene.triangles.size(), no_index);
     for (std::uint32_t t = 0; t < device.triangle_order().size(); ++t)
         on_device[device.triangle_order()[t]] = t;

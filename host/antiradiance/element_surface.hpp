@@ -31,7 +31,8 @@ struct ElementSurface {
     std::uint32_t vertices() const { return static_cast<std::uint32_t>(first_leaves.size() - 1); }
 };
 
-constexpr std::uint32_t leaf_samples = 4;  // sample points of a leaf: the middles of its four quarters
+constexpr std::uint32_t leaf_samples =
+    4;  // sample points of a leaf: the middles of its four quarters
 
 ElementSurface make_element_surface(const ElementTree& tree, const DirectionBins& bins,
                                     const Scene& scene, const DeviceScene& device);

@@ -25,9 +25,9 @@ void check(const ElementTree& tree, const DirectionBins& bins, const LinkOptions
     if (!(options.bin_share > 0.0 && std::isfinite(options.bin_share)))
         throw Error("make_links: bin_share is " + std::to_string(options.bin_share) +
                     ", needs a number above 0");
-    if (options.threads < 0)
+    if (options.threads < 0 || options.threads > 1024)
         throw Error("make_links: threads is " + std::to_string(options.threads) +
-                    ", needs at least 0");
+                    ", 0 to 1024 needed");
     if (bins.count() < 2 || bins.count() > 65536 ||
         bins.solid_angles.size() != bins.directions.size())
         throw Error("make_links: " + std::to_string(bins.directions.size()) + " directions and " +

@@ -56,6 +56,11 @@ void check_picture(const std::string& command, const PictureFlags& flags, int& w
     parse_size(command, flags.size, 16384, width, height);
 }
 
+std::string names_of(const PictureFlags& flags) {
+    const bool both = !flags.exr.empty() && !flags.png.empty();
+    return flags.exr + (both ? ", " : "") + flags.png;
+}
+
 void save_picture(const io::Image& picture, const PictureFlags& flags) {
     if (!flags.exr.empty())
         io::save_exr(picture, flags.exr, flags.full ? io::PixelType::full : io::PixelType::half);

@@ -31,6 +31,9 @@ void check_formats(const std::string& command, const PictureFlags& flags);
 // another format, or if the size is invalid.
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height);
 
+// The files that the flags name, for a line about them: "out.exr, out.png".
+std::string names_of(const PictureFlags& flags);
+
 // Writes the files that the flags name.
 void save_picture(const io::Image& picture, const PictureFlags& flags);
 

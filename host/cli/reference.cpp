@@ -103,9 +103,7 @@ void run_reference(ReferenceFlags flags) {
     Scene scene =
         open_scene(flags.scene, flags.scene_index, flags.environment, flags.quiet, flags.atlas > 0);
     pose_scene("reference", flags.animation, scene);
-    if (flags.camera >= static_cast<int>(scene.cameras.size()))
-        throw Error(fmt::format("reference: --camera is {}, the scene has {}", flags.camera,
-                                scene.cameras.size()));
+    check_camera("reference", flags.camera, scene);
     report::AtlasPlaces atlas;
     if (flags.atlas > 0) {
         atlas = report::atlas_places(scene, flags.atlas, flags.uv_set);

@@ -12,6 +12,7 @@
 #include "cli/ask.hpp"
 #include "cli/bake_room.hpp"
 #include "cli/commands.hpp"
+#include "cli/effects.hpp"
 #include "cli/gl_frames.hpp"
 #include "cli/motion.hpp"
 #include "cli/render_flags.hpp"
@@ -35,9 +36,7 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderS
     std::vector<std::string> out;
     const SecondOrderOptions& options = solver.options();
     const bool lit = options.indirect && solver.emitters().vpl_count > 0;
-    if (options.direct && !solver.emitters().emitters.empty()) out.push_back("direct");
-    if (options.direct && scene.has_lobes()) out.push_back("glossy-direct");
-    if (options.direct && !scene.emissive().empty()) out.push_back("emission");
+    if (options.direct) out = direct_effects(scene, solver.emitters());
     if (options.direct && scene.environment()) out.push_back("environment");
     if (lit) out.push_back("one-bounce");
     if (lit && options.negative_vpls > 0) out.push_back("negative-lights");
@@ -60,9 +59,7 @@ void run_second_order(RenderFlags flags) {
     flags.options.build = build_of(flags.device);
 
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
-    if (flags.camera >= static_cast<int>(scene.cameras.size()))
-        throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
-                                scene.cameras.size()));
+    check_camera("render", flags.camera, scene);
     prepare_motion(flags, scene);
     const Camera camera = scene.cameras[flags.camera];
     std::optional<GlFrames> gl;
@@ -157,12 +154,11 @@ void run_second_order(RenderFlags flags) {
         if (!warning.empty()) notice(false, warning);
     }
     if (!flags.device.quiet) {
-        const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
         fmt::print(
-            "{}{}{}: {:.1f} ms a frame ({} frames, {} VPLs and {} negative VPLs, {} "
+            "{}: {:.1f} ms a frame ({} frames, {} VPLs and {} negative VPLs, {} "
             "triangles)\n",
-            flags.picture.exr, both ? ", " : "", flags.picture.png, times.median,
-            record.frame_ms.size(), solver.emitters().vpl_count,
+            names_of(flags.picture), times.median, record.frame_ms.size(),
+            solver.emitters().vpl_count,
             flags.options.indirect ? solver.options().negative_vpls : 0, scene.triangles.size());
         if (record.ask) fmt::print("{}\n", ask_line(*record.ask, times.median));
         if (record.replicates)

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "cli/bake_room.hpp"
+#include "cli/effects.hpp"
 #include "cli/motion.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
@@ -36,10 +37,7 @@ PictureOptions picture_options(const RenderFlags& flags) {
 
 std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& picture) {
     std::vector<std::string> out;
-    const bool direct = picture.options().direct;
-    if (direct && !picture.emitters().emitters.empty()) out.push_back("direct");
-    if (direct && scene.has_lobes()) out.push_back("glossy-direct");
-    if (direct && !scene.emissive().empty()) out.push_back("emission");
+    if (picture.options().direct) out = direct_effects(scene, picture.emitters());
     if (scene.environment()) out.push_back("environment");
     out.push_back("indirect");
     return out;
@@ -70,9 +68,7 @@ void run_antiradiance(RenderFlags flags) {
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet);
     if (flags.gbuffer != "cl")
         throw Error("render: --gbuffer gl goes not with --method antiradiance");
-    if (flags.camera >= static_cast<int>(scene.cameras.size()))
-        throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
-                                scene.cameras.size()));
+    check_camera("render", flags.camera, scene);
     prepare_motion(flags, scene);
     const Session session = open_session(flags.device);
 
@@ -129,13 +125,12 @@ void run_antiradiance(RenderFlags flags) {
                                       status.residuals.empty() ? 0.0 : status.residuals.back(),
                                       1e3 * solver.linking_seconds()};
     if (!quiet) {
-        const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
         fmt::print(
-            "{}{}{}: {:.1f} ms a frame ({} frames, {} elements, {} links, {} steps, {}), {:.2f} s "
+            "{}: {:.1f} ms a frame ({} frames, {} elements, {} links, {} steps, {}), {:.2f} s "
             "to link\n",
-            flags.picture.exr, both ? ", " : "", flags.picture.png,
-            report::spread(record.frame_ms).median, record.frame_ms.size(), summary.elements,
-            summary.links, summary.steps, summary.iteration, 1e-3 * summary.linking_ms);
+            names_of(flags.picture), report::spread(record.frame_ms).median, record.frame_ms.size(),
+            summary.elements, summary.links, summary.steps, summary.iteration,
+            1e-3 * summary.linking_ms);
     }
     if (flags.stats.empty()) return;
     record.device = session.device;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/bake_room.hpp"
+#include "cli/effects.hpp"
 #include "cli/motion.hpp"
 #include "cli/percent.hpp"
 #include "cli/render_flags.hpp"
@@ -18,9 +19,7 @@ namespace {
 std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& picture) {
     std::vector<std::string> out;
     const bool direct = picture.options().direct;
-    if (direct && !picture.emitters().emitters.empty()) out.push_back("direct");
-    if (direct && scene.has_lobes()) out.push_back("glossy-direct");
-    if (direct && !scene.emissive().empty()) out.push_back("emission");
+    if (direct) out = direct_effects(scene, picture.emitters());
     if (direct && scene.environment()) out.push_back("environment");
     out.push_back("indirect");
     return out;
@@ -40,9 +39,7 @@ void check(const RenderFlags& flags, const Scene& scene) {
     if (flags.gbuffer != "cl") throw Error("render: --gbuffer gl goes not with --method atlas");
     if (flags.atlas.vpls.count < 1)
         throw Error("render: --vpls is 0, at least 1 needed with --method atlas");
-    if (flags.camera >= static_cast<int>(scene.cameras.size()))
-        throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
-                                scene.cameras.size()));
+    check_camera("render", flags.camera, scene);
 }
 
 }  // namespace
@@ -51,8 +48,7 @@ void run_atlas(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     AtlasFlags& atlas_flags = flags.atlas;
     const bool quiet = flags.device.quiet;
-    const double least_change =
-        parse_percent("render", "--least-change", atlas_flags.least_change);
+    const double least_change = parse_percent("render", "--least-change", atlas_flags.least_change);
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet, true);
     check(flags, scene);
     prepare_motion(flags, scene);
@@ -106,11 +102,9 @@ void run_atlas(RenderFlags flags) {
                                   "not finite",
                                   record.status.non_finite));
     if (!quiet) {
-        const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
-        fmt::print("{}{}{}: {:.2f} s for {} texels lit by {} VPLs, {:.1f} ms a frame ({} frames)\n",
-                   flags.picture.exr, both ? ", " : "", flags.picture.png,
-                   1e-3 * (bake.layout_ms + bake.bake_ms), bake.texels, bake.vpls,
-                   report::spread(record.frame_ms).median, record.frame_ms.size());
+        fmt::print("{}: {:.2f} s for {} texels lit by {} VPLs, {:.1f} ms a frame ({} frames)\n",
+                   names_of(flags.picture), 1e-3 * (bake.layout_ms + bake.bake_ms), bake.texels,
+                   bake.vpls, report::spread(record.frame_ms).median, record.frame_ms.size());
     }
     if (flags.stats.empty()) return;
     record.device = session.device;

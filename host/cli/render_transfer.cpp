@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cli/bake_room.hpp"
+#include "cli/effects.hpp"
 #include "cli/motion.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
@@ -32,10 +33,7 @@ DynamicTransferViewOptions view_options(const RenderFlags& flags) {
 
 std::vector<std::string> effects_of(const DeviceScene& scene, const DynamicTransferSolver& solver,
                                     const Picture& picture) {
-    std::vector<std::string> out;
-    if (!picture.emitters().emitters.empty()) out.push_back("direct");
-    if (scene.has_lobes()) out.push_back("glossy-direct");
-    if (!scene.emissive().empty()) out.push_back("emission");
+    std::vector<std::string> out = direct_effects(scene, picture.emitters());
     if (scene.environment()) out.push_back("environment");
     if (scene.environment() && solver.glossy()) out.push_back("glossy-environment");
     if (scene.environment() && solver.options().bounces > 0) out.push_back("one-bounce");
@@ -50,9 +48,7 @@ void run_transfer(RenderFlags flags) {
     const DynamicTransferViewOptions options = view_options(flags);
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet);
     if (flags.gbuffer != "cl") throw Error("render: --gbuffer gl goes not with --method transfer");
-    if (flags.camera >= static_cast<int>(scene.cameras.size()))
-        throw Error(fmt::format("render: --camera is {}, the scene has {}", flags.camera,
-                                scene.cameras.size()));
+    check_camera("render", flags.camera, scene);
     prepare_motion(flags, scene);
     const Session session = open_session(flags.device);
 
@@ -113,13 +109,11 @@ void run_transfer(RenderFlags flags) {
                                   static_cast<std::uint32_t>(scene.triangles.size()),
                                   sh::terms(solver.options().masks.bands), view.receiver_pixels()};
     if (!quiet) {
-        const bool both = !flags.picture.exr.empty() && !flags.picture.png.empty();
         fmt::print(
-            "{}{}{}: {:.1f} ms a frame ({} frames, {} receivers at vertices, {} at pixels, "
+            "{}: {:.1f} ms a frame ({} frames, {} receivers at vertices, {} at pixels, "
             "{} triangles)\n",
-            flags.picture.exr, both ? ", " : "", flags.picture.png,
-            report::spread(record.frame_ms).median, record.frame_ms.size(), summary.receivers,
-            summary.receiver_pixels, summary.triangles);
+            names_of(flags.picture), report::spread(record.frame_ms).median, record.frame_ms.size(),
+            summary.receivers, summary.receiver_pixels, summary.triangles);
     }
     if (flags.stats.empty()) return;
     record.device = session.device;

@@ -82,6 +82,12 @@ std::string build_flags(const DeviceFlags& flags) {
            (flags.storage == "full" ? "" : " --storage " + flags.storage);
 }
 
+void check_camera(const std::string& command, int camera, const Scene& scene) {
+    if (camera >= static_cast<int>(scene.cameras.size()))
+        throw Error(fmt::format("{}: --camera is {}, the scene has {}", command, camera,
+                                scene.cameras.size()));
+}
+
 Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlags& environment,
                  bool quiet, bool lightmaps) {
     io::GltfOptions options;

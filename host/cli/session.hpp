@@ -49,6 +49,9 @@ BuildOptions build_of(const DeviceFlags& flags);
 // The flags that are not at their default, with a space before each.
 std::string build_flags(const DeviceFlags& flags);
 
+// Throws Error that begins with the command's name for a camera that the scene has not.
+void check_camera(const std::string& command, int camera, const Scene& scene);
+
 // Loads a glTF file, prints its warnings and adds the environment of the flags. Adds a camera and a
 // light if the file has none, and prints a note. lightmaps: keeps texture coordinates without
 // textures.

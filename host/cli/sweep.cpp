@@ -49,9 +49,7 @@ bool of_transfer(const SweepFlags& flags) { return flags.method == "transfer"; }
 
 report::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
     report::PictureSweep out;
-    if (flags.camera >= static_cast<int>(scene.cameras.size()))
-        throw Error(fmt::format("sweep: --camera is {}, the scene has {}", flags.camera,
-                                scene.cameras.size()));
+    check_camera("sweep", flags.camera, scene);
     out.camera = flags.camera;
     out.width = flags.quick ? 160 : 320;
     out.height = flags.quick ? 120 : 240;

@@ -20,7 +20,11 @@ AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scen
     need_range(owner, "steps", options.steps, 0, 10000);
     need_range(owner, "most_steps", options.most_steps, 1, 10000);
     need_range(owner, "residual", options.residual, 1e-6, 1.0);
+    if (options.bins < 32 || options.bins > 4096 || options.bins % 2 != 0)
+        throw Error("antiradiance: bins is " + std::to_string(options.bins) +
+                    ", an even number from 32 to 4096 needed");
     options.emitters.environment_lights = 0;
+    options.emitters.vpls = 0;
     options.build.textures = options.build.textures && scene.needs_textures();
     return options;
 }
@@ -33,7 +37,7 @@ AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueu
     : queue(on),
       scene(of),
       options(checked(wanted, of)),
-      bins(direction_bins(wanted.bins)),
+      bins(direction_bins(options.bins)),
       emitters(of, options.emitters, Pixels::depth),
       passes(programs, wanted.bins, options.build),
       gbuffer(programs, full(options.build)),
@@ -43,12 +47,14 @@ AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueu
     const auto begin = std::chrono::steady_clock::now();
     tree = make_elements(file, options.elements);
     if (tree.leaves == 0) throw Error("antiradiance: the scene has no surface");
-    const Links between = make_links(tree, bins, options.links);
     made = make_element_surface(tree, bins, file, scene);
+    const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
+    table(Links()).check(device, options.memory_budget, scene.bytes());  // before it takes time
+    const Links between = make_links(tree, bins, options.links);
     linking = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     link_total = between.count();
     const BufferTable rows_of = table(between);
-    rows_of.check(queue.getInfo<CL_QUEUE_DEVICE>(), options.memory_budget, scene.bytes());
+    rows_of.check(device, options.memory_budget, scene.bytes());
     rows_of.allocate(record);
     bytes = rows_of.bytes();
     build();
@@ -59,6 +65,7 @@ BufferTable AntiradianceSolver::State::table(const Links& between) {
     const char* size = "elements.wished";
     const char* bin = "bins";
     const std::size_t count = made.elements.size(), leaf = made.leaves.size();
+    const std::size_t inner = made.inner.size();
     const auto m = static_cast<std::size_t>(options.bins);
     links.element_count = static_cast<std::uint32_t>(count);
     links.leaf_count = static_cast<std::uint32_t>(leaf);
@@ -77,7 +84,7 @@ BufferTable AntiradianceSolver::State::table(const Links& between) {
     t.add(links.bins, "links", size, between.count() * word / 2);
     t.add(links.form_factors, "links", size, between.count() * word);
     t.add(rows.sky, "the sky's row", bin, m * color);
-    t.add(rows.incident, "incident light", bin, made.inner.size() * m * color);
+    t.add(rows.incident, "incident light", bin, std::max<std::size_t>(inner, 1) * m * color);
     t.add(rows.exitant, "intensities", bin, passes.intensity_bytes(count));
     t.add(rows.next, "intensities", bin, passes.intensity_bytes(count));
     for (cl::Buffer* buffer : {&leaves.sources, &leaves.reflectances, &leaves.radiances,
@@ -117,7 +124,10 @@ void AntiradianceSolver::State::write(const Scene& file, const Links& between) {
     put(links.first_links, between.first);
     put(links.senders, between.senders);
     put(links.bins, between.bins);
-    put(links.form_factors, between.form_factors);
+    std::vector<float> factors = between.form_factors;  // of the local frame, as areas are
+    const double scale = scene.frame().scale;
+    for (float& factor : factors) factor = static_cast<float>(factor / (scale * scale));
+    put(links.form_factors, factors);
     std::vector<glm::vec4> sky;
     const double exposure = scene.frame().exposure;
     for (const glm::dvec3& radiance : sky_row(file.environment, bins))
@@ -165,6 +175,7 @@ AntiradianceStatus AntiradianceSolver::status() const {
     return out;
 }
 
+cl::Event AntiradianceSolver::last() const { return state_->record.last(); }
 const std::vector<PassEvent>& AntiradianceSolver::events() const { return state_->record.events(); }
 Interval AntiradianceSolver::interval() const { return state_->record.interval(); }
 const AntiradianceOptions& AntiradianceSolver::options() const { return state_->options; }

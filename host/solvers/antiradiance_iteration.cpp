@@ -36,6 +36,7 @@ void AntiradianceSolver::State::light_leaves() {
 
 // Nothing has arrived yet: leaves send their own light alone.
 void AntiradianceSolver::State::start() {
+    record.fill(leaves.non_finite, 0);
     record.fill(leaves.irradiances, 0);
     record.fill(leaves.radiances, 0);
     step(LOCAL_REFLECT | LOCAL_GO_THROUGH);
@@ -69,10 +70,12 @@ double AntiradianceSolver::State::residual() {
     record("parallel.sum", links.leaf_count, [&](const WaitList& wait) {
         return parallel.sum(queue, links.leaf_count, leaves.changes, sum, scratch, wait);
     });
+    ++steps_done;
+    record.wait();
+    if (record.cancelled()) return 0.0;
     glm::vec4 all(0.0f);
     const WaitList pending = record.waits();
     queue.enqueueReadBuffer(sum, CL_TRUE, 0, sizeof(all), &all, &pending);
-    ++steps_done;
     const double changed = double{all.x} + all.y + all.z;
     if (steps_done == 1) first_arrived = all.w;
     const double out = changed == 0.0 ? 0.0 : changed / first_arrived;
@@ -81,7 +84,7 @@ double AntiradianceSolver::State::residual() {
 }
 
 void AntiradianceSolver::State::report(const Progress& progress) {
-    if (progress) record.report(static_cast<double>(steps_done) / limit());
+    if (progress) record.report(std::min(1.0, static_cast<double>(steps_done) / limit()));
 }
 
 bool AntiradianceSolver::State::symmetric(const Progress& progress) {
@@ -92,7 +95,7 @@ bool AntiradianceSolver::State::symmetric(const Progress& progress) {
     while (steps_done < limit() && !record.cancelled()) {
         step(symmetric_step);
         const double now = residual();
-        found.converged = done(now);
+        found.converged = done(now) && !record.cancelled();
         if (options.steps == 0 && found.converged) return true;
         growing = now > before ? growing + 1 : 0;
         least = std::min(least, now);
@@ -106,26 +109,29 @@ bool AntiradianceSolver::State::symmetric(const Progress& progress) {
 
 void AntiradianceSolver::State::asymmetric(const Progress& progress) {
     found.iteration = Iteration::asymmetric;
+    found.converged = false;
+    steps_done = 0;
     start();
+    double last = 1.0;
+    // False where that was the last step.
+    const auto make = [&](std::uint32_t flags) {
+        step(flags);
+        last = residual();
+        report(progress);
+        return steps_done < limit() && !record.cancelled() && std::isfinite(last);
+    };
     while (steps_done < limit() && !record.cancelled()) {
         // What is not yet taken away need not be less than what the next reflection changes.
-        double through = 1.0;
-        const double last = found.residuals.empty() ? 1.0 : found.residuals.back();
         const double enough = std::max(0.1 * last, 0.5 * options.residual);
-        while (steps_done < limit() && !record.cancelled() && !(through < enough)) {
-            step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
-            through = residual();
-            if (!std::isfinite(through)) return;
-        }
-        step(LOCAL_RECEIVE | LOCAL_REFLECT);
-        const double now = residual();
-        report(progress);
+        do
+            if (!make(LOCAL_RECEIVE | LOCAL_GO_THROUGH)) return;
+        while (!(last < enough));
+        if (!make(LOCAL_RECEIVE | LOCAL_REFLECT)) return;
+        const bool taken = done(last);
         // A step that lets through shows what the reflection changed.
-        step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
-        const double reflected = residual();
-        found.converged = done(now) && done(reflected);
-        if (options.steps == 0 && found.converged) return;
-        if (!std::isfinite(now) || !std::isfinite(reflected)) return;
+        const bool more = make(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+        found.converged = taken && done(last) && !record.cancelled();
+        if (!more || (options.steps == 0 && found.converged)) return;
     }
 }
 
@@ -134,15 +140,15 @@ bool AntiradianceSolver::State::run(const Progress& progress) {
     found = {};
     steps_done = 0;
     light_leaves();
-    const bool first = options.iteration != Iteration::asymmetric;
-    const bool held = !first || symmetric(progress);
-    if (!held) {
-        found.diverged = true;
-        if (options.iteration == Iteration::automatic) steps_done = 0;
-    }
-    if (!first || (!held && options.iteration == Iteration::automatic)) asymmetric(progress);
+    const bool either = options.iteration == Iteration::automatic;
+    if (options.iteration != Iteration::asymmetric) found.diverged = !symmetric(progress);
+    // A symmetric iteration that neither diverges nor comes to rest is given up as well.
+    const bool stuck = either && options.steps == 0 && !found.converged;
+    if (options.iteration == Iteration::asymmetric || (either && found.diverged) || stuck)
+        asymmetric(progress);
     record("antiradiance.vertices", surface.vertex_count,
            [&](const WaitList& wait) { return passes.vertices(queue, surface, leaves, wait); });
+    record.wait();
     record.report(1.0);
     return !record.cancelled();
 }

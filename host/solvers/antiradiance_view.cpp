@@ -19,12 +19,14 @@ struct AntiradianceView::State {
           solver(from),
           picture(programs, queue, of, without_sky(options), "antiradiance-view"),
           passes(programs, from.options().bins, picture.options().build) {
-        picture.allocate(picture.table());
+        picture.allocate(picture.table(), solver.bytes());
         passes.build({"show"});
     }
 
     cl::Event render(const Camera& camera, const WaitList& wait) {
-        const View view = picture.begin(camera, wait);
+        WaitList ready = wait;
+        if (solver.last()()) ready.push_back(solver.last());
+        const View view = picture.begin(camera, ready);
         const glm::vec4 eye =
             view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
         const auto pixels = static_cast<std::uint32_t>(picture.pixels());

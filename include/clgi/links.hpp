@@ -36,7 +36,7 @@ struct LinkOptions {
     // and the error from receivers that are no points is lower by a third.
     double bin_share = 0.5;
     Spread spread = Spread::precise;
-    int threads = 0;  // 0: all
+    int threads = 0;  // up to 1024; 0: all
 };
 
 // By receiver, then by sender, then by bin.

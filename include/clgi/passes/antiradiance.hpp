@@ -39,7 +39,8 @@ struct LeafBuffers {
     cl::Buffer reflectances;  // diffuse, 0 to 1
     cl::Buffer radiances;     // cd/m^2 that leaves
     cl::Buffer irradiances;   // lux over links and from the sky
-    cl::Buffer changes;     // lumens by which they changed; w: those that arrived, of all channels
+    // By how much they changed, times area; w: what arrived, of all channels, times area.
+    cl::Buffer changes;
     cl::Buffer non_finite;  // [1] uint
 };
 

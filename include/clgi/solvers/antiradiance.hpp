@@ -33,7 +33,9 @@ struct AntiradianceOptions {
     // environment arrives in bins.
     EmitterOptions emitters;
     Iteration iteration = Iteration::automatic;
-    int steps = 0;  // local passes, 1 to 10000; 0: until the residual is small
+    // Local passes, 1 to 10000; 0: until the residual is small. Where the symmetric iteration is
+    // given up the asymmetric one makes as many again.
+    int steps = 0;
     // Change of what arrives in a step, of what arrived in the first: 1e-6 to 1.
     double residual = 1e-3;
     int most_steps = 500;  // with steps = 0
@@ -47,7 +49,8 @@ struct AntiradianceStatus {
     bool diverged = false;                       // the symmetric iteration did, and was given up
     bool converged = false;                      // the residual is below the bound
     std::vector<double> residuals;               // of each step that was made, of both iterations
-    std::uint32_t non_finite = 0;  // leaves with numbers that are not finite, since the start
+    std::uint32_t non_finite = 0;  // leaves with numbers that are not finite, in all steps of
+                                   // the iteration that was used
 };
 
 // Owns its buffers, works on the given queue (in order or not). The scene must outlive the solver
@@ -70,10 +73,14 @@ public:
     void lights_changed();
 
     // Direct light into the leaves, then steps until they are done or the residual is small; waits
-    // for each. False if progress cancelled.
+    // for each, and for all of it. Pictures of the light before must have ended. False if progress
+    // cancelled.
     bool run(const Progress& progress = nullptr);
 
     AntiradianceStatus status() const;
+
+    // What was enqueued last: pictures of the light wait for it.
+    cl::Event last() const;
 
     // Passes of the last run, and what it took on the queue.
     const std::vector<PassEvent>& events() const;
