@@ -170,7 +170,7 @@ void expect_reference(Scene scene, const Camera& camera, const AntiradianceOptio
     reference::Options tracing;
     tracing.width = width;
     tracing.height = height;
-    tracing.samples = 256;
+    tracing.samples = 400;
     tracing.effects = reference::parse_effects("indirect");
     const reference::Picture truth = reference::PathTracer(scene).render(camera, tracing);
     double square = 0.0, sum = 0.0, wanted = 0.0;
