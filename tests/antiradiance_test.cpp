@@ -27,22 +27,25 @@ glm::vec3 scaled(const DirectionBins& bins, const glm::dvec3& normal) {
     return glm::vec3(normal * bins.hemisphere_scale(normal));
 }
 
-// Inner elements with up to four below them, five levels deep.
+// Inner elements with up to four below them, five levels deep; some lie in one plane.
 void grow(HandElements& scene, const DirectionBins& bins, std::uint32_t parent, int depth,
-          std::mt19937& random) {
+          std::mt19937& random, glm::vec3 plane = glm::vec3(0.0f)) {
     std::uniform_real_distribution<float> number(0.0f, 1.0f);
-    if (depth == 5 || (depth > 1 && number(random) < 0.25f)) {
+    const bool is_leaf = depth == 5 || (depth > 1 && number(random) < 0.25f);
+    if (plane == glm::vec3(0.0f) && (is_leaf || (depth > 1 && number(random) < 0.3f))) {
         std::normal_distribution<double> normal;
-        const glm::dvec3 n =
-            glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-        scene.leaf(parent, scaled(bins, n), 0.1f + number(random),
+        plane = scaled(bins, glm::normalize(
+                                 glm::dvec3(normal(random), normal(random), normal(random))));
+    }
+    if (is_leaf) {
+        scene.leaf(parent, plane, 0.1f + number(random),
                    {number(random), 2.0f * number(random), 3.0f * number(random)},
                    {number(random), 0.8f * number(random), 0.5f * number(random)});
         return;
     }
-    const std::uint32_t i = scene.inner(parent);
+    const std::uint32_t i = scene.inner(parent, plane);
     const int below = 1 + static_cast<int>(random() % 4);
-    for (int k = 0; k < below; ++k) grow(scene, bins, i, depth + 1, random);
+    for (int k = 0; k < below; ++k) grow(scene, bins, i, depth + 1, random, plane);
     scene.close(i);
 }
 
@@ -239,8 +242,22 @@ TEST_P(Antiradiance, CountsLeavesThatAreNotFinite) {
     EXPECT_EQ(e[2].x, 1.0f);
 }
 
+// What meets the back of a leaf does not count for it, not even where it is no number.
+TEST_P(Antiradiance, OfWhatMeetsTheBackIsNotReceived) {
+    HandElements scene = stack(3);
+    scene.sky[1] = glm::vec4(std::numeric_limits<float>::infinity());
+    scene.directions[1] = {0, 0, -1, 1};
+    test::LightOnDevice found(scene, {.math = GetParam()});
+    found.step(LOCAL_REFLECT);
+    found.step(LOCAL_RECEIVE | LOCAL_REFLECT);
+    const auto e = test::download<glm::vec4>(found.light.irradiances, 3);
+    EXPECT_EQ(e[0].x, std::numeric_limits<float>::infinity());  // it faces the other way
+    EXPECT_EQ(e[1], glm::vec4(1, 2, 4, 0));
+    EXPECT_EQ(e[2], glm::vec4(1, 2, 4, 0));
+}
+
 TEST(AntiradiancePasses, RefuseWhatDoesNotFit) {
-    for (const int bins : {0, 30, 33, 4098})
+    for (const int bins : {0, 28, 33, 34, 4100})
         EXPECT_THROW(AntiradiancePasses(test::programs(), bins), Error) << bins;
     const AntiradiancePasses passes(test::programs(), 32);
     const cl::CommandQueue& queue = test::device().queue;
@@ -250,8 +267,8 @@ TEST(AntiradiancePasses, RefuseWhatDoesNotFit) {
     };
     const std::size_t row = 4 * 32;
     cl::Buffer list = zeros(1), directions = zeros(row);
-    LinkBuffers links{zeros(4 * 8), zeros(5), zeros(1), zeros(1), zeros(1), 4, 1, 3, 1};
-    ElementRows rows{zeros(row), zeros(row), zeros(4 * row), zeros(4 * row)};
+    LinkBuffers links{zeros(4 * 8), zeros(9), zeros(1), zeros(1), zeros(1), 4, 1, 3, 1};
+    ElementRows rows{zeros(row), zeros(row), zeros(4 * row), zeros(4 * row), zeros(16), zeros(16)};
     LeafBuffers leaves{zeros(12), zeros(12), zeros(12), zeros(12), zeros(12), zeros(1)};
     const ElementParams one{0, 1, 0, 0};
     const auto global = [&] { passes.global(queue, one, list, links, rows).wait(); };
@@ -271,9 +288,10 @@ TEST(AntiradiancePasses, RefuseWhatDoesNotFit) {
     refuse(list, {global, pull, local});
     refuse(links.elements, {global, pull, local});
     for (cl::Buffer* buffer : {&links.first_links, &links.senders, &links.bins, &links.form_factors,
-                               &rows.sky, &rows.incident, &rows.exitant})
+                               &rows.sky, &rows.incident, &rows.powers, &rows.exitant})
         refuse(*buffer, {global, local});
     refuse(rows.next, {pull, local});
+    refuse(rows.next_powers, {pull, local});
     for (cl::Buffer* buffer :
          {&directions, &leaves.sources, &leaves.reflectances, &leaves.radiances,
           &leaves.irradiances, &leaves.changes, &leaves.non_finite})

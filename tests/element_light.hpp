@@ -39,10 +39,11 @@ struct HandElements {
         reflectances.emplace_back(reflectance, 0.0f);
         return i;
     }
-    std::uint32_t inner(std::uint32_t parent) {
+    // normal: of all below; 0: they differ.
+    std::uint32_t inner(std::uint32_t parent, const glm::vec3& normal = glm::vec3(0.0f)) {
         const auto i = static_cast<std::uint32_t>(elements.size());
         const auto row = static_cast<std::uint32_t>(elements.size() - sources.size());
-        elements.push_back({glm::vec4(0.0f), parent, i + 1, row, 0});
+        elements.push_back({glm::vec4(normal, 0.0f), parent, i + 1, row, 0});
         return i;
     }
     void close(std::uint32_t i) { elements[i].end = static_cast<std::uint32_t>(elements.size()); }
@@ -118,17 +119,21 @@ public:
         : passes_(programs(), static_cast<int>(of.bins()), how),
           half_(how.storage == Storage::half) {
         const auto count = static_cast<std::uint32_t>(of.elements.size());
-        std::vector<std::uint32_t> first(count + 1), level(count);
+        std::vector<std::uint32_t> first, level(count);
         std::vector<std::uint32_t> senders;
         std::vector<std::uint16_t> bins;
         std::vector<float> factors;
         for (std::uint32_t i = 0; i < count; ++i) {
-            first[i] = static_cast<std::uint32_t>(senders.size());
-            for (const HandLink& link : of.links) {
-                if (link.receiver != i) continue;
-                senders.push_back(link.sender);
-                bins.push_back(static_cast<std::uint16_t>(link.bin));
-                factors.push_back(link.form_factor);
+            for (const bool before : {true, false}) {
+                first.push_back(static_cast<std::uint32_t>(senders.size()));
+                for (const HandLink& link : of.links) {
+                    const float cosine = glm::dot(glm::vec3(of.elements[link.sender].normal),
+                                                  glm::vec3(of.directions[link.bin]));
+                    if (link.receiver != i || (cosine > 0.0f) != before) continue;
+                    senders.push_back(link.sender);
+                    bins.push_back(static_cast<std::uint16_t>(link.bin));
+                    factors.push_back(before ? link.form_factor * cosine : link.form_factor);
+                }
             }
             const std::uint32_t parent = of.elements[i].parent;
             level[i] = parent == ELEMENT_NONE ? 0 : level[parent] + 1;
@@ -136,7 +141,8 @@ public:
             if (!of.is_leaf(i)) levels_ = std::max(levels_, level[i] + 1);
             list.push_back(i);
         }
-        first[count] = links_.link_count = static_cast<std::uint32_t>(senders.size());
+        links_.link_count = static_cast<std::uint32_t>(senders.size());
+        first.push_back(links_.link_count);
         std::stable_sort(inner_.begin(), inner_.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return level[a] < level[b]; });
         for (std::uint32_t l = 0; l <= levels_; ++l)
@@ -163,6 +169,8 @@ public:
         const std::vector<char> nothing(passes_.intensity_bytes(count), 0);
         rows_.exitant = upload(nothing);
         rows_.next = upload(nothing);
+        rows_.powers = upload(std::vector<glm::vec4>(count, glm::vec4(0.0f)));
+        rows_.next_powers = upload(std::vector<glm::vec4>(count, glm::vec4(0.0f)));
         const std::vector<glm::vec4> dark(leaves_.size(), glm::vec4(0.0f));
         light = {upload(of.sources), upload(of.reflectances),        upload(dark), upload(dark),
                  upload(dark),       upload(std::vector<cl_uint>{0})};
@@ -183,6 +191,7 @@ public:
         for (std::uint32_t l = levels_; l-- > 0;)
             passes_.pull(queue, level(l), inner_list_, links_, rows_);
         std::swap(rows_.exitant, rows_.next);
+        std::swap(rows_.powers, rows_.next_powers);
     }
 
     // [elements][bins]

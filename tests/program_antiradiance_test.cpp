@@ -78,7 +78,7 @@ TEST_F(AntiradianceProgram, RefusesInOneLine) {
     };
     refused("--vpls 3", "--vpls goes not with --method antiradiance");
     refused("--mask 32", "--mask goes only with --method transfer");
-    refused("--bins 33", "bins is 33, an even number from 32 to 4096 needed");
+    refused("--bins 33", "bins is 33, a multiple of 4 from 32 to 4096 needed");
     refused("--bins 8", "--bins");
     refused("--gbuffer gl", "--gbuffer gl goes not with --method antiradiance");
     refused("--camera 7", "--camera is 7, the scene has 1");

@@ -38,11 +38,16 @@ void list_elements(const ElementTree& tree, const DirectionBins& bins, double sc
         levels = std::max(levels, tree.levels[i] + 1);
         out.inner.push_back(i);
     }
-    for (std::uint32_t row = 0; row < out.leaves.size(); ++row) {
-        const std::uint32_t i = out.leaves[row];
-        const glm::dvec3 normal = tree.normals[i] * bins.hemisphere_scale(tree.normals[i]);
+    for (std::uint32_t row = 0; row < out.leaves.size(); ++row)
+        out.elements[out.leaves[row]].row = row;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t parent = tree.parents[i];
+        glm::dvec3 normal = tree.normals[i];
+        if (parent != no_index && normal == tree.normals[parent])
+            normal = glm::dvec3(out.elements[parent].normal);
+        else if (tree.is_flat(i))
+            normal *= bins.hemisphere_scale(normal);
         out.elements[i].normal = glm::vec4(glm::dvec4(normal, tree.areas[i] * scale * scale));
-        out.elements[i].row = row;
     }
     const auto level = [&](std::uint32_t i) { return tree.levels[i]; };
     std::stable_sort(out.inner.begin(), out.inner.end(),

@@ -21,7 +21,7 @@ struct Linked {
 void set_argument(cl::Kernel& kernel, cl_uint& index, const Linked& from) {
     const LinkBuffers& l = from.links;
     for (const cl::Buffer* buffer : {&l.elements, &l.first_links, &l.senders, &l.bins,
-                                     &l.form_factors, &from.rows.sky, &from.rows.exitant})
+                                     &l.form_factors, &from.rows.sky, &from.rows.powers, &from.rows.exitant})
         kernel.setArg(index++, *buffer);
 }
 
@@ -33,12 +33,13 @@ void need_list(const PassKernel& pass, const ElementParams& params, const cl::Bu
 
 void need_linked(const PassKernel& pass, int bins, const LinkBuffers& l, const ElementRows& rows) {
     const auto row = static_cast<std::size_t>(bins) * color;
-    need(pass, "first_links", l.first_links, (std::size_t{l.element_count} + 1) * word);
+    need(pass, "first_links", l.first_links, (2 * std::size_t{l.element_count} + 1) * word);
     const std::size_t count = std::max<std::size_t>(l.link_count, 1);
     need(pass, "senders", l.senders, count * word);
     need(pass, "bins", l.bins, count * word / 2);
     need(pass, "form_factors", l.form_factors, count * word);
     need(pass, "sky", rows.sky, row);
+    need(pass, "powers", rows.powers, l.element_count * color);
     need(pass, "incident", rows.incident, std::max<std::size_t>(l.inner_count, 1) * row);
 }
 
@@ -55,9 +56,9 @@ void need_points(const PassKernel& pass, const LeafPointParams& params) {
 AntiradiancePasses::AntiradiancePasses(const Programs& programs, int bins,
                                        const BuildOptions& options)
     : bins_(bins) {
-    if (bins < 32 || bins > 4096 || bins % 2 != 0)
+    if (bins < 32 || bins > 4096 || bins % 4 != 0)
         throw Error("antiradiance: bins is " + std::to_string(bins) +
-                    ", an even number from 32 to 4096 needed");
+                    ", a multiple of 4 from 32 to 4096 needed");
     BuildOptions one = options;
     one.packet_width = 1;
     const std::string defines = "-DCLGI_BINS=" + std::to_string(bins);
@@ -104,6 +105,7 @@ cl::Event AntiradiancePasses::local(const cl::CommandQueue& queue, const Element
     need_linked(local_, bins_, links, rows);
     need(local_, "exitant", rows.exitant, intensity_bytes(links.element_count));
     need(local_, "next", rows.next, intensity_bytes(links.element_count));
+    need(local_, "next_powers", rows.next_powers, links.element_count * color);
     need(local_, "directions", directions, static_cast<std::size_t>(bins_) * color);
     need(local_, "sources", leaves.sources, links.leaf_count * color);
     need(local_, "reflectances", leaves.reflectances, links.leaf_count * color);
@@ -113,15 +115,18 @@ cl::Event AntiradiancePasses::local(const cl::CommandQueue& queue, const Element
     need(local_, "non_finite", leaves.non_finite, word);
     return launch(local_, queue, params.count, wait, params, list, Linked{links, rows},
                   rows.incident, directions, leaves.sources, leaves.reflectances, leaves.radiances,
-                  leaves.irradiances, leaves.changes, leaves.non_finite, rows.next);
+                  leaves.irradiances, leaves.changes, leaves.non_finite, rows.next_powers,
+                  rows.next);
 }
 
 cl::Event AntiradiancePasses::pull(const cl::CommandQueue& queue, const ElementParams& params,
                                    const cl::Buffer& list, const LinkBuffers& links,
                                    const ElementRows& rows, const WaitList& wait) const {
     need_list(pull_, params, list, links);
+    need(pull_, "next_powers", rows.next_powers, links.element_count * color);
     need(pull_, "next", rows.next, intensity_bytes(links.element_count));
-    return launch(pull_, queue, params.count, wait, params, list, links.elements, rows.next);
+    return launch(pull_, queue, params.count, wait, params, list, links.elements, rows.next_powers,
+                  rows.next);
 }
 
 cl::Event AntiradiancePasses::turn(const cl::CommandQueue& queue, const LeafPointParams& params,

@@ -147,7 +147,7 @@ void run_antiradiance(RenderFlags flags) {
 
 void add_antiradiance_flags(CLI::App& command, AntiradianceFlags& flags) {
     AntiradianceOptions& options = flags.solver;
-    command.add_option("--bins", options.bins, "antiradiance: Bins of directions, an even number")
+    command.add_option("--bins", options.bins, "antiradiance: Bins of directions, a multiple of 4")
         ->type_name("N")
         ->check(CLI::Range(32, 4096));
     command

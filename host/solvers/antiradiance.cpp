@@ -4,6 +4,7 @@
 #include <clgi/kit/draw.hpp>
 #include <clgi/planes.hpp>
 
+#include "antiradiance/device_links.hpp"
 #include "antiradiance/sky.hpp"
 #include "opencl/check.hpp"
 #include "opencl/variants.hpp"
@@ -20,9 +21,9 @@ AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scen
     need_range(owner, "steps", options.steps, 0, 10000);
     need_range(owner, "most_steps", options.most_steps, 1, 10000);
     need_range(owner, "residual", options.residual, 1e-6, 1.0);
-    if (options.bins < 32 || options.bins > 4096 || options.bins % 2 != 0)
+    if (options.bins < 32 || options.bins > 4096 || options.bins % 4 != 0)
         throw Error("antiradiance: bins is " + std::to_string(options.bins) +
-                    ", an even number from 32 to 4096 needed");
+                    ", a multiple of 4 from 32 to 4096 needed");
     options.emitters.environment_lights = 0;
     options.emitters.vpls = 0;
     options.build.textures = options.build.textures && scene.needs_textures();
@@ -79,7 +80,7 @@ BufferTable AntiradianceSolver::State::table(const Links& between) {
     emitters.add_to(t);
     add_raster_lists(t, lists, scene);
     t.add(links.elements, "elements", size, count * sizeof(Element));
-    t.add(links.first_links, "links", size, (count + 1) * word);
+    t.add(links.first_links, "links", size, (2 * count + 1) * word);
     t.add(links.senders, "links", size, between.count() * word);
     t.add(links.bins, "links", size, between.count() * word / 2);
     t.add(links.form_factors, "links", size, between.count() * word);
@@ -87,6 +88,8 @@ BufferTable AntiradianceSolver::State::table(const Links& between) {
     t.add(rows.incident, "incident light", bin, std::max<std::size_t>(inner, 1) * m * color);
     t.add(rows.exitant, "intensities", bin, passes.intensity_bytes(count));
     t.add(rows.next, "intensities", bin, passes.intensity_bytes(count));
+    t.add(rows.powers, "light of elements", size, count * color);
+    t.add(rows.next_powers, "light of elements", size, count * color);
     for (cl::Buffer* buffer : {&leaves.sources, &leaves.reflectances, &leaves.radiances,
                                &leaves.irradiances, &leaves.changes})
         t.add(*buffer, "light of leaves", size, leaf * color);
@@ -121,13 +124,11 @@ void AntiradianceSolver::State::build() const {
 void AntiradianceSolver::State::write(const Scene& file, const Links& between) {
     emitters.write(record);
     put(links.elements, made.elements);
-    put(links.first_links, between.first);
-    put(links.senders, between.senders);
-    put(links.bins, between.bins);
-    std::vector<float> factors = between.form_factors;  // of the local frame, as areas are
-    const double scale = scene.frame().scale;
-    for (float& factor : factors) factor = static_cast<float>(factor / (scale * scale));
-    put(links.form_factors, factors);
+    const DeviceLinks ordered = device_links(tree, made.elements, bins, between, scene.frame().scale);
+    put(links.first_links, ordered.first);
+    put(links.senders, ordered.senders);
+    put(links.bins, ordered.bins);
+    put(links.form_factors, ordered.form_factors);
     std::vector<glm::vec4> sky;
     const double exposure = scene.frame().exposure;
     for (const glm::dvec3& radiance : sky_row(file.environment, bins))

@@ -61,7 +61,9 @@ void AntiradianceSolver::State::step(std::uint32_t flags) {
         record("antiradiance.pull", level(l).count, [&](const WaitList& wait) {
             return passes.pull(queue, level(l), inner_list, links, rows, wait);
         });
-    if (!record.cancelled()) std::swap(rows.exitant, rows.next);
+    if (record.cancelled()) return;
+    std::swap(rows.exitant, rows.next);
+    std::swap(rows.powers, rows.next_powers);
 }
 
 // By how much what arrives at all leaves changed in the last step, of what arrived in the first: a

@@ -8,9 +8,9 @@
 // is reflected and what is let through is what arrives.              [derived: sum over the bins]
 //
 // Work size    1D, one work-item a leaf of the list; any local size; tail guarded
-// Writes       of its leaves: intensities, radiance, irradiance, and how it changed. Numbers that
+// Writes       of its leaves: intensities, power, radiance, irradiance, and how it changed. Numbers that
 //              are not finite stay so and are counted
-// Cost         that of antiradiance.global, and 17 operations and 16 bytes (half: 8) a bin
+// Cost         that of antiradiance.global, and 36 operations and 16 bytes (half: 8) a bin
 // SPDX-License-Identifier: MIT
 #include "antiradiance/rows.clh"
 #include "finite.clh"
@@ -27,6 +27,7 @@ kernel void antiradiance_local(
     global float4*        restrict irradiances,  // [leaves] rgb that arrived
     global float4*        restrict changes,      // [leaves] rgb: watts by which it changed; w: its watts
     global uint*          restrict non_finite,   // [1] leaves whose irradiance is not finite
+    global float4*        restrict next_powers,  // [elements] area times radiance
     global Intensity*     restrict next)         // [elements][CLGI_BINS] intensities
 {
     uint at = (uint)get_global_id(0);
@@ -34,18 +35,22 @@ kernel void antiradiance_local(
     uint element = list[params.first + at];
     Element leaf = elements[element];
     LinkedElements of = LINKS;
-    float4 row[CLGI_BINS];
+    Bins4 row[CLGI_FOURS];
     if (params.step & LOCAL_RECEIVE)
         receive(element, of, incident, row);
     else
-        for (uint bin = 0; bin < CLGI_BINS; ++bin) row[bin] = (float4)(0.0f);
+        for (uint four = 0; four < CLGI_FOURS; ++four) row[four] = (Bins4)(0.0f);
 
-    float4 arrived = (float4)(0.0f);
-    for (uint bin = 0; bin < CLGI_BINS; ++bin) {
-        float4 w = directions[bin];
-        float cosine = dot(leaf.normal.xyz, w.xyz);
-        if (cosine < 0.0f) arrived = fma((float4)(-cosine * w.w), row[bin], arrived);
+    global const float* toward = (global const float*)directions;
+    Bins4 normal = in_all_bins((float4)(leaf.normal.xyz, 0.0f)), none = (Bins4)(0.0f);
+    Bins4 sum = none;
+    for (uint four = 0; four < CLGI_FOURS; ++four) {
+        Bins4 w = vload16(four, toward);
+        Bins4 before = fmax(-cosines(w, normal), none) * w.s33337777bbbbffff;
+        sum = fma(before, select(none, row[four], before > none), sum);
     }
+    float4 arrived = sum_of_bins(sum);
+    arrived.w = 0.0f;
     float4 change = fabs(arrived - irradiances[leaf.row]) * leaf.normal.w;
     change.w = (fabs(arrived.x) + fabs(arrived.y) + fabs(arrived.z)) * leaf.normal.w;
     changes[leaf.row] = change;
@@ -57,14 +62,13 @@ kernel void antiradiance_local(
         radiance = fma(reflectances[leaf.row] * (1.0f / CLGI_PI), arrived, sources[leaf.row]);
         radiances[leaf.row] = radiance;
     }
-    ulong first = (ulong)element * CLGI_BINS;
-    for (uint bin = 0; bin < CLGI_BINS; ++bin) {
-        float cosine = dot(leaf.normal.xyz, directions[bin].xyz);
-        float4 scale = (float4)(cosine * leaf.normal.w);
-        float4 leaving = scale * radiance;
-        if (cosine <= 0.0f)
-            leaving = params.step & LOCAL_GO_THROUGH ? scale * row[bin]
-                                                   : load_intensity(exitant, first + bin);
-        store_intensity(leaving, next, first + bin);
+    next_powers[element] = leaf.normal.w * radiance;
+    ulong first = (ulong)element * CLGI_FOURS;
+    int goes_through = (params.step & LOCAL_GO_THROUGH) != 0;
+    Bins4 sent = in_all_bins(radiance), area = (Bins4)(leaf.normal.w);
+    for (uint four = 0; four < CLGI_FOURS; ++four) {
+        Bins4 cosine = cosines(vload16(four, toward), normal), scale = cosine * area;
+        Bins4 behind = goes_through ? scale * row[four] : load_intensities(exitant, first + four);
+        store_intensities(select(behind, scale * sent, cosine > none), next, first + four);
     }
 }

@@ -18,10 +18,14 @@ namespace clgi {
 // Elements and the links that end at each.
 struct LinkBuffers {
     cl::Buffer elements;      // [element_count] Element
-    cl::Buffer first_links;   // [element_count + 1] uint
+    // [element_count][2] uint: where those begin that read powers, and those that read rows; and
+    // where the last ones end.
+    cl::Buffer first_links;
     cl::Buffer senders;       // [link_count] uint; one at least, like the other two
     cl::Buffer bins;          // [link_count] ushort
-    cl::Buffer form_factors;  // [link_count] float, 1 / (m^2 sr) [Dachsbacher07, Eq. 17]
+    // [link_count] float, 1 / (m^2 sr) [Dachsbacher07, Eq. 17]; of links that read powers times
+    // the cosine of the sender's Element::normal with the direction of the bin.
+    cl::Buffer form_factors;
     std::uint32_t element_count = 0, inner_count = 0, leaf_count = 0, link_count = 0;
 };
 
@@ -31,6 +35,8 @@ struct ElementRows {
     cl::Buffer incident;  // [inner_count][bins] float4: radiance; one at least
     cl::Buffer exitant;   // [element_count][bins] intensities before a pass
     cl::Buffer next;      // [element_count][bins] those after it
+    // [element_count] float4: area times radiance of the front, before a pass and after it.
+    cl::Buffer powers, next_powers;
 };
 
 // rgb of each leaf, in [leaf_count] float4; exposed light.

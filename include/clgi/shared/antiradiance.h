@@ -2,7 +2,8 @@
 //
 // A bin is a direction in which light travels, for what leaves an element and for what arrives at
 // it: so a link reads a bin of its sender and adds to the same bin of its receiver. Rows have one
-// float4 a bin (rgb, 0); those of exitant intensity are half4 with half storage.
+// float4 a bin (rgb, 0); those of exitant intensity are half4 with half storage. Bins are a multiple
+// of 4.
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_ANTIRADIANCE_H
 #define CLGI_SHARED_ANTIRADIANCE_H
@@ -15,7 +16,8 @@ CLGI_SHARED_BEGIN
 
 // An element of the tree, in depth-first order: its subtree is itself and all up to `end`.
 typedef struct {
-    float4 normal;  // leaves: unit normal times DirectionBins::hemisphere_scale; w: m^2
+    float4 normal;  // of what lies in one plane: unit normal times DirectionBins::hemisphere_scale,
+                    // else 0; w: m^2
     uint parent;    // ELEMENT_NONE: the root
     uint end;
     uint row;       // among the leaves, or among the inner elements

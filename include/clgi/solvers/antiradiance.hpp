@@ -26,7 +26,7 @@ enum class Iteration {
 };
 
 struct AntiradianceOptions {
-    int bins = 128;  // of directions, even, 32 to 4096
+    int bins = 128;  // of directions, a multiple of 4, 32 to 4096
     ElementOptions elements;
     LinkOptions links;
     // Shadow maps and samples of the lights; vpls and environment_lights are not used: the
