@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "antiradiance/halve.hpp"
 #include "antiradiance/leaf_vertices.hpp"
 
 namespace clgi {
@@ -16,6 +17,17 @@ glm::dvec2 weights_at(const std::array<glm::dvec3, 3>& corners, const glm::dvec3
     const double scale = 1.0 / glm::dot(normal, normal);
     return {scale * glm::dot(glm::cross(to, edge2), normal),
             scale * glm::dot(glm::cross(edge1, to), normal)};
+}
+
+// Where a patch with parts was cut; its parts are as many elements each.
+std::uint32_t cut_of(const ElementTree& tree, std::size_t i) {
+    if (!tree.is_patch(i) || tree.is_leaf(i)) return 0;
+    const auto halves = halve(tree.corners[i]);
+    std::uint32_t out = longest_edge(tree.corners[i]);
+    for (std::uint32_t half = 0; half < 2; ++half)
+        out |= longest_edge(halves[half]) << (2 + 2 * half);
+    const std::size_t part = tree.ends[i + 1] - (i + 1);
+    return 4 * part == tree.ends[i] - (i + 1) ? out | CUT_TWICE : out;
 }
 
 // Areas are those of the local frame, so that intensities are about as large in every scene.
@@ -33,6 +45,7 @@ void list_elements(const ElementTree& tree, const DirectionBins& bins, double sc
         Element& element = out.elements[i];
         element.parent = tree.parents[i] == no_index ? ELEMENT_NONE : tree.parents[i];
         element.end = tree.ends[i];
+        element.cut = cut_of(tree, i);
         if (tree.is_leaf(i)) continue;
         element.row = inner++;
         levels = std::max(levels, tree.levels[i] + 1);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "antiradiance/faces.hpp"
+#include "antiradiance/halve.hpp"
 #include "antiradiance/leaf_area.hpp"
 
 namespace clgi {
@@ -28,22 +29,6 @@ void check(const ElementOptions& options) {
     if (!(options.min_area >= 0.0 && std::isfinite(options.min_area)))
         fail("min_area", options.min_area);
     if (options.wished == 0) throw Error("make_elements: wished is 0, needs at least 1");
-}
-
-// The two halves on either side of the middle of the longest edge, wound as before.
-std::array<Corners, 2> halve(const Corners& p) {
-    int longest = 0;
-    double most = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 edge = p[(k + 1) % 3] - p[k];
-        if (glm::dot(edge, edge) > most) {
-            most = glm::dot(edge, edge);
-            longest = k;
-        }
-    }
-    const glm::dvec3 &a = p[longest], &b = p[(longest + 1) % 3], &apex = p[(longest + 2) % 3];
-    const glm::dvec3 middle = a + 0.5 * (b - a);
-    return {Corners{apex, a, middle}, Corners{apex, middle, b}};
 }
 
 // Writes elements in depth-first order; what depends on children comes after.

@@ -1,8 +1,8 @@
 // What arrives at the pixels of a picture: of the leaf that is seen, interpolated between its corners.
 //                                               [Dachsbacher07, section 4.3; derived: the descent]
 //
-// From the patch of the whole triangle down, the part whose smallest weight at the point is largest
-// holds it.
+// From the patch of the whole triangle down: of two halves the point lies in that of the corner of the
+// cut edge whose weight is the larger one.
 //
 // Work size    1D, one work-item a pixel; any local size; tail guarded
 // Writes       its own pixel, 0 where no element is. Less than nothing, which an expansion into bins
@@ -15,17 +15,15 @@
 #include "gbuffer/barycentric.clh"
 #include "planes.clh"
 
-// Weights of a patch's corners at a point of its triangle, which has weights of its own.
-CLGI_INLINE float3 weights_in(PatchCorners patch, float2 at) {
-    float2 first = patch.weights.xy, edge1 = patch.weights.zw - first,
-           edge2 = patch.last.xy - first, to = at - first;
-    float area = edge1.x * edge2.y - edge1.y * edge2.x;
-    float b1 = (to.x * edge2.y - to.y * edge2.x) / area;
-    float b2 = (edge1.x * to.y - edge1.y * to.x) / area;
-    return (float3)(1.0f - b1 - b2, b1, b2);
+// The half in which weights are those of a point, and its weights there.
+CLGI_INLINE uint halve(float3* weights, uint edge) {
+    float3 w = *weights;
+    if (edge == 1) w = w.yzx;
+    if (edge == 2) w = w.zxy;
+    uint second = w.y > w.x;
+    *weights = second ? (float3)(w.z, 2.0f * w.x, w.y - w.x) : (float3)(w.z, w.x - w.y, 2.0f * w.y);
+    return second;
 }
-
-CLGI_INLINE float smallest(float3 weights) { return fmin(fmin(weights.x, weights.y), weights.z); }
 
 kernel void antiradiance_show(
     const ShowElementsParams      params,
@@ -54,22 +52,24 @@ kernel void antiradiance_show(
                                 row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), pixel));
         float3 to_eye = params.eye.w == 0.0f ? params.eye.xyz - point : params.eye.xyz;
         TrianglePatches root = roots[triangle];
-        uint element = dot(normal, to_eye) < 0.0f && root.back != ELEMENT_NONE ? root.back : root.front;
+        bool back = dot(normal, to_eye) < 0.0f && root.back != ELEMENT_NONE;
+        uint element = back ? root.back : root.front;
         if (element != ELEMENT_NONE) {
             float2 at = barycentric(point - first, edge1, edge2, normal);
-            while (elements[element].end != element + 1) {
-                uint end = elements[element].end, inside = element + 1;
-                float best = -FLT_MAX;
-                for (uint part = element + 1; part < end; part = elements[part].end) {
-                    float least = smallest(weights_in(patches[part], at));
-                    if (least > best) {
-                        best = least;
-                        inside = part;
-                    }
+            float3 weights = (float3)(1.0f - at.x - at.y, at);
+            if (back) weights = weights.xzy;  // it is wound the other way
+            uint end = elements[element].end;
+            while (end != element + 1) {
+                uint cut = elements[element].cut;
+                uint part = halve(&weights, CUT_EDGE(cut)), parts = 2;
+                if (cut & CUT_TWICE) {
+                    part = 2 * part + halve(&weights, CUT_EDGE_OF_HALF(cut, part));
+                    parts = 4;
                 }
-                element = inside;
+                uint size = (end - (element + 1)) / parts;  // of each, in elements
+                element += 1 + part * size;
+                end = element + size;
             }
-            float3 weights = weights_in(patches[element], at);
             weights = fmax(weights, (float3)(0.0f));
             weights /= weights.x + weights.y + weights.z;
             float4 found = weights.x * light[patches[element].vertex[0]] +

@@ -21,8 +21,14 @@ typedef struct {
     uint parent;    // ELEMENT_NONE: the root
     uint end;
     uint row;       // among the leaves, or among the inner elements
-    uint pad0_;
+    uint cut;       // of a patch with parts: CUT_EDGE... below
 } Element;
+
+// A patch is halved across an edge: k, between its corners k and k + 1. The halves are (apex, k,
+// middle) and (apex, middle, k + 1); each may be halved again, so that the patch has four parts.
+#define CUT_EDGE(cut) ((cut) & 3)
+#define CUT_EDGE_OF_HALF(cut, half) (((cut) >> (2 + 2 * (half))) & 3)
+#define CUT_TWICE 64
 
 // Elements list[first] to list[first + count - 1].
 typedef struct {
