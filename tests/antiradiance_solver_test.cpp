@@ -122,6 +122,24 @@ TEST_P(AntiradianceLight, KeepsTheEnergyOfClosedRooms) {
     }
 }
 
+// Where nothing can lie between, nothing lets light through: no link reads a row, so there is none.
+// With a box in the room, its sides and what stands for them send to what lies behind.
+TEST(AntiradianceSolver, KeepsNoRowsOfWhatHasNothingBehindIt) {
+    Scene scene = test::plain_scene({0.7f, 0.5f, 0.2f});
+    test::add_box(scene, {0, 0, 0}, {1.2, 0.9, 1.0}, -1);
+    scene.lights = {test::point_light({0.5, 0.6, 0.4})};
+    const Solved empty(scene, options_of(Math::strict, 128, 2000));
+    EXPECT_EQ(empty.solver.links().row_count, 0u);
+    test::add_box(scene, {0.3, 0.0, 0.3}, {0.7, 0.4, 0.8}, 1);
+    const Solved furnished(scene, options_of(Math::strict, 128, 2000));
+    const std::uint32_t rows = furnished.solver.links().row_count;
+    std::uint32_t of_box = 0;
+    const ElementTree& tree = furnished.solver.elements();
+    for (std::size_t i = 0; i < tree.count(); ++i) of_box += tree.is_leaf(i) && tree.triangles[i] >= 12;
+    EXPECT_GE(rows, of_box);
+    EXPECT_LT(rows, tree.count());
+}
+
 // Thin shelves across a room. Reflecting and letting light through at once diverges; that is seen,
 // and the asymmetric iteration finds the light.
 Scene shelves(float albedo) {

@@ -34,7 +34,7 @@ struct HandElements {
                        const glm::vec3& source, const glm::vec3& reflectance) {
         const auto i = static_cast<std::uint32_t>(elements.size());
         const auto row = static_cast<std::uint32_t>(sources.size());
-        elements.push_back({glm::vec4(normal, area), parent, i + 1, row, 0});
+        elements.push_back({glm::vec4(normal, area), parent, i + 1, row, 0, 0, 0, 0, 0});
         sources.emplace_back(source, 0.0f);
         reflectances.emplace_back(reflectance, 0.0f);
         return i;
@@ -43,8 +43,12 @@ struct HandElements {
     std::uint32_t inner(std::uint32_t parent, const glm::vec3& normal = glm::vec3(0.0f)) {
         const auto i = static_cast<std::uint32_t>(elements.size());
         const auto row = static_cast<std::uint32_t>(elements.size() - sources.size());
-        elements.push_back({glm::vec4(normal, 0.0f), parent, i + 1, row, 0});
+        elements.push_back({glm::vec4(normal, 0.0f), parent, i + 1, row, 0, 0, 0, 0, 0});
         return i;
+    }
+    // What the sender has before it in the link's bin; not above 0: the link reads a row.
+    float cosine(const HandLink& link) const {
+        return glm::dot(glm::vec3(elements[link.sender].normal), glm::vec3(directions[link.bin]));
     }
     void close(std::uint32_t i) { elements[i].end = static_cast<std::uint32_t>(elements.size()); }
 };
@@ -123,14 +127,23 @@ public:
         std::vector<std::uint32_t> senders;
         std::vector<std::uint16_t> bins;
         std::vector<float> factors;
+        std::vector<Element> elements = of.elements;
+        for (Element& element : elements) element.sends = ELEMENT_NONE;
+        for (const HandLink& link : of.links)
+            for (std::uint32_t i = link.sender; i < of.elements[link.sender].end; ++i)
+                if (!(of.cosine(link) > 0.0f)) elements[i].sends = 0;
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (elements[i].sends == 0) {
+                elements[i].sends = static_cast<std::uint32_t>(with_rows.size());
+                with_rows.push_back(i);
+            }
         for (std::uint32_t i = 0; i < count; ++i) {
             for (const bool before : {true, false}) {
                 first.push_back(static_cast<std::uint32_t>(senders.size()));
                 for (const HandLink& link : of.links) {
-                    const float cosine = glm::dot(glm::vec3(of.elements[link.sender].normal),
-                                                  glm::vec3(of.directions[link.bin]));
+                    const float cosine = of.cosine(link);
                     if (link.receiver != i || (cosine > 0.0f) != before) continue;
-                    senders.push_back(link.sender);
+                    senders.push_back(before ? link.sender : elements[link.sender].sends);
                     bins.push_back(static_cast<std::uint16_t>(link.bin));
                     factors.push_back(before ? link.form_factor * cosine : link.form_factor);
                 }
@@ -155,18 +168,19 @@ public:
             bins.push_back(0);
             factors.push_back(0.0f);
         }
-        links_.elements = upload(of.elements);
+        links_.elements = upload(elements);
         links_.first_links = upload(first);
         links_.senders = upload(senders);
         links_.bins = upload(bins);
         links_.form_factors = upload(factors);
         links_.element_count = count;
+        links_.row_count = static_cast<std::uint32_t>(with_rows.size());
         links_.inner_count = static_cast<std::uint32_t>(inner_.size());
         links_.leaf_count = static_cast<std::uint32_t>(leaves_.size());
         rows_.sky = upload(of.sky);
         rows_.incident =
             empty<glm::vec4>(std::max<std::size_t>(inner_.size(), 1) * of.directions.size());
-        const std::vector<char> nothing(passes_.intensity_bytes(count), 0);
+        const std::vector<char> nothing(passes_.intensity_bytes(with_rows.size()), 0);
         rows_.exitant = upload(nothing);
         rows_.next = upload(nothing);
         rows_.powers = upload(std::vector<glm::vec4>(count, glm::vec4(0.0f)));
@@ -194,9 +208,9 @@ public:
         std::swap(rows_.powers, rows_.next_powers);
     }
 
-    // [elements][bins]
+    // [with_rows][bins]
     std::vector<glm::vec4> exitant() const {
-        const std::size_t count = links_.element_count * static_cast<std::size_t>(passes_.bins());
+        const std::size_t count = with_rows.size() * static_cast<std::size_t>(passes_.bins());
         if (!half_) return download<glm::vec4>(rows_.exitant, count);
         std::vector<glm::vec4> out;
         for (const std::uint64_t four : download<std::uint64_t>(rows_.exitant, count))
@@ -204,6 +218,16 @@ public:
         return out;
     }
 
+    // The same of what the definition gives for all elements.
+    std::vector<glm::dvec3> rows_of(const std::vector<glm::dvec3>& all) const {
+        const auto bins = static_cast<std::size_t>(passes_.bins());
+        std::vector<glm::dvec3> out;
+        for (const std::size_t i : with_rows)
+            for (std::size_t b = 0; b < bins; ++b) out.push_back(all[i * bins + b]);
+        return out;
+    }
+
+    std::vector<std::uint32_t> with_rows;  // elements whose rows links read, and all below them
     LeafBuffers light;
 
 private:

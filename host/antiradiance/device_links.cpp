@@ -1,32 +1,60 @@
 // SPDX-License-Identifier: MIT
 #include "antiradiance/device_links.hpp"
 
-namespace clgi {
+#include <algorithm>
 
-DeviceLinks device_links(const ElementTree& tree, const std::vector<Element>& elements,
-                         const DirectionBins& bins, const Links& links, double scale) {
+namespace clgi {
+namespace {
+
+// Of the front of each link's sender with its bin; 0 where it sends nothing before it, or not one
+// way.
+std::vector<float> cosines_before(const ElementTree& tree, const DirectionBins& bins,
+                                  const Links& links, const std::vector<Element>& elements) {
     std::vector<glm::vec3> directions;  // as the kernels have them
     for (const glm::dvec3& direction : bins.directions) directions.emplace_back(direction);
-    // Of the sender's front with the bin; 0 where there is none before it.
-    const auto cosine = [&](std::size_t k) {
-        const std::uint32_t sender = links.senders[k];
-        if (!tree.is_flat(sender)) return 0.0f;
-        return std::max(0.0f, glm::dot(glm::vec3(elements[sender].normal),
-                                       directions[links.bins[k]]));
-    };
+    std::vector<float> out(links.count(), 0.0f);
+    for (std::size_t k = 0; k < out.size(); ++k)
+        if (const std::uint32_t sender = links.senders[k]; tree.is_flat(sender))
+            out[k] = std::max(
+                0.0f, glm::dot(glm::vec3(elements[sender].normal), directions[links.bins[k]]));
+    return out;
+}
+
+// A row is the sum of those below, so all below a row that is read have one. Returns their number.
+std::uint32_t number_rows(const std::vector<std::uint8_t>& read, std::vector<Element>& elements) {
+    std::uint32_t rows = 0;
+    for (std::uint32_t i = 0; i < elements.size(); ++i) {
+        const std::uint32_t parent = elements[i].parent;
+        const bool above = parent != ELEMENT_NONE && elements[parent].sends != ELEMENT_NONE;
+        elements[i].sends = read[i] || above ? rows++ : ELEMENT_NONE;
+    }
+    return rows;
+}
+
+}  // namespace
+
+DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, const Links& links,
+                         double scale, std::vector<Element>& elements) {
+    const std::vector<float> before = cosines_before(tree, bins, links, elements);
+    std::vector<std::uint8_t> read(elements.size(), 0);
+    for (std::size_t k = 0; k < links.count(); ++k)
+        if (!(before[k] > 0.0f)) read[links.senders[k]] = 1;
     DeviceLinks out;
-    const auto add = [&](std::size_t k, double factor) {
-        out.senders.push_back(links.senders[k]);
+    out.rows = number_rows(read, elements);
+    const auto add = [&](std::size_t k, std::uint32_t sender, double factor) {
+        out.senders.push_back(sender);
         out.bins.push_back(links.bins[k]);
         out.form_factors.push_back(static_cast<float>(factor / (scale * scale)));
     };
     for (std::size_t i = 0; i < tree.count(); ++i) {
         out.first.push_back(static_cast<std::uint32_t>(out.senders.size()));
         for (std::size_t k = links.first[i]; k < links.first[i + 1]; ++k)
-            if (cosine(k) > 0.0f) add(k, double{links.form_factors[k]} * cosine(k));
+            if (before[k] > 0.0f)
+                add(k, links.senders[k], double{links.form_factors[k]} * before[k]);
         out.first.push_back(static_cast<std::uint32_t>(out.senders.size()));
         for (std::size_t k = links.first[i]; k < links.first[i + 1]; ++k)
-            if (!(cosine(k) > 0.0f)) add(k, links.form_factors[k]);
+            if (!(before[k] > 0.0f))
+                add(k, elements[links.senders[k]].sends, links.form_factors[k]);
     }
     out.first.push_back(static_cast<std::uint32_t>(out.senders.size()));
     return out;

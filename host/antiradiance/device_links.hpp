@@ -1,26 +1,28 @@
-// Links in the order in which kernels read them.
+// Links as kernels read them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/shared/antiradiance.h>
 #include <clgi/direction_bins.hpp>
 #include <clgi/elements.hpp>
 #include <clgi/links.hpp>
-#include <clgi/shared/antiradiance.h>
 #include <vector>
 
 namespace clgi {
 
 // Of each receiver first the links that read a power: those that bring what diffuse elements in one
-// plane send before them. [derived: rows.clh]
+// plane send before them. [derived: rows.clh] Senders of the others are rows.
 struct DeviceLinks {
     std::vector<std::uint32_t> first;  // [elements][2], and the end; see LinkBuffers
     std::vector<std::uint32_t> senders;
     std::vector<std::uint16_t> bins;
     std::vector<float> form_factors;  // of the device's frame
+    std::uint32_t rows = 0;           // 0: nothing can lie between any two elements
 };
 
-// elements: as the device has them. scale: metres of a unit of the device's frame.
-DeviceLinks device_links(const ElementTree& tree, const std::vector<Element>& elements,
-                         const DirectionBins& bins, const Links& links, double scale);
+// elements: as the device has them; gives those a row whose row is read. scale: metres of a unit of
+// the device's frame.
+DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, const Links& links,
+                         double scale, std::vector<Element>& elements);
 
 }  // namespace clgi

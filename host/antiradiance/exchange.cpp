@@ -27,7 +27,8 @@ constexpr double rounding = 1e-12;  // of heights above a sender, as a share of 
 }  // namespace
 
 Exchange::Exchange(const ElementTree& tree, const DirectionBins& bins,
-                   const std::vector<double>& scales, const LinkOptions& options)
+                   const std::vector<double>& scales, const LinkOptions& options,
+                   std::shared_ptr<const SpreadTable> table)
     : tree_(tree),
       bins_(bins),
       scales_(scales),
@@ -35,6 +36,7 @@ Exchange::Exchange(const ElementTree& tree, const DirectionBins& bins,
       bin_(4.0 * pi / bins.count()),
       limit_(options.bin_share * bin_),
       spread_(options.spread),
+      table_(std::move(table)),
       sums_(bins.directions.size(), 0.0) {}
 
 void Exchange::add(int bin, double solid_angle) {
@@ -66,6 +68,19 @@ void Exchange::spread(const Corners& p, double angle, int depth) {
     if (const std::optional<int> bin = choose_(way / distance, sends_, receives_)) add(*bin, angle);
 }
 
+// Bins of the wrong side take no part; the others, among them the middle one, share all of it.
+void Exchange::spread_around(int bin, double angle) {
+    const auto meets = [&](const SpreadShare& share) {
+        const glm::dvec3& w = bins_.directions[static_cast<std::size_t>(share.bin)];
+        return sends_.met(w) && receives_.met(w);
+    };
+    const std::vector<SpreadShare>& shares = table_->row(bin, angle);
+    double all = 0.0;
+    for (const SpreadShare& share : shares) all += meets(share) ? share.weight : 0.0;
+    for (const SpreadShare& share : shares)
+        if (meets(share)) add(share.bin, angle * share.weight / all);
+}
+
 void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out) {
     eye_ = tree_.positions[receiver];
     const glm::dvec3 way = eye_ - tree_.positions[sender];
@@ -89,8 +104,12 @@ void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vec
     if (parts && angle > limit_) {
         spread(tree_.corners[sender], angle, 0);
     } else if (arrives(way)) {
-        if (const std::optional<int> bin = choose_(way / distance, sends_, receives_))
-            add(*bin, angle);
+        if (const std::optional<int> bin = choose_(way / distance, sends_, receives_)) {
+            if (table_)
+                spread_around(*bin, angle);
+            else
+                add(*bin, angle);
+        }
     }
     if (angle > limit_ && !used_.empty()) ++unrefined_;
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <clgi/links.hpp>
+#include <memory>
 #include <vector>
 
 #include "antiradiance/bin_choice.hpp"
+#include "antiradiance/spread_table.hpp"
 
 namespace clgi {
 
@@ -18,8 +20,9 @@ struct Link {
 class Exchange {
 public:
     // scales: [elements] DirectionBins::hemisphere_scale of flat ones' normals
+    // table: for Spread::gaussian
     Exchange(const ElementTree& tree, const DirectionBins& bins, const std::vector<double>& scales,
-             const LinkOptions& options);
+             const LinkOptions& options, std::shared_ptr<const SpreadTable> table);
 
     // Appends the links from sender to receiver.
     void operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out);
@@ -37,6 +40,7 @@ private:
     // elements lie behind each other, because no path along a bin returns].
     bool is_ahead(std::size_t sender, std::size_t receiver, int bin) const;
     void spread(const Corners& corners, double solid_angle, int depth);
+    void spread_around(int bin, double solid_angle);
 
     const ElementTree& tree_;
     const DirectionBins& bins_;
@@ -45,6 +49,7 @@ private:
     const double bin_;  // sr, mean
     const double limit_;
     const Spread spread_;
+    const std::shared_ptr<const SpreadTable> table_;  // of Spread::gaussian alone
     std::size_t unrefined_ = 0;
 
     // Of the present pair.

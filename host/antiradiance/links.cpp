@@ -8,6 +8,7 @@
 #include <functional>
 #include <future>
 #include <limits>
+#include <memory>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -111,11 +112,13 @@ Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkO
     const Refine refine(tree, options.bin_share * 4.0 * pi / bins.count());
     const std::vector<double> scales = hemisphere_scales(tree, bins);
     const std::vector<ElementPair> tasks = make_tasks(tree, refine);
+    std::shared_ptr<const SpreadTable> table;
+    if (options.spread == Spread::gaussian) table = std::make_shared<SpreadTable>(bins);
 
     std::vector<Found> found(static_cast<std::size_t>(threads));
     std::atomic<std::size_t> next{0};
     on_threads(threads, [&](int t) {
-        link_tasks(refine, tasks, next, Exchange(tree, bins, scales, options),
+        link_tasks(refine, tasks, next, Exchange(tree, bins, scales, options, table),
                    found[static_cast<std::size_t>(t)]);
     });
 

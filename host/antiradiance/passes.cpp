@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/passes/antiradiance.hpp>
+#include <algorithm>
 #include <clgi/planes.hpp>
 
 #include "opencl/launch.hpp"
@@ -82,8 +83,8 @@ void AntiradiancePasses::build(std::initializer_list<const char*> passes) const 
     build_named({global_, local_, pull_, turn_, sources_, vertices_, show_}, passes);
 }
 
-std::size_t AntiradiancePasses::intensity_bytes(std::size_t elements) const {
-    return elements * static_cast<std::size_t>(bins_) *
+std::size_t AntiradiancePasses::intensity_bytes(std::size_t rows) const {
+    return std::max<std::size_t>(rows, 1) * static_cast<std::size_t>(bins_) *
            (local_.storage == Storage::half ? color / 2 : color);
 }
 
@@ -92,7 +93,7 @@ cl::Event AntiradiancePasses::global(const cl::CommandQueue& queue, const Elemen
                                      const ElementRows& rows, const WaitList& wait) const {
     need_list(global_, params, list, links);
     need_linked(global_, bins_, links, rows);
-    need(global_, "exitant", rows.exitant, intensity_bytes(links.element_count));
+    need(global_, "exitant", rows.exitant, intensity_bytes(links.row_count));
     return launch(global_, queue, params.count, wait, params, list, Linked{links, rows},
                   rows.incident);
 }
@@ -103,8 +104,8 @@ cl::Event AntiradiancePasses::local(const cl::CommandQueue& queue, const Element
                                     const LeafBuffers& leaves, const WaitList& wait) const {
     need_list(local_, params, list, links);
     need_linked(local_, bins_, links, rows);
-    need(local_, "exitant", rows.exitant, intensity_bytes(links.element_count));
-    need(local_, "next", rows.next, intensity_bytes(links.element_count));
+    need(local_, "exitant", rows.exitant, intensity_bytes(links.row_count));
+    need(local_, "next", rows.next, intensity_bytes(links.row_count));
     need(local_, "next_powers", rows.next_powers, links.element_count * color);
     need(local_, "directions", directions, static_cast<std::size_t>(bins_) * color);
     need(local_, "sources", leaves.sources, links.leaf_count * color);
@@ -124,7 +125,7 @@ cl::Event AntiradiancePasses::pull(const cl::CommandQueue& queue, const ElementP
                                    const ElementRows& rows, const WaitList& wait) const {
     need_list(pull_, params, list, links);
     need(pull_, "next_powers", rows.next_powers, links.element_count * color);
-    need(pull_, "next", rows.next, intensity_bytes(links.element_count));
+    need(pull_, "next", rows.next, intensity_bytes(links.row_count));
     return launch(pull_, queue, params.count, wait, params, list, links.elements, rows.next_powers,
                   rows.next);
 }

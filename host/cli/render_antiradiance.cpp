@@ -18,6 +18,8 @@ namespace {
 const std::map<std::string, Iteration> iterations = {{"auto", Iteration::automatic},
                                                      {"symmetric", Iteration::symmetric},
                                                      {"asymmetric", Iteration::asymmetric}};
+const std::map<std::string, Spread> spreads = {
+    {"precise", Spread::precise}, {"gaussian", Spread::gaussian}, {"none", Spread::none}};
 
 std::string name_of(Iteration iteration) {
     for (const auto& [name, value] : iterations)
@@ -77,6 +79,7 @@ void run_antiradiance(RenderFlags flags) {
     const Programs programs(session.context, session.device);
     AntiradianceOptions options = flags.antiradiance.solver;
     options.iteration = iterations.at(flags.antiradiance.iteration);
+    options.links.spread = spreads.at(flags.antiradiance.spread);
     options.elements.wished = static_cast<std::size_t>(flags.antiradiance.elements);
     options.emitters = flags.options.emitters;
     options.build = build_of(flags.device);
@@ -177,6 +180,11 @@ void add_antiradiance_flags(CLI::App& command, AntiradianceFlags& flags) {
                     "angle")
         ->type_name("X")
         ->check(CLI::PositiveNumber);
+    command
+        .add_option("--spread", flags.spread,
+                    "antiradiance: How light from what is larger than a bin arrives in bins")
+        ->type_name("KIND")
+        ->check(CLI::IsMember({"precise", "gaussian", "none"}));
 }
 
 }  // namespace clgi::cli

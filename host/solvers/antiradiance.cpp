@@ -4,7 +4,6 @@
 #include <clgi/kit/draw.hpp>
 #include <clgi/planes.hpp>
 
-#include "antiradiance/device_links.hpp"
 #include "antiradiance/sky.hpp"
 #include "opencl/check.hpp"
 #include "opencl/variants.hpp"
@@ -50,10 +49,11 @@ AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueu
     if (tree.leaves == 0) throw Error("antiradiance: the scene has no surface");
     made = make_element_surface(tree, bins, file, scene);
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
-    table(Links()).check(device, options.memory_budget, scene.bytes());  // before it takes time
-    const Links between = make_links(tree, bins, options.links);
+    table(DeviceLinks()).check(device, options.memory_budget, scene.bytes());  // before it takes time
+    const DeviceLinks between = device_links(
+        tree, bins, make_links(tree, bins, options.links), scene.frame().scale, made.elements);
     linking = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    link_total = between.count();
+    link_total = between.senders.size();
     const BufferTable rows_of = table(between);
     rows_of.check(device, options.memory_budget, scene.bytes());
     rows_of.allocate(record);
@@ -62,7 +62,7 @@ AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueu
     write(file, between);
 }
 
-BufferTable AntiradianceSolver::State::table(const Links& between) {
+BufferTable AntiradianceSolver::State::table(const DeviceLinks& between) {
     const char* size = "elements.wished";
     const char* bin = "bins";
     const std::size_t count = made.elements.size(), leaf = made.leaves.size();
@@ -71,7 +71,8 @@ BufferTable AntiradianceSolver::State::table(const Links& between) {
     links.element_count = static_cast<std::uint32_t>(count);
     links.leaf_count = static_cast<std::uint32_t>(leaf);
     links.inner_count = static_cast<std::uint32_t>(made.inner.size());
-    links.link_count = static_cast<std::uint32_t>(between.count());
+    links.link_count = static_cast<std::uint32_t>(between.senders.size());
+    links.row_count = between.rows;
     surface.vertex_count = made.vertices();
     const auto point_count = static_cast<std::uint32_t>(made.samples.size());
     points.stride = static_cast<std::uint32_t>(plane_stride(point_count));
@@ -81,13 +82,13 @@ BufferTable AntiradianceSolver::State::table(const Links& between) {
     add_raster_lists(t, lists, scene);
     t.add(links.elements, "elements", size, count * sizeof(Element));
     t.add(links.first_links, "links", size, (2 * count + 1) * word);
-    t.add(links.senders, "links", size, between.count() * word);
-    t.add(links.bins, "links", size, between.count() * word / 2);
-    t.add(links.form_factors, "links", size, between.count() * word);
+    t.add(links.senders, "links", size, between.senders.size() * word);
+    t.add(links.bins, "links", size, between.senders.size() * word / 2);
+    t.add(links.form_factors, "links", size, between.senders.size() * word);
     t.add(rows.sky, "the sky's row", bin, m * color);
     t.add(rows.incident, "incident light", bin, std::max<std::size_t>(inner, 1) * m * color);
-    t.add(rows.exitant, "intensities", bin, passes.intensity_bytes(count));
-    t.add(rows.next, "intensities", bin, passes.intensity_bytes(count));
+    t.add(rows.exitant, "intensities", bin, passes.intensity_bytes(between.rows));
+    t.add(rows.next, "intensities", bin, passes.intensity_bytes(between.rows));
     t.add(rows.powers, "light of elements", size, count * color);
     t.add(rows.next_powers, "light of elements", size, count * color);
     for (cl::Buffer* buffer : {&leaves.sources, &leaves.reflectances, &leaves.radiances,
@@ -121,14 +122,13 @@ void AntiradianceSolver::State::build() const {
     build_draw(gbuffer, scene, emitters.set().views.size());
 }
 
-void AntiradianceSolver::State::write(const Scene& file, const Links& between) {
+void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& between) {
     emitters.write(record);
     put(links.elements, made.elements);
-    const DeviceLinks ordered = device_links(tree, made.elements, bins, between, scene.frame().scale);
-    put(links.first_links, ordered.first);
-    put(links.senders, ordered.senders);
-    put(links.bins, ordered.bins);
-    put(links.form_factors, ordered.form_factors);
+    put(links.first_links, between.first);
+    put(links.senders, between.senders);
+    put(links.bins, between.bins);
+    put(links.form_factors, between.form_factors);
     std::vector<glm::vec4> sky;
     const double exposure = scene.frame().exposure;
     for (const glm::dvec3& radiance : sky_row(file.environment, bins))

@@ -7,6 +7,7 @@
 #include <clgi/passes/parallel.hpp>
 #include <clgi/solvers/antiradiance.hpp>
 
+#include "antiradiance/device_links.hpp"
 #include "antiradiance/element_surface.hpp"
 
 namespace clgi {
@@ -15,9 +16,9 @@ struct AntiradianceSolver::State {
     State(const Programs& programs, const cl::CommandQueue& on, const Scene& file,
           const DeviceScene& of, const AntiradianceOptions& wanted);
 
-    BufferTable table(const Links& made);
+    BufferTable table(const DeviceLinks& between);
     void build() const;
-    void write(const Scene& file, const Links& made);
+    void write(const Scene& file, const DeviceLinks& between);
 
     template <typename T>
     void put(const cl::Buffer& buffer, const std::vector<T>& values) {

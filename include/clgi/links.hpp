@@ -28,6 +28,9 @@ namespace clgi {
 enum class Spread {
     none,     // it arrives through one bin
     precise,  // through each bin its share, found by cutting the leaf into parts
+    // Through the bins in the cone that it fills, weighted by a Gaussian around its middle, as wide
+    // as bins are apart: the heuristic of section 3.1, quicker to find.
+    gaussian,
 };
 
 struct LinkOptions {

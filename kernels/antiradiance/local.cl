@@ -28,7 +28,7 @@ kernel void antiradiance_local(
     global float4*        restrict changes,      // [leaves] rgb: watts by which it changed; w: its watts
     global uint*          restrict non_finite,   // [1] leaves whose irradiance is not finite
     global float4*        restrict next_powers,  // [elements] area times radiance
-    global Intensity*     restrict next)         // [elements][CLGI_BINS] intensities
+    global Intensity*     restrict next)         // [rows][CLGI_BINS] intensities
 {
     uint at = (uint)get_global_id(0);
     if (at >= params.count) return;
@@ -50,7 +50,6 @@ kernel void antiradiance_local(
         sum = fma(before, select(none, row[four], before > none), sum);
     }
     float4 arrived = sum_of_bins(sum);
-    arrived.w = 0.0f;
     float4 change = fabs(arrived - irradiances[leaf.row]) * leaf.normal.w;
     change.w = (fabs(arrived.x) + fabs(arrived.y) + fabs(arrived.z)) * leaf.normal.w;
     changes[leaf.row] = change;
@@ -63,7 +62,8 @@ kernel void antiradiance_local(
         radiances[leaf.row] = radiance;
     }
     next_powers[element] = leaf.normal.w * radiance;
-    ulong first = (ulong)element * CLGI_FOURS;
+    if (leaf.sends == ELEMENT_NONE) return;
+    ulong first = (ulong)leaf.sends * CLGI_FOURS;
     int goes_through = (params.step & LOCAL_GO_THROUGH) != 0;
     Bins4 sent = in_all_bins(radiance), area = (Bins4)(leaf.normal.w);
     for (uint four = 0; four < CLGI_FOURS; ++four) {

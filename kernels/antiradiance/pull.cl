@@ -12,23 +12,24 @@ kernel void antiradiance_pull(
     global const uint*    restrict list,      // elements
     global const Element* restrict elements,
     global float4*        restrict powers,    // [elements] area times radiance
-    global Intensity*     restrict exitant)   // [elements][CLGI_BINS]
+    global Intensity*     restrict exitant)   // [rows][CLGI_BINS]
 {
     uint at = (uint)get_global_id(0);
     if (at >= params.count) return;
     uint element = list[params.first + at];
-    uint end = elements[element].end;
+    uint end = elements[element].end, sends = elements[element].sends;
+    float4 power = (float4)(0.0f);
+    for (uint below = element + 1; below < end; below = elements[below].end) power += powers[below];
+    powers[element] = power;
+    if (sends == ELEMENT_NONE) return;
     Bins4 row[CLGI_FOURS];
     for (uint four = 0; four < CLGI_FOURS; ++four) row[four] = (Bins4)(0.0f);
-    float4 power = (float4)(0.0f);
     for (uint below = element + 1; below < end; below = elements[below].end) {
-        power += powers[below];
-        ulong first = (ulong)below * CLGI_FOURS;
+        ulong first = (ulong)elements[below].sends * CLGI_FOURS;
         for (uint four = 0; four < CLGI_FOURS; ++four)
             row[four] += load_intensities(exitant, first + four);
     }
-    powers[element] = power;
-    ulong first = (ulong)element * CLGI_FOURS;
+    ulong first = (ulong)sends * CLGI_FOURS;
     for (uint four = 0; four < CLGI_FOURS; ++four)
         store_intensities(row[four], exitant, first + four);
 }

@@ -21,20 +21,23 @@ struct LinkBuffers {
     // [element_count][2] uint: where those begin that read powers, and those that read rows; and
     // where the last ones end.
     cl::Buffer first_links;
-    cl::Buffer senders;       // [link_count] uint; one at least, like the other two
+    // [link_count] uint: elements of links that read powers, rows of the others; one at least, like
+    // the other two.
+    cl::Buffer senders;
     cl::Buffer bins;          // [link_count] ushort
     // [link_count] float, 1 / (m^2 sr) [Dachsbacher07, Eq. 17]; of links that read powers times
     // the cosine of the sender's Element::normal with the direction of the bin.
     cl::Buffer form_factors;
     std::uint32_t element_count = 0, inner_count = 0, leaf_count = 0, link_count = 0;
+    std::uint32_t row_count = 0;  // of exitant intensities
 };
 
 // Rows of all elements.
 struct ElementRows {
     cl::Buffer sky;       // [bins] float4: radiance that arrives from outside the scene
     cl::Buffer incident;  // [inner_count][bins] float4: radiance; one at least
-    cl::Buffer exitant;   // [element_count][bins] intensities before a pass
-    cl::Buffer next;      // [element_count][bins] those after it
+    cl::Buffer exitant;   // [row_count][bins] intensities before a pass; one at least
+    cl::Buffer next;      // [row_count][bins] those after it
     // [element_count] float4: area times radiance of the front, before a pass and after it.
     cl::Buffer powers, next_powers;
 };
@@ -68,7 +71,7 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
     int bins() const { return bins_; }
-    std::size_t intensity_bytes(std::size_t elements) const;
+    std::size_t intensity_bytes(std::size_t rows) const;  // of one at least
 
     // Inner elements of `list` [params.first + params.count] uint, whose parents are done.
     cl::Event global(const cl::CommandQueue& queue, const ElementParams& params,

@@ -4,6 +4,10 @@
 // it: so a link reads a bin of its sender and adds to the same bin of its receiver. Rows have one
 // float4 a bin (rgb, 0); those of exitant intensity are half4 with half storage. Bins are a multiple
 // of 4.
+//
+// What elements in one plane send before them is their power times cosines, which links read without
+// a row. Rows of exitant intensity are there for elements that let light through to others behind
+// them, for clusters of different normals, and for all below those.
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_ANTIRADIANCE_H
 #define CLGI_SHARED_ANTIRADIANCE_H
@@ -22,6 +26,10 @@ typedef struct {
     uint end;
     uint row;       // among the leaves, or among the inner elements
     uint cut;       // of a patch with parts: CUT_EDGE... below
+    uint sends;     // row of exitant intensity; ELEMENT_NONE: no link reads it
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
 } Element;
 
 // A patch is halved across an edge: k, between its corners k and k + 1. The halves are (apex, k,
