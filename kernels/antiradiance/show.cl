@@ -11,8 +11,7 @@
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/antiradiance.h"
 #include "clgi/shared/gbuffer.h"
-#include "packet.clh"
-#include "gbuffer/barycentric.clh"
+#include "gbuffer/seen.clh"
 #include "planes.clh"
 
 // Weights of a patch's corners at a point of its triangle, which has weights of its own.
@@ -43,20 +42,13 @@ kernel void antiradiance_show(
     if (pixel >= params.pixel_count) return;
     uint stride = params.pixel_stride;
     float sum[3] = {0.0f, 0.0f, 0.0f};
-    int triangle = ids[GBUFFER_TRIANGLE * stride + pixel];
-    if (triangle >= 0 && triangle < (int)params.triangle_count) {
-        uint4 corners = triangles[triangle];
-        float3 first = positions[corners.x].xyz;
-        float3 edge1 = positions[corners.y].xyz - first, edge2 = positions[corners.z].xyz - first;
-        float3 normal = cross(edge1, edge2);
-        float3 point = (float3)(row_load_one(gbuffer_row(planes, GBUFFER_POSITION, stride), pixel),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), pixel),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), pixel));
-        float3 to_eye = params.eye.w == 0.0f ? params.eye.xyz - point : params.eye.xyz;
+    int triangle = seen_triangle(ids, stride, pixel, params.triangle_count);
+    if (triangle >= 0) {
+        Seen seen = seen_at(params.eye, triangles[triangle], positions, planes, stride, pixel);
+        float2 at = seen.weights;
         TrianglePatches root = roots[triangle];
-        uint element = dot(normal, to_eye) < 0.0f && root.back != ELEMENT_NONE ? root.back : root.front;
+        uint element = seen.back && root.back != ELEMENT_NONE ? root.back : root.front;
         if (element != ELEMENT_NONE) {
-            float2 at = barycentric(point - first, edge1, edge2, normal);
             while (elements[element].end != element + 1) {
                 uint end = elements[element].end, inside = element + 1;
                 float best = -FLT_MAX;
