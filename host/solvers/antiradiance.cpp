@@ -72,6 +72,7 @@ BufferTable AntiradianceSolver::State::table(const Links& between) {
     links.inner_count = static_cast<std::uint32_t>(made.inner.size());
     links.link_count = static_cast<std::uint32_t>(between.count());
     surface.vertex_count = made.vertices();
+    surface.patch_count = static_cast<std::uint32_t>(made.patches.size());
     const auto point_count = static_cast<std::uint32_t>(made.samples.size());
     points.stride = static_cast<std::uint32_t>(plane_stride(point_count));
     point_params = {links.leaf_count, leaf_samples, points.stride, made.first_back};

@@ -2,7 +2,7 @@
 //                                               [Dachsbacher07, section 4.3; derived: the descent]
 //
 // From the patch of the whole triangle down, the part whose smallest weight at the point is largest
-// holds it.
+// holds it. A patch that is no element has leaves at its corners.
 //
 // Work size    1D, one work-item a pixel; any local size; tail guarded
 // Writes       its own pixel, 0 where no element is. Less than nothing, which an expansion into bins
@@ -32,7 +32,7 @@ kernel void antiradiance_show(
     global const float4*          restrict positions,  // of its vertices, local frame
     global const TrianglePatches* restrict roots,      // [triangle_count]
     global const Element*         restrict elements,
-    global const PatchCorners*    restrict patches,    // [elements]
+    global const PatchCorners*    restrict patches,    // [elements], then of other triangles
     global const float*           restrict planes,     // [GBUFFER_PLANES][pixel_stride]
     global const int*             restrict ids,        // [GBUFFER_ID_PLANES][pixel_stride]
     global const float4*          restrict light,      // [vertices] rgb
@@ -49,7 +49,7 @@ kernel void antiradiance_show(
         TrianglePatches root = roots[triangle];
         uint element = seen.back && root.back != ELEMENT_NONE ? root.back : root.front;
         if (element != ELEMENT_NONE) {
-            while (elements[element].end != element + 1) {
+            while (element < params.element_count && elements[element].end != element + 1) {
                 uint end = elements[element].end, inside = element + 1;
                 float best = -FLT_MAX;
                 for (uint part = element + 1; part < end; part = elements[part].end) {
