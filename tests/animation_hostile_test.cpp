@@ -1,30 +1,14 @@
 // Animations made to cost far more than their file: they must end quickly, in bounded memory.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <ctime>
 
 #include "posing.hpp"
+#include "time_limit.hpp"
 
 namespace clgi::test {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr double slowdown = 4.0;
-#else
-constexpr double slowdown = 1.0;
-#endif
-
-// Processor time: a busy machine is no failure.
-class AnimationHostile : public testing::Test {
-protected:
-    void TearDown() override {
-        const double seconds = static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
-        EXPECT_LT(seconds, 5.0 * slowdown);
-    }
-
-private:
-    std::clock_t start_ = std::clock();
-};
+using AnimationHostile = TimeLimit<5>;
 
 int keys(GltfDraft& draft, std::size_t count) {
     std::vector<float> times(count);

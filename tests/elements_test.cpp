@@ -175,7 +175,7 @@ TEST(Elements, AreAboutAsManyAsWished) {
 TEST(Elements, CutLargeTrianglesHoweverManySmallOnesThereAre) {
     Scene scene = furnace({.subdivisions = 5, .radius = 0.1});  // 20,480 triangles
     test::add_box(scene, glm::dvec3(-1.0), glm::dvec3(1.0), -1);
-    const ElementTree tree = make_elements(scene, {.wished = 1000});
+    const ElementTree tree = make_elements(scene, {.wished = 1000, .vertices = false});
     const double most = 4.0 * tree.areas[0] / 1000;
     EXPECT_GT(tree.leaves, 20480u + 250u);
     for (std::size_t i = 0; i < tree.count(); ++i)
@@ -228,12 +228,13 @@ TEST(Elements, SayWhichClustersAreFlat) {
             const double a = x, b = z, c = x + 1, d = z + 1;
             test::add_quad(scene, {glm::dvec3(a, 0, d), {c, 0, d}, {c, 0, b}, {a, 0, b}});
         }
-    ElementTree tree = make_elements(scene, {.max_area = 1.0, .backs = false});
+    const ElementOptions faces{.max_area = 1.0, .backs = false, .vertices = false};
+    ElementTree tree = make_elements(scene, faces);
     expect_consistent(tree);
     for (std::size_t i = 0; i < tree.count(); ++i) EXPECT_EQ(tree.normals[i], glm::dvec3(0, 1, 0));
     // A step of a hundredth of the width is no plane; neither are both sides of a sheet.
     for (std::size_t v = 0; v < 4; ++v) scene.positions[v].y = 0.04;
-    tree = make_elements(scene, {.max_area = 1.0, .backs = false});
+    tree = make_elements(scene, faces);
     EXPECT_FALSE(tree.is_flat(0));
 }
 

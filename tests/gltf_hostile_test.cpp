@@ -1,34 +1,14 @@
 // Files made to break a reader: each must be refused in one line, quickly, in bounded memory.
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <ctime>
 #include <limits>
 
 #include "gltf_draft.hpp"
+#include "time_limit.hpp"
 
 namespace clgi::test {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr double slowdown = 4.0;
-#else
-constexpr double slowdown = 1.0;
-#endif
-
-// Fails when a case takes longer than anything hostile may. Processor time: a busy machine is no
-// failure.
-class GltfHostile : public testing::Test {
-protected:
-    void TearDown() override {
-        const double seconds = static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
-        EXPECT_LT(seconds, 10.0 * slowdown);
-    }
-
-private:
-    std::clock_t start_ = std::clock();
-};
-
+using GltfHostile = TimeLimit<10>;
 using GltfUri = GltfHostile;
 
 void expect_refused(const GltfDraft& draft, const std::string& because,

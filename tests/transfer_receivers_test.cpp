@@ -223,6 +223,14 @@ TEST_P(TransferReceivers, LightPixelsBetweenThem) {
         }
         EXPECT_TRUE(std::isnan(found[12]));
     }
+    // A triangle beyond the number that was given is none.
+    const cl::Buffer shown = test::upload(std::vector<float>(3 * stride, nan));
+    passes(GetParam())
+        .show(test::device().queue, {eyes[0].first, 12, stride, 1, stride}, scene,
+              test::upload(other), buffer, test::upload(light), shown);
+    const auto found = test::download<float>(shown, 3 * stride);
+    for (std::size_t pixel = 0; pixel < 12; ++pixel)
+        EXPECT_EQ(found[pixel] != 0.0f, seen.ids[GBUFFER_TRIANGLE * stride + pixel] == 0) << pixel;
 }
 
 TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {

@@ -22,7 +22,7 @@ struct ElementSurface {
 
     std::vector<SurfaceSample> samples;  // [leaves][leaf_samples]; of no triangle where a leaf is
                                          // the dark back of a one-sided triangle
-    std::vector<PatchCorners> patches;   // [elements]
+    std::vector<PatchCorners> patches;   // [elements], then of triangles with leaves at vertices
     std::vector<TrianglePatches> roots;  // [triangles of the device]
 
     std::vector<std::uint32_t> first_leaves;  // [vertices + 1] in vertex_leaves

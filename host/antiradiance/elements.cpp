@@ -10,6 +10,7 @@
 #include "antiradiance/faces.hpp"
 #include "antiradiance/halve.hpp"
 #include "antiradiance/leaf_area.hpp"
+#include "antiradiance/vertex_cells.hpp"
 
 namespace clgi {
 namespace {
@@ -34,9 +35,11 @@ void check(const ElementOptions& options) {
 // Writes elements in depth-first order; what depends on children comes after.
 class Builder {
 public:
-    Builder(const std::vector<Face>& faces, ElementTree& out) : out_(out), faces_(faces) {
-        for (const Face& face : faces) centres_.push_back(centroid(face.corners));
-        order_.resize(faces.size());
+    Builder(const VertexCells& leaves, ElementTree& out)
+        : out_(out), leaves_(leaves), faces_(leaves.faces) {
+        for (const Face& face : faces_) centres_.push_back(centroid(face.corners));
+        for (const VertexCell& cell : leaves.cells) centres_.push_back(cell.position);
+        order_.resize(centres_.size());
         std::iota(order_.begin(), order_.end(), 0u);
     }
 
@@ -46,7 +49,7 @@ public:
         if (order_.empty()) return;
         std::uint32_t *const first = order_.data(), *const last = first + order_.size();
         std::uint32_t* const backs =
-            std::stable_partition(first, last, [&](std::uint32_t f) { return !faces_[f].back; });
+            std::stable_partition(first, last, [&](std::uint32_t f) { return !is_back(f); });
         if (backs == last) {
             tree(first, last, no_index);
             return;
@@ -60,6 +63,10 @@ public:
 private:
     using Iterator = std::uint32_t*;
 
+    bool is_cell(std::uint32_t f) const { return f >= faces_.size(); }
+    const VertexCell& cell(std::uint32_t f) const { return leaves_.cells[f - faces_.size()]; }
+    bool is_back(std::uint32_t f) const { return is_cell(f) ? cell(f).back : faces_[f].back; }
+
     std::uint32_t open(std::uint32_t parent) {
         const auto i = static_cast<std::uint32_t>(out_.ends.size());
         out_.positions.emplace_back(0.0);
@@ -72,10 +79,24 @@ private:
         out_.levels.push_back(parent == no_index ? 0 : out_.levels[parent] + 1);
         out_.triangles.push_back(no_index);
         out_.backs.push_back(0);
+        if (!leaves_.cells.empty())
+            out_.first_thirds.push_back(static_cast<std::uint32_t>(out_.thirds.size()));
         return i;
     }
 
     void close(std::uint32_t i) { out_.ends[i] = static_cast<std::uint32_t>(out_.ends.size()); }
+
+    void leaf(const VertexCell& cell, std::uint32_t parent) {
+        const std::uint32_t i = open(parent);
+        out_.positions[i] = cell.position;
+        out_.normals[i] = cell.normal;
+        out_.areas[i] = cell.area;
+        out_.triangles[i] = leaves_.thirds[cell.first_third].triangle;
+        out_.backs[i] = cell.back ? 1 : 0;
+        out_.thirds.insert(out_.thirds.end(), leaves_.thirds.begin() + cell.first_third,
+                           leaves_.thirds.begin() + cell.end_third);
+        ++out_.leaves;
+    }
 
     // Two children of one halving, or four of two.
     void patch(const Face& face, const Corners& corners, double area, int halvings_left,
@@ -122,6 +143,7 @@ private:
 
     void tree(Iterator first, Iterator last, std::uint32_t parent) {
         if (last - first == 1) {
+            if (is_cell(*first)) return leaf(cell(*first), parent);
             const Face& face = faces_[*first];
             patch(face, face.corners, face.area, halvings(face.area, out_.max_area), parent);
             return;
@@ -141,14 +163,23 @@ private:
     }
 
     ElementTree& out_;
+    const VertexCells& leaves_;
     const std::vector<Face>& faces_;
-    std::vector<glm::dvec3> centres_;   // [faces]
-    std::vector<std::uint32_t> order_;  // of faces
+    std::vector<glm::dvec3> centres_;   // [faces, then cells]
+    std::vector<std::uint32_t> order_;  // of them
 };
 
-double reach(const Corners& corners, const glm::dvec3& position) {
+// From a position to the farthest point of a leaf or a patch.
+double reach(const ElementTree& tree, std::size_t i, const glm::dvec3& position) {
     double out = 0.0;
-    for (const glm::dvec3& corner : corners) out = std::max(out, glm::length(corner - position));
+    const auto take = [&](const glm::dvec3& corner) {
+        out = std::max(out, glm::length(corner - position));
+    };
+    if (tree.is_patch(i))
+        for (const glm::dvec3& corner : tree.corners[i]) take(corner);
+    if (tree.is_vertex(i))
+        for (std::uint32_t k = tree.first_thirds[i]; k < tree.first_thirds[i + 1]; ++k)
+            for (const glm::dvec3& corner : outline(tree.thirds[k])) take(corner);
     return out;
 }
 
@@ -156,7 +187,7 @@ double reach(const Corners& corners, const glm::dvec3& position) {
 void gather(ElementTree& tree) {
     for (std::size_t i = tree.count(); i-- > 0;) {
         const std::uint32_t parent = tree.parents[i];
-        if (!tree.is_patch(i)) tree.positions[i] /= tree.areas[i];
+        if (!tree.is_leaf(i) && !tree.is_patch(i)) tree.positions[i] /= tree.areas[i];
         if (parent == no_index || tree.is_patch(parent)) continue;
         tree.areas[parent] += tree.areas[i];
         tree.positions[parent] += tree.areas[i] * tree.positions[i];
@@ -165,21 +196,20 @@ void gather(ElementTree& tree) {
 
 void measure_radii(ElementTree& tree) {
     for (std::size_t i = 0; i < tree.count(); ++i) {
-        if (!tree.is_patch(i)) continue;
-        tree.radii[i] = reach(tree.corners[i], tree.positions[i]);
+        if (!tree.is_leaf(i) && !tree.is_patch(i)) continue;
+        tree.radii[i] = reach(tree, i, tree.positions[i]);
         // Parts of a triangle lie within it, so clusters ask whole triangles alone.
         std::uint32_t above = tree.parents[i];
         if (above != no_index && tree.is_patch(above)) continue;
         for (; above != no_index; above = tree.parents[above])
-            tree.radii[above] =
-                std::max(tree.radii[above], reach(tree.corners[i], tree.positions[above]));
+            tree.radii[above] = std::max(tree.radii[above], reach(tree, i, tree.positions[above]));
     }
 }
 
 void find_flat_clusters(ElementTree& tree) {
     const double least = std::cos(flatness);
     for (std::size_t i = tree.count(); i-- > 0;) {
-        if (tree.is_patch(i)) continue;
+        if (tree.is_leaf(i) || tree.is_patch(i)) continue;
         glm::dvec3 sum(0.0);
         for (std::size_t c = i + 1; c < tree.ends[i]; c = tree.ends[c])
             sum += tree.areas[c] * tree.normals[c];
@@ -193,6 +223,17 @@ void find_flat_clusters(ElementTree& tree) {
         }
         if (flat) tree.normals[i] = normal;
     }
+}
+
+// Faces, and leaves at vertices unless there would be fewer leaves than wished.
+VertexCells mixed_leaves(const Scene& scene, const Faces& faces, double max_area,
+                         const ElementOptions& options) {
+    const VertexCells all_faces{{}, {}, faces.faces};
+    if (!options.vertices) return all_faces;
+    VertexCells out = make_vertex_cells(scene, faces, max_area);
+    const double leaves = count_leaves(out.faces, max_area) + static_cast<double>(out.cells.size());
+    const bool too_few = options.max_area == 0.0 && leaves < static_cast<double>(options.wished);
+    return too_few ? all_faces : out;
 }
 
 }  // namespace
@@ -210,7 +251,10 @@ ElementTree make_elements(const Scene& scene, const ElementOptions& options) {
                     std::to_string(leaves) +
                     ", at most 67108864 are possible; max_area, min_area "
                     "or wished must be coarser");
-    Builder(faces.faces, out).build();
+    const VertexCells mixed = mixed_leaves(scene, faces, out.max_area, options);
+    Builder(mixed, out).build();
+    if (!mixed.cells.empty())
+        out.first_thirds.push_back(static_cast<std::uint32_t>(out.thirds.size()));
     gather(out);
     measure_radii(out);
     find_flat_clusters(out);

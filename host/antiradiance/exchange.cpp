@@ -7,6 +7,7 @@
 
 #include "antiradiance/faces.hpp"
 #include "antiradiance/solid_angle.hpp"
+#include "antiradiance/vertex_cells.hpp"
 
 namespace clgi {
 namespace {
@@ -21,6 +22,10 @@ constexpr double least_sent = 1e-2, least_received = 1e-6;
 // where the receiver's position all but touches the leaf.
 constexpr double part_share = 0.25;
 constexpr int most_cuts = 8;
+
+// Radii of a leaf at a vertex beyond which its solid angle is area * cosine / distance^2, as in the
+// paper: the error is at most some (1 / near_radii)^2.
+constexpr double near_radii = 8.0;
 
 constexpr double rounding = 1e-12;  // of heights above a sender, as a share of its radius
 
@@ -81,28 +86,58 @@ void Exchange::spread_around(int bin, double angle) {
         if (meets(share)) add(share.bin, angle * share.weight / all);
 }
 
+double Exchange::cut_thirds(std::uint32_t sender, double side) {
+    halves_.clear();
+    double sum = 0.0;
+    for (std::uint32_t k = tree_.first_thirds[sender]; k < tree_.first_thirds[sender + 1]; ++k) {
+        const std::array<glm::dvec3, 4> p = outline(tree_.thirds[k]);
+        for (const Corners& half : {Corners{p[0], p[1], p[2]}, Corners{p[0], p[2], p[3]}}) {
+            halves_.emplace_back(half, side * signed_solid_angle(half, eye_));
+            sum += halves_.back().second;
+        }
+    }
+    return sum;
+}
+
+void Exchange::spread_thirds(double angle) {
+    double seen = 0.0;
+    for (const auto& [half, part] : halves_) {
+        if (!(part > 0.0)) continue;
+        seen += part;
+        spread(half, part, 0);
+    }
+    for (const int bin : used_) sums_[static_cast<std::size_t>(bin)] *= angle / seen;
+}
+
 void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out) {
     eye_ = tree_.positions[receiver];
     const glm::dvec3 way = eye_ - tree_.positions[sender];
     const double distance = glm::length(way);
     receives_ = {-tree_.normals[receiver], least_received};
+    if (!(distance > 0.0)) return;
+    double angle = tree_.areas[sender] / (distance * distance);
+    const bool near =
+        tree_.is_vertex(sender) && (distance < near_radii * tree_.radii[sender] || angle > limit_);
     // A leaf that spans bins may have parts in front of the receiver where its middle is behind.
-    const bool parts = tree_.is_patch(sender) && spread_ == Spread::precise;
-    if (!(distance > 0.0) || (!parts && !arrives(way))) return;
+    const bool parts = (tree_.is_patch(sender) || near) && spread_ == Spread::precise;
+    if (!parts && !arrives(way)) return;
 
     const bool flat = tree_.is_flat(sender);
-    double angle = tree_.areas[sender] / (distance * distance);
     sends_ = {};
     if (flat) {
         const double height = glm::dot(tree_.normals[sender], way);
         sends_ = {height > 0.0 ? tree_.normals[sender] : -tree_.normals[sender], least_sent};
         angle = tree_.is_patch(sender) ? solid_angle(tree_.corners[sender], eye_)
+                : near                 ? cut_thirds(sender, height > 0.0 ? 1.0 : -1.0)
                                        : angle * std::abs(height) / distance;
         // In the sender's plane rounding would choose a side, within the sender for 2 pi.
         if (!(angle > 0.0 && std::abs(height) > rounding * tree_.radii[sender])) return;
     }
     if (parts && angle > limit_) {
-        spread(tree_.corners[sender], angle, 0);
+        if (near)
+            spread_thirds(angle);
+        else
+            spread(tree_.corners[sender], angle, 0);
     } else if (arrives(way)) {
         if (const std::optional<int> bin = choose_(way / distance, sends_, receives_)) {
             if (table_)

@@ -4,6 +4,7 @@
 
 #include <clgi/links.hpp>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "antiradiance/bin_choice.hpp"
@@ -41,6 +42,12 @@ private:
     bool is_ahead(std::size_t sender, std::size_t receiver, int bin) const;
     void spread(const Corners& corners, double solid_angle, int depth);
     void spread_around(int bin, double solid_angle);
+    // Of a leaf at a vertex: cuts its thirds into halves and adds up their solid angles, those that
+    // face away from the side (1: front, -1: back) as negative. So the sum depends on the outline
+    // of the leaf alone, and a closed surface of leaves covers what it hides once.
+    double cut_thirds(std::uint32_t sender, double side);
+    // The halves that face that side, together as large as the sum.
+    void spread_thirds(double solid_angle);
 
     const ElementTree& tree_;
     const DirectionBins& bins_;
@@ -55,8 +62,9 @@ private:
     // Of the present pair.
     glm::dvec3 eye_{0.0};  // the receiver's position
     BinDemand sends_, receives_;
-    std::vector<double> sums_;  // [bins] sr; zero between calls
-    std::vector<int> used_;     // bins that are not zero
+    std::vector<std::pair<Corners, double>> halves_;  // of thirds, with their solid angles
+    std::vector<double> sums_;                        // [bins] sr; zero between calls
+    std::vector<int> used_;                           // bins that are not zero
 };
 
 }  // namespace clgi

@@ -2,10 +2,10 @@
 #include "antiradiance/faces.hpp"
 
 #include <algorithm>
-#include <clgi/adjacency.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace clgi {
 namespace {
@@ -42,7 +42,7 @@ double least_height(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& 
 
 Faces make_faces(const Scene& scene, bool backs) {
     check_materials(scene);
-    const Adjacency mesh = adjacency(scene);
+    Adjacency mesh = adjacency(scene);
     const std::vector<std::uint8_t> closed = closed_pieces(mesh);
     const Bounds box = bounds(scene);
     const glm::dvec3 middle = 0.5 * (box.low + box.high);
@@ -68,6 +68,7 @@ Faces make_faces(const Scene& scene, bool backs) {
         if (backs && (both || !closed[mesh.pieces[t]]))
             out.faces.push_back({{p[0], p[2], p[1]}, -front.normal, front.area, t, true});
     }
+    out.mesh = std::move(mesh);
     return out;
 }
 

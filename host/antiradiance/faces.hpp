@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <clgi/adjacency.hpp>
 #include <clgi/scene.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,7 @@ struct Faces {
     std::vector<Face> faces;  // by triangle, the front first
     std::size_t skipped = 0;  // triangles
     double skipped_area = 0.0;
+    Adjacency mesh;  // of the scene's triangles
 };
 
 // backs: of double-sided triangles and of those in pieces that are not closed.

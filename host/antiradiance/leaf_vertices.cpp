@@ -14,6 +14,7 @@ LeafVertices leaf_vertices(const ElementTree& tree, const std::vector<std::uint3
     std::vector<glm::dvec3> corners;
     std::vector<SceneTriangle> triangles;
     for (const std::uint32_t i : rows) {
+        if (tree.is_vertex(i)) continue;
         const auto first = static_cast<std::uint32_t>(corners.size());
         corners.insert(corners.end(), tree.corners[i].begin(), tree.corners[i].end());
         triangles.push_back({{first, first + 1, first + 2}, 0});
@@ -27,10 +28,18 @@ LeafVertices leaf_vertices(const ElementTree& tree, const std::vector<std::uint3
     LeafVertices out;
     out.vertices.resize(rows.size());
     std::vector<std::vector<std::uint32_t>> around;  // rows of each vertex
-    for (std::uint32_t row = 0; row < rows.size(); ++row)
+    std::size_t next = 0;                            // corner
+    for (std::uint32_t row = 0; row < rows.size(); ++row) {
+        if (tree.is_vertex(rows[row])) {
+            out.vertices[row].fill(static_cast<std::uint32_t>(around.size()));
+            normals.push_back(tree.normals[rows[row]]);
+            areas.push_back(tree.areas[rows[row]]);
+            around.emplace_back(1, row);
+            continue;
+        }
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3& normal = tree.normals[rows[row]];
-            std::vector<std::uint32_t>& here = at_place[places[3 * row + k]];
+            std::vector<std::uint32_t>& here = at_place[places[next++]];
             std::size_t v = 0;
             while (v < here.size() && glm::dot(normals[here[v]], normal) <= alike) ++v;
             if (v == here.size()) {
@@ -43,6 +52,7 @@ LeafVertices leaf_vertices(const ElementTree& tree, const std::vector<std::uint3
             areas[here[v]] += tree.areas[rows[row]];
             around[here[v]].push_back(row);
         }
+    }
     out.first.push_back(0);
     for (std::size_t v = 0; v < around.size(); ++v) {
         for (const std::uint32_t row : around[v])

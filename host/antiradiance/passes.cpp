@@ -169,12 +169,16 @@ cl::Event AntiradiancePasses::show(const cl::CommandQueue& queue, const ShowElem
                                    const LeafSurface& surface, const GBuffer& seen,
                                    const cl::Buffer& shown, const WaitList& wait) const {
     need_stride(show_, "pixel_stride", params.pixel_stride, params.pixel_count);
+    if (params.element_count > links.element_count || links.element_count > surface.patch_count)
+        throw Error(show_.name + ": element_count is " + std::to_string(params.element_count) +
+                    ", there are " + std::to_string(links.element_count) + " elements and " +
+                    std::to_string(surface.patch_count) + " patches");
     if (params.triangle_count > scene.info().triangle_count)
         throw Error(show_.name + ": triangle_count is " + std::to_string(params.triangle_count) +
                     ", the scene has " + std::to_string(scene.info().triangle_count));
     need(show_, "roots", surface.roots, params.triangle_count * sizeof(TrianglePatches));
     need(show_, "elements", links.elements, links.element_count * sizeof(Element));
-    need(show_, "patches", surface.patches, links.element_count * sizeof(PatchCorners));
+    need(show_, "patches", surface.patches, surface.patch_count * sizeof(PatchCorners));
     need(show_, "planes", seen.planes,
          gbuffer_bytes(show_.storage, params.pixel_stride, GBUFFER_BASE));
     need(show_, "ids", seen.ids, GBUFFER_ID_PLANES * word * params.pixel_stride);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "antiradiance/vertex_cells.hpp"
+
 namespace clgi {
 namespace {
 
@@ -39,11 +41,18 @@ bool Refine::hidden(std::size_t sender, std::size_t receiver) const {
     const glm::dvec3& normal = tree_.normals[receiver];
     const glm::dvec3 way = tree_.positions[sender] - tree_.positions[receiver];
     const double height = glm::dot(normal, way);
-    if (tree_.is_patch(sender)) {
+    const auto top_of = [&](const auto& corners) {
         double top = -std::numeric_limits<double>::infinity();
-        for (const glm::dvec3& corner : tree_.corners[sender])
+        for (const glm::dvec3& corner : corners)
             top = std::max(top, glm::dot(normal, corner - tree_.positions[receiver]));
-        return top <= (tree_.is_patch(receiver) ? least_rise : rough) * glm::length(way);
+        return top;
+    };
+    const double rise = tree_.is_patch(receiver) || tree_.is_leaf(receiver) ? least_rise : rough;
+    if (tree_.is_patch(sender)) return top_of(tree_.corners[sender]) <= rise * glm::length(way);
+    if (tree_.is_vertex(sender)) {
+        for (std::uint32_t k = tree_.first_thirds[sender]; k < tree_.first_thirds[sender + 1]; ++k)
+            if (top_of(outline(tree_.thirds[k])) > rise * glm::length(way)) return false;
+        return true;
     }
     if (!tree_.is_flat(sender)) return height + tree_.radii[sender] <= 0.0;
     const double tilt = glm::length(glm::cross(normal, tree_.normals[sender]));

@@ -25,4 +25,10 @@ inline double solid_angle(const std::array<glm::dvec3, 3>& corners, const glm::d
                                         glm::dot(to[2], to[0]));
 }
 
+// The same with the sign of the side: positive where the corners run counter-clockwise.
+inline double signed_solid_angle(const std::array<glm::dvec3, 3>& p, const glm::dvec3& eye) {
+    const double angle = solid_angle(p, eye);
+    return glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), eye - p[0]) < 0.0 ? -angle : angle;
+}
+
 }  // namespace clgi

@@ -8,6 +8,7 @@
 #include "cli/bake_room.hpp"
 #include "cli/effects.hpp"
 #include "cli/motion.hpp"
+#include "cli/picture_record.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
 #include "report/preview.hpp"
@@ -25,16 +26,6 @@ std::string name_of(Iteration iteration) {
     for (const auto& [name, value] : iterations)
         if (value == iteration) return name;
     return "";
-}
-
-PictureOptions picture_options(const RenderFlags& flags) {
-    PictureOptions out;
-    out.width = flags.options.width;
-    out.height = flags.options.height;
-    out.emitters = flags.options.emitters;
-    out.direct = !flags.no_direct;
-    out.build = build_of(flags.device);
-    return out;
 }
 
 std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& picture) {
@@ -136,14 +127,10 @@ void run_antiradiance(RenderFlags flags) {
             1e-3 * summary.linking_ms);
     }
     if (flags.stats.empty()) return;
-    record.device = session.device;
-    record.build = view.picture().options().build;
+    record_picture(record, session, scene, device_scene, view.picture(),
+                   solver.bytes() + view.bytes() + motion.bytes());
     record.method = "antiradiance";
-    record.triangles = scene.triangles.size();
-    record.lights = view.picture().emitters().emitters.size();
     record.effects = effects_of(device_scene, view.picture());
-    record.bytes = device_scene.bytes() + solver.bytes() + view.bytes() + motion.bytes();
-    record.warnings = scene.warnings;
     record.antiradiance = summary;
     save_stats(record, flags.stats);
 }

@@ -9,6 +9,7 @@
 #include "cli/effects.hpp"
 #include "cli/motion.hpp"
 #include "cli/percent.hpp"
+#include "cli/picture_record.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
 #include "report/preview.hpp"
@@ -22,16 +23,6 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& pic
     if (direct) out = direct_effects(scene, picture.emitters());
     if (direct && scene.environment()) out.push_back("environment");
     out.push_back("indirect");
-    return out;
-}
-
-LightAtlasViewOptions view_options(const RenderFlags& flags) {
-    LightAtlasViewOptions out;
-    out.width = flags.options.width;
-    out.height = flags.options.height;
-    out.emitters = flags.options.emitters;
-    out.direct = !flags.no_direct;
-    out.build = build_of(flags.device);
     return out;
 }
 
@@ -65,7 +56,7 @@ void run_atlas(RenderFlags flags) {
     atlas_flags.bake.build = build_of(flags.device);
     LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, atlas,
                             atlas_flags.bake);
-    LightAtlasView view(programs, session.queue, device_scene, atlas, view_options(flags));
+    LightAtlasView view(programs, session.queue, device_scene, atlas, picture_options(flags));
     Motion motion(flags, scene, device_scene, session.queue);
     RenderRecord record;
     record.build_ms = 1e3 * build.seconds();
@@ -107,14 +98,10 @@ void run_atlas(RenderFlags flags) {
                    bake.vpls, report::spread(record.frame_ms).median, record.frame_ms.size());
     }
     if (flags.stats.empty()) return;
-    record.device = session.device;
-    record.build = view.picture().options().build;
+    record_picture(record, session, scene, device_scene, view.picture(),
+                   solver.bytes() + view.picture().bytes());
     record.method = "atlas";
-    record.triangles = scene.triangles.size();
-    record.lights = view.picture().emitters().emitters.size();
     record.effects = effects_of(device_scene, view.picture());
-    record.bytes = device_scene.bytes() + solver.bytes() + view.picture().bytes();
-    record.warnings = scene.warnings;
     record.bake = bake;
     save_stats(record, flags.stats);
 }

@@ -10,6 +10,7 @@
 #include "cli/bake_room.hpp"
 #include "cli/effects.hpp"
 #include "cli/motion.hpp"
+#include "cli/picture_record.hpp"
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
 #include "cli/threshold.hpp"
@@ -20,10 +21,7 @@ namespace {
 
 DynamicTransferViewOptions view_options(const RenderFlags& flags) {
     DynamicTransferViewOptions out;
-    out.picture.width = flags.options.width;
-    out.picture.height = flags.options.height;
-    out.picture.emitters = flags.options.emitters;
-    out.picture.build = build_of(flags.device);
+    out.picture = picture_options(flags);
     out.threshold =
         parse_threshold("--per-pixel", flags.transfer.per_pixel,
                         {{"off", std::numeric_limits<float>::infinity()}, {"all", 0.0f}});
@@ -116,14 +114,10 @@ void run_transfer(RenderFlags flags) {
             summary.receivers, summary.receiver_pixels, summary.triangles);
     }
     if (flags.stats.empty()) return;
-    record.device = session.device;
-    record.build = view.picture().options().build;
+    record_picture(record, session, scene, device_scene, view.picture(),
+                   solver.bytes() + view.bytes() + motion.bytes());
     record.method = "transfer";
-    record.triangles = scene.triangles.size();
-    record.lights = view.picture().emitters().emitters.size();
     record.effects = effects_of(device_scene, solver, view.picture());
-    record.bytes = device_scene.bytes() + solver.bytes() + view.bytes() + motion.bytes();
-    record.warnings = scene.warnings;
     record.transfer = summary;
     save_stats(record, flags.stats);
 }

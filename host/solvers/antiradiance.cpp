@@ -74,6 +74,7 @@ BufferTable AntiradianceSolver::State::table(const DeviceLinks& between) {
     links.link_count = static_cast<std::uint32_t>(between.senders.size());
     links.row_count = between.rows;
     surface.vertex_count = made.vertices();
+    surface.patch_count = static_cast<std::uint32_t>(made.patches.size());
     const auto point_count = static_cast<std::uint32_t>(made.samples.size());
     points.stride = static_cast<std::uint32_t>(plane_stride(point_count));
     point_params = {links.leaf_count, leaf_samples, points.stride, made.first_back};

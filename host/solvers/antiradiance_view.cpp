@@ -31,7 +31,7 @@ struct AntiradianceView::State {
             view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
         const auto pixels = static_cast<std::uint32_t>(picture.pixels());
         const ShowElementsParams params{eye, pixels, picture.stride(), scene.info().triangle_count,
-                                        0};
+                                        solver.links().element_count};
         Recorder& record = picture.record();
         record("antiradiance.show", pixels, [&](const WaitList& before) {
             return passes.show(record.queue(), params, scene, solver.links(), solver.surface(),

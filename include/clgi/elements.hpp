@@ -6,6 +6,11 @@
 // are small enough; they, their parts and the leaves are patches. Above them stand clusters of two
 // to four children. The same scene gives the same tree in every run.
 //
+// Pieces of the mesh whose triangles are finer than that have leaves at their vertices instead,
+// about half as many [section 4.3, Table 1]. Such a leaf has a third of each triangle around the
+// vertex, and the mean of their normals. A vertex on a crease, or where materials meet, has a leaf
+// for each side of it.
+//
 // Light passes an open sheet unless both of its sides are there to block it. So a triangle that is
 // double-sided, or of a piece of the mesh that is not closed, has a second patch that faces
 // backwards, wound against the first. Where there are backs, the root has two children: all fronts
@@ -29,12 +34,21 @@ struct ElementOptions {
     // Leaves, about. Scenes of many small triangles get more: their large triangles are cut to four
     // times the area that a wished leaf has on average, however many small ones there are.
     std::size_t wished = 8192;
-    bool backs = true;  // of open sheets
+    bool backs = true;     // of open sheets
+    bool vertices = true;  // leaves at the vertices of fine meshes, where enough leaves remain
+};
+
+// The part of a triangle at one of its corners: between the corner, the middles of the edges beside
+// it and the centroid. It has a third of the area.
+struct VertexThird {
+    std::array<glm::dvec3, 3> corners;  // of the triangle, as wound, that of the vertex first
+    std::uint32_t triangle;             // of the scene
+    std::uint32_t corner;               // of it, 0 to 2
 };
 
 struct ElementTree {
     std::vector<glm::dvec3> positions;  // metres: the centroid, of clusters weighted by area
-    // Unit, of patches and of clusters whose triangles face one way in one plane, to a thousandth
+    // Unit, of leaves, patches and clusters whose triangles face one way in one plane, to a thousandth
     // of a radian and of the radius; zero for other clusters.
     std::vector<glm::dvec3> normals;
     std::vector<double> areas;  // m^2
@@ -42,9 +56,13 @@ struct ElementTree {
     std::vector<std::array<glm::dvec3, 3>> corners;  // of patches, counter-clockwise; else zero
     std::vector<std::uint32_t> parents;              // no_index: the root
     std::vector<std::uint32_t> ends;
-    std::vector<std::uint32_t> levels;     // 0: the root
-    std::vector<std::uint32_t> triangles;  // of the scene; no_index for clusters
-    std::vector<std::uint8_t> backs;       // 1: a patch of the back of its triangle
+    std::vector<std::uint32_t> levels;  // 0: the root
+    // Of the scene; no_index for clusters. Of a leaf at a vertex one of those around it, all of
+    // which have the same material.
+    std::vector<std::uint32_t> triangles;
+    std::vector<std::uint8_t> backs;          // 1: a leaf or patch of the back of its triangle
+    std::vector<std::uint32_t> first_thirds;  // [elements + 1] in thirds; empty: none has any
+    std::vector<VertexThird> thirds;          // of leaves at vertices
 
     double max_area = 0.0;  // m^2 that triangles were cut to
     std::size_t leaves = 0;
@@ -53,7 +71,10 @@ struct ElementTree {
 
     std::size_t count() const { return ends.size(); }
     bool is_leaf(std::size_t i) const { return ends[i] == i + 1; }
-    bool is_patch(std::size_t i) const { return triangles[i] != no_index; }
+    bool is_patch(std::size_t i) const { return triangles[i] != no_index && !is_vertex(i); }
+    bool is_vertex(std::size_t i) const {
+        return !first_thirds.empty() && first_thirds[i] != first_thirds[i + 1];
+    }
     bool is_flat(std::size_t i) const { return normals[i] != glm::dvec3(0.0); }
 };
 

@@ -2,7 +2,7 @@
 //                                               [Dachsbacher07, section 4.3; derived: the descent]
 //
 // From the patch of the whole triangle down: of two halves the point lies in that of the corner of the
-// cut edge whose weight is the larger one.
+// cut edge whose weight is the larger one. A patch that is no element has leaves at its corners.
 //
 // Work size    1D, one work-item a pixel; any local size; tail guarded
 // Writes       its own pixel, 0 where no element is. Less than nothing, which an expansion into bins
@@ -11,8 +11,7 @@
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/antiradiance.h"
 #include "clgi/shared/gbuffer.h"
-#include "packet.clh"
-#include "gbuffer/barycentric.clh"
+#include "gbuffer/seen.clh"
 #include "planes.clh"
 
 // The half in which weights are those of a point, and its weights there.
@@ -31,7 +30,7 @@ kernel void antiradiance_show(
     global const float4*          restrict positions,  // of its vertices, local frame
     global const TrianglePatches* restrict roots,      // [triangle_count]
     global const Element*         restrict elements,
-    global const PatchCorners*    restrict patches,    // [elements]
+    global const PatchCorners*    restrict patches,    // [elements], then of other triangles
     global const float*           restrict planes,     // [GBUFFER_PLANES][pixel_stride]
     global const int*             restrict ids,        // [GBUFFER_ID_PLANES][pixel_stride]
     global const float4*          restrict light,      // [vertices] rgb
@@ -41,24 +40,17 @@ kernel void antiradiance_show(
     if (pixel >= params.pixel_count) return;
     uint stride = params.pixel_stride;
     float sum[3] = {0.0f, 0.0f, 0.0f};
-    int triangle = ids[GBUFFER_TRIANGLE * stride + pixel];
-    if (triangle >= 0 && triangle < (int)params.triangle_count) {
-        uint4 corners = triangles[triangle];
-        float3 first = positions[corners.x].xyz;
-        float3 edge1 = positions[corners.y].xyz - first, edge2 = positions[corners.z].xyz - first;
-        float3 normal = cross(edge1, edge2);
-        float3 point = (float3)(row_load_one(gbuffer_row(planes, GBUFFER_POSITION, stride), pixel),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), pixel),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), pixel));
-        float3 to_eye = params.eye.w == 0.0f ? params.eye.xyz - point : params.eye.xyz;
+    int triangle = seen_triangle(ids, stride, pixel, params.triangle_count);
+    if (triangle >= 0) {
+        Seen seen = seen_at(params.eye, triangles[triangle], positions, planes, stride, pixel);
+        float2 at = seen.weights;
         TrianglePatches root = roots[triangle];
-        bool back = dot(normal, to_eye) < 0.0f && root.back != ELEMENT_NONE;
+        bool back = seen.back && root.back != ELEMENT_NONE;
         uint element = back ? root.back : root.front;
         if (element != ELEMENT_NONE) {
-            float2 at = barycentric(point - first, edge1, edge2, normal);
             float3 weights = (float3)(1.0f - at.x - at.y, at);
             if (back) weights = weights.xzy;  // it is wound the other way
-            uint end = elements[element].end;
+            uint end = element < params.element_count ? elements[element].end : element + 1;
             while (end != element + 1) {
                 uint cut = elements[element].cut;
                 uint part = halve(&weights, CUT_EDGE(cut)), parts = 2;

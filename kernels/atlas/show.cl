@@ -49,9 +49,7 @@ kernel void atlas_show(
     uint2 chart = (uint2)(ATLAS_NONE);
     if (triangle >= 0 && triangle < (int)params.triangle_count) chart = charts[triangle];
     if (chart.x < params.pages) {
-        float3 point = (float3)(row_load_one(gbuffer_row(planes, GBUFFER_POSITION, stride), at),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), at),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), at));
+        float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, at);
         float2 place = show_place(point, triangles[triangle], positions, corners + 3 * triangle);
         if (!is_finite3(point)) {
             for (int c = 0; c < 3; ++c) sum[c] = as_float(0x7fc00000u);

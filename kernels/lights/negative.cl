@@ -21,12 +21,6 @@
 #include "lights/disc.clh"
 #include "planes.clh"
 
-static float3 point_vector(global const float* planes, uint plane, uint stride, uint pixel) {
-    return (float3)(row_load_one(gbuffer_row(planes, plane, stride), pixel),
-                    row_load_one(gbuffer_row(planes, plane + 1, stride), pixel),
-                    row_load_one(gbuffer_row(planes, plane + 2, stride), pixel));
-}
-
 kernel void lights_negative(
     const NegativeParams         params,
     const View                   view,
@@ -42,8 +36,8 @@ kernel void lights_negative(
     uint x = min((uint)(right * (float)view.width), view.width - 1);
     uint y = min((uint)(down * (float)view.height), view.height - 1);
     uint pixel = y * view.width + x;
-    float3 p = point_vector(planes, GBUFFER_POSITION, params.stride, pixel);
-    float3 n = point_vector(planes, GBUFFER_GEOMETRIC, params.stride, pixel);
+    float3 p = gbuffer_load3(planes, GBUFFER_POSITION, params.stride, pixel);
+    float3 n = gbuffer_load3(planes, GBUFFER_GEOMETRIC, params.stride, pixel);
 
     float3 stopped = (float3)(0.0f);
     float3 toward = (float3)(0.0f);

@@ -16,6 +16,7 @@
 #include "clgi/shared/scene.h"
 #include "finite.clh"
 #include "planes.clh"
+#include "transfer/probe.clh"
 
 kernel void transfer_compare_gloss(
     const ProbeParams    params,
@@ -30,10 +31,7 @@ kernel void transfer_compare_gloss(
 {
     uint probe = (uint)get_global_id(0);
     if (probe >= params.columns * params.rows) return;
-    uint stride = params.pixel_stride, step = params.step;
-    uint column = probe % params.columns * step + step / 2;
-    uint row = probe / params.columns * step + step / 2;
-    uint pixel = row * params.width + column;
+    uint stride = params.pixel_stride, pixel = probe_pixel(params, probe);
     int material = ids[GBUFFER_MATERIAL * stride + pixel];
     float4 share = (float4)(0.0f);
     if (material >= 0) share = materials[material].reflectance;

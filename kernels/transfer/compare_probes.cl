@@ -11,6 +11,7 @@
 #include "clgi/shared/receivers.h"
 #include "finite.clh"
 #include "planes.clh"
+#include "transfer/probe.clh"
 
 kernel void transfer_compare_probes(
     const ProbeParams    params,
@@ -22,10 +23,7 @@ kernel void transfer_compare_probes(
 {
     uint probe = (uint)get_global_id(0);
     if (probe >= params.columns * params.rows) return;
-    uint stride = params.pixel_stride, step = params.step;
-    uint column = probe % params.columns * step + step / 2;
-    uint row = probe / params.columns * step + step / 2;
-    uint pixel = row * params.width + column;
+    uint stride = params.pixel_stride, pixel = probe_pixel(params, probe);
     float apart = 0.0f, whole_a = 0.0f, whole_b = 0.0f;
     for (int c = 0; c < 3; ++c) {
         float a = row_load_one(irradiance_row(shown, c, stride), pixel);

@@ -13,12 +13,6 @@
 #include "planes.clh"
 #include "transfer/tangent_frame.clh"
 
-CLGI_INLINE float3 pixel3(global const float* planes, int plane, uint stride, uint pixel) {
-    return (float3)(row_load_one(gbuffer_row(planes, plane, stride), pixel),
-                    row_load_one(gbuffer_row(planes, plane + 1, stride), pixel),
-                    row_load_one(gbuffer_row(planes, plane + 2, stride), pixel));
-}
-
 kernel void transfer_pixels(
     const PixelParams    params,
     global const uint*   restrict pixels,    // [*listed] list of pixels
@@ -36,9 +30,9 @@ kernel void transfer_pixels(
     if (params.first + i < *listed) {
         uint pixel = pixels[params.first + i];
         uint stride = params.pixel_stride;
-        normal = pixel3(planes, GBUFFER_NORMAL, stride, pixel);
-        position = pixel3(planes, GBUFFER_POSITION, stride, pixel) +
-                   params.lift * pixel3(planes, GBUFFER_GEOMETRIC, stride, pixel);
+        normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, pixel);
+        position = gbuffer_load3(planes, GBUFFER_POSITION, stride, pixel) +
+                   params.lift * gbuffer_load3(planes, GBUFFER_GEOMETRIC, stride, pixel);
         int material = ids[GBUFFER_MATERIAL * stride + pixel];
         if (material >= 0) exponent = materials[material].reflectance.w;
     }

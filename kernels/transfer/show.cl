@@ -7,8 +7,7 @@
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/receivers.h"
-#include "packet.clh"
-#include "gbuffer/barycentric.clh"
+#include "gbuffer/seen.clh"
 #include "planes.clh"
 
 kernel void transfer_show(
@@ -25,21 +24,13 @@ kernel void transfer_show(
     if (pixel >= params.pixel_count) return;
     uint stride = params.pixel_stride;
     float sum[3] = {0.0f, 0.0f, 0.0f};
-    int triangle = ids[GBUFFER_TRIANGLE * stride + pixel];
-    if (triangle >= 0 && triangle < (int)params.triangle_count) {
-        uint4 corners = triangles[triangle];
-        float3 first = positions[corners.x].xyz;
-        float3 edge1 = positions[corners.y].xyz - first;
-        float3 edge2 = positions[corners.z].xyz - first;
-        float3 normal = cross(edge1, edge2);
-        float3 point = (float3)(row_load_one(gbuffer_row(planes, GBUFFER_POSITION, stride), pixel),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), pixel),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), pixel));
-        float2 b = barycentric(point - first, edge1, edge2, normal);
+    int triangle = seen_triangle(ids, stride, pixel, params.triangle_count);
+    if (triangle >= 0) {
+        Seen seen = seen_at(params.eye, triangles[triangle], positions, planes, stride, pixel);
+        float2 b = seen.weights;
         float weight[3] = {1.0f - b.x - b.y, b.x, b.y};
-        uint receiver[3] = {corners.x, corners.y, corners.z};
-        float3 to_eye = params.eye.w == 0.0f ? params.eye.xyz - point : params.eye.xyz;
-        if (dot(normal, to_eye) < 0.0f)
+        uint receiver[3] = {seen.corners.x, seen.corners.y, seen.corners.z};
+        if (seen.back)
             for (int k = 0; k < 3; ++k) {
                 uint other = other_side[receiver[k]];
                 receiver[k] = other == RECEIVER_NONE ? receiver[k] : other;

@@ -56,11 +56,11 @@ struct LeafBuffers {
 // Leaves as the parts of triangles that pictures show.
 struct LeafSurface {
     cl::Buffer roots;          // [triangles of the device] TrianglePatches
-    cl::Buffer patches;        // [element_count] PatchCorners
+    cl::Buffer patches;        // [patch_count] PatchCorners: of elements, then of other triangles
     cl::Buffer first_leaves;   // [vertex_count + 1] uint, in vertex_leaves
     cl::Buffer vertex_leaves;  // uint2: row of a leaf, and the bits of its share of the vertex
     cl::Buffer light;          // [vertex_count] float4: rgb, exposed lux
-    std::uint32_t vertex_count = 0;
+    std::uint32_t vertex_count = 0, patch_count = 0;
 };
 
 class CLGI_API AntiradiancePasses {

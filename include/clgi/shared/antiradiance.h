@@ -72,6 +72,7 @@ typedef struct {
 } PatchCorners;
 
 // The two patches of a triangle that are as large as it is; ELEMENT_NONE: it has none on that side.
+// Those of triangles with leaves at their vertices follow the elements', and are no elements.
 typedef struct {
     uint front;
     uint back;
@@ -84,7 +85,7 @@ typedef struct {
     uint pixel_count;
     uint pixel_stride;  // of the planes of pixels
     uint triangle_count;
-    uint pad0_;
+    uint element_count;
 } ShowElementsParams;
 
 CLGI_SHARED_END

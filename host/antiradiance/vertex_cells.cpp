@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "antiradiance/vertex_cells.hpp"
+
+#include <algorithm>
+#include <clgi/adjacency.hpp>
+
+#include "scene/disjoint_sets.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double smooth = 0.9;  // cosine between normals of triangles that an edge joins
+constexpr double least = 0.8;   // least vector area of a cell, of its area: needles have no normal
+
+// [faces] of each triangle's front, or of each back; no_index: none.
+std::vector<std::uint32_t> by_triangle(const std::vector<Face>& faces, std::size_t triangles,
+                                       bool back) {
+    std::vector<std::uint32_t> out(triangles, no_index);
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+        if (faces[f].back == back) out[faces[f].triangle] = f;
+    return out;
+}
+
+// [3 * triangles] which corners of triangles meet at one vertex, within one smooth surface of one
+// material. Fans that touch at a vertex alone stay apart.
+std::vector<std::uint32_t> smooth_corners(const Scene& scene, const Adjacency& mesh,
+                                          const std::vector<Face>& faces,
+                                          const std::vector<std::uint32_t>& fronts) {
+    DisjointSets sets(3 * fronts.size());
+    const auto vertex = [&](std::uint32_t t, std::uint32_t corner) {
+        return mesh.welded[scene.triangles[t].vertex[corner]];
+    };
+    for (std::uint32_t t = 0; t < fronts.size(); ++t)
+        for (std::uint32_t side = 0; side < 3; ++side) {
+            const std::uint32_t other = mesh.neighbours[t][side];
+            if (other == no_index || other < t || fronts[t] == no_index ||
+                fronts[other] == no_index ||
+                scene.triangles[t].material != scene.triangles[other].material ||
+                glm::dot(faces[fronts[t]].normal, faces[fronts[other]].normal) <= smooth)
+                continue;
+            for (const std::uint32_t corner : {side, (side + 1) % 3})
+                for (std::uint32_t k = 0; k < 3; ++k)
+                    if (vertex(other, k) == vertex(t, corner))
+                        sets.join(3 * t + corner, 3 * other + k);
+        }
+    return sets.numbered();
+}
+
+void measure(const VertexCells& all, const std::vector<Face>& faces,
+             const std::vector<std::uint32_t>& of, VertexCell& cell) {
+    glm::dvec3 moment(0.0);
+    const glm::dvec3& first = faces[of[all.thirds[cell.first_third].triangle]].normal;
+    bool flat = true;
+    for (std::uint32_t k = cell.first_third; k < cell.end_third; ++k) {
+        const Face& face = faces[of[all.thirds[k].triangle]];
+        const std::array<glm::dvec3, 3>& p = all.thirds[k].corners;
+        const double third = face.area / 3.0;
+        cell.area += third;
+        cell.normal += third * face.normal;
+        flat = flat && face.normal == first;
+        // The centroid of the outline: that of its two halves, which are of one size.
+        moment += third * (11.0 * p[0] + 3.5 * (p[1] + p[2])) / 18.0;
+    }
+    cell.position = moment / cell.area;
+    cell.normal = flat ? first : glm::normalize(cell.normal);
+}
+
+}  // namespace
+
+VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_area) {
+    const std::vector<Face>& faces = all.faces;
+    const std::size_t triangles = scene.triangles.size();
+    const Adjacency& mesh = all.mesh;
+    const std::vector<std::uint32_t> fronts = by_triangle(faces, triangles, false);
+    const std::vector<std::uint32_t> corners = smooth_corners(scene, mesh, faces, fronts);
+
+    // What a piece would have: its largest leaf, how many, and whether one has no normal.
+    std::vector<double> largest(mesh.piece_count, 0.0);
+    std::vector<std::uint8_t> pointed(mesh.piece_count, 0);
+    std::vector<std::uint32_t> face_count(mesh.piece_count, 0), cell_count(mesh.piece_count, 0);
+    std::vector<double> cell_areas(corners.size(), 0.0);
+    std::vector<glm::dvec3> cell_normals(corners.size(), glm::dvec3(0.0));
+    for (const Face& face : faces) {
+        const std::uint32_t piece = mesh.pieces[face.triangle];
+        largest[piece] = std::max(largest[piece], face.area);
+        if (face.back) continue;
+        ++face_count[piece];
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t cell = corners[3 * face.triangle + k];
+            if (cell_areas[cell] == 0.0) ++cell_count[piece];
+            cell_areas[cell] += face.area / 3.0;
+            cell_normals[cell] += face.area / 3.0 * face.normal;
+            largest[piece] = std::max(largest[piece], cell_areas[cell]);
+        }
+    }
+    for (const Face& face : faces)
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t cell = corners[3 * face.triangle + k];
+            if (glm::length(cell_normals[cell]) < least * cell_areas[cell])
+                pointed[mesh.pieces[face.triangle]] = 1;
+        }
+    const auto replaced = [&](std::uint32_t piece) {
+        return largest[piece] <= max_area && cell_count[piece] < face_count[piece] &&
+               !pointed[piece];
+    };
+
+    VertexCells out;
+    for (const Face& face : faces)
+        if (!replaced(mesh.pieces[face.triangle])) out.faces.push_back(face);
+    for (const bool back : {false, true}) {
+        const std::vector<std::uint32_t> sides =
+            back ? by_triangle(faces, triangles, true) : fronts;
+        // By set, then by triangle and corner.
+        std::vector<std::uint32_t> order;
+        for (std::uint32_t c = 0; c < corners.size(); ++c)
+            if (sides[c / 3] != no_index && replaced(mesh.pieces[c / 3])) order.push_back(c);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return corners[a] < corners[b]; });
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::uint32_t t = order[i] / 3, corner = order[i] % 3;
+            if (i == 0 || corners[order[i]] != corners[order[i - 1]]) {
+                out.cells.emplace_back();
+                out.cells.back().first_third = static_cast<std::uint32_t>(out.thirds.size());
+                out.cells.back().back = back;
+            }
+            // Corners of backs run the other way round, from the same first one.
+            const std::array<glm::dvec3, 3>& p = faces[fronts[t]].corners;
+            const std::uint32_t next = (corner + (back ? 2 : 1)) % 3;
+            const std::uint32_t last = (corner + (back ? 1 : 2)) % 3;
+            out.thirds.push_back({{p[corner], p[next], p[last]}, t, corner});
+            out.cells.back().end_third = static_cast<std::uint32_t>(out.thirds.size());
+        }
+        for (VertexCell& cell : out.cells)
+            if (cell.back == back) measure(out, faces, sides, cell);
+    }
+    return out;
+}
+
+}  // namespace clgi

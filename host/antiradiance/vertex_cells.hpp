@@ -1,0 +1,44 @@
+// Leaves at the vertices of fine meshes, in place of their triangles. [Dachsbacher07, section 4.3,
+// Table 1: "Shared vertex mesh elements are created at vertices yielding fewer samples"]
+//
+//   area = sum of a_t / 3,  normal = sum of a_t n_t / 3, made unit,  t: triangles around the vertex
+//
+// Areas add up to those of the triangles. The position is the centroid of the thirds, which all but
+// is the vertex in the middle of a smooth surface, and lies beside it on a crease, where leaves of
+// several sides would else coincide.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/elements.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "antiradiance/faces.hpp"
+
+namespace clgi {
+
+struct VertexCell {
+    glm::dvec3 position{0.0};  // metres
+    glm::dvec3 normal{0.0};    // unit
+    double area = 0.0;         // m^2
+    std::uint32_t first_third = 0, end_third = 0;
+    bool back = false;
+};
+
+struct VertexCells {
+    std::vector<VertexCell> cells;
+    std::vector<VertexThird> thirds;  // by cell
+    std::vector<Face> faces;          // that no cell replaces, in their order
+};
+
+// Replaces all faces of the pieces in which no face and no cell is larger than max_area, m^2, and
+// that get fewer cells than they have faces.
+VertexCells make_vertex_cells(const Scene& scene, const Faces& faces, double max_area);
+
+// Corner, middle, centroid, middle: a plane quadrilateral, wound as the triangle is.
+inline std::array<glm::dvec3, 4> outline(const VertexThird& third) {
+    const std::array<glm::dvec3, 3>& p = third.corners;
+    return {p[0], 0.5 * (p[0] + p[1]), centroid(p), 0.5 * (p[0] + p[2])};
+}
+
+}  // namespace clgi
