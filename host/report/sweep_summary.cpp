@@ -31,6 +31,37 @@ std::vector<const SweepPoint*> points_of(const Sweep& sweep, const std::string& 
     return out;
 }
 
+std::string knob_of(const std::string& series) { return series.substr(0, series.find(',')); }
+
+void add_series(const Sweep& sweep, const std::string& series,
+                const std::vector<std::size_t>& truths, const std::string& once,
+                std::vector<std::string>& out) {
+    const auto points = points_of(sweep, series);
+    if (points.empty()) return;
+    const auto list = [&](const auto& text_of) {
+        std::string text;
+        for (const SweepPoint* point : points) text += (text.empty() ? "" : ", ") + text_of(*point);
+        return text;
+    };
+    const std::string knob = knob_of(series);
+    std::string errors;
+    for (const std::size_t t : truths)
+        errors += fmt::format("{}{} % ({})", errors.empty() ? "" : ", ",
+                              list([&](const SweepPoint& p) {
+                                  return fmt::format("{:.2f}", 100.0 * p.error[t]);
+                              }),
+                              sweep.truths[t].name);
+    out.push_back(fmt::format(
+        "{}, {} {}: error {} in {} ms.", points.front()->method, knob,
+        list([&](const SweepPoint& p) { return p.knobs.at(knob); }), errors,
+        list([](const SweepPoint& p) { return fmt::format("{:.1f}", p.milliseconds); })));
+    if (points.front()->once_milliseconds)
+        out.push_back(fmt::format("{} took {} ms.", once, list([](const SweepPoint& p) {
+                                      return fmt::format("{:.0f}",
+                                                         p.once_milliseconds.value_or(0.0));
+                                  })));
+}
+
 std::string knobs_text(const SweepPoint& point) {
     std::string out;
     for (const auto& [name, value] : point.knobs)
