@@ -62,7 +62,7 @@ std::vector<std::string> antiradiance_summary(const Sweep& sweep) {
          {"bins", "elements", "iteration", "steps", "spread", "bin-share", "storage"})
         add_series(sweep, series, truths, "Elements and links, once before all frames,", out);
     for (const std::size_t truth : truths) add_estimates(sweep, truth, out);
-    add_speedups(sweep, antiradiance_method, out);
+    add_speedups(sweep, antiradiance_method, truths, out);
     return out;
 }
 

@@ -65,7 +65,7 @@ std::vector<std::string> pictures_summary(const Sweep& sweep) {
     for (const char* series : {"mask, transfer", "interreflections, transfer"})
         add_series(sweep, series, {all_light}, "Transfer vectors, once before all frames,", out);
     for (const char* method : {light_atlas_method, dynamic_transfer_method})
-        add_speedups(sweep, method, out);
+        add_speedups(sweep, method, {all_light}, out);
     return out;
 }
 

@@ -37,7 +37,10 @@ std::string script(const Sweep& sweep, std::size_t truth, const std::string& fil
                        : sweep.of == SweepOf::vertices ? "for all vertices"
                                                        : "a frame";
     // Where no curve is: the path tracer begins at the top, and ends above what it judges.
-    const char* key = sweep.of == SweepOf::vertices ? "bottom left Left reverse" : "top right";
+    const bool many = sweep.methods.size() > 2 && sweep.of == SweepOf::pictures;
+    const char* key = many                            ? "outside right top Left reverse"
+                      : sweep.of == SweepOf::vertices ? "bottom left Left reverse"
+                                                      : "top right";
     std::string data, plots;
     const auto plot = [&](const std::string& name, const std::vector<const SweepPoint*>& points,
                           const std::string& how) {
@@ -69,7 +72,7 @@ std::string script(const Sweep& sweep, std::size_t truth, const std::string& fil
         if (point.method == path_tracer_name && point.series == sweep.truths[truth].name)
             traced.push_back(&point);
     plot("traced", traced, "linespoints pt 5 ps 0.6 lw 2 lc rgb '#d95f02' title 'path tracer'");
-    return data + plot_head(file, 760, 460) +
+    return data + plot_head(file, many ? 960 : 760, 460) +
            fmt::format(
                "set logscale xy\nset xlabel 'milliseconds {}'\n"
                "set ylabel 'relative error, %'\n"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "report/pareto.hpp"
 
@@ -57,8 +58,8 @@ void add_series(const Sweep& sweep, const std::string& series,
         list([](const SweepPoint& p) { return fmt::format("{:.1f}", p.milliseconds); })));
     if (points.front()->once_milliseconds)
         out.push_back(fmt::format("{} took {} ms.", once, list([](const SweepPoint& p) {
-                                      return fmt::format("{:.0f}",
-                                                         p.once_milliseconds.value_or(0.0));
+                                      const double time = p.once_milliseconds.value_or(0.0);
+                                      return fmt::format("{:.{}f}", time, time < 10.0 ? 2 : 0);
                                   })));
 }
 
@@ -109,7 +110,14 @@ Speedup speedup(const Sweep& sweep, const std::string& method, std::size_t truth
 }
 
 void add_speedups(const Sweep& sweep, const std::string& method, std::vector<std::string>& out) {
-    for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
+    std::vector<std::size_t> all(sweep.truths.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    add_speedups(sweep, method, all, out);
+}
+
+void add_speedups(const Sweep& sweep, const std::string& method,
+                  const std::vector<std::size_t>& truths, std::vector<std::string>& out) {
+    for (const std::size_t t : truths) {
         const Speedup factor = speedup(sweep, method, t);
         const auto at = [&](double error) {
             return fmt::format("at {:.2f} %{}", 100.0 * error,

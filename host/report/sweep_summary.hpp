@@ -39,8 +39,10 @@ void add_series(const Sweep& sweep, const std::string& series,
                 const std::vector<std::size_t>& truths, const std::string& once,
                 std::vector<std::string>& out);
 
-// A sentence for every truth that has one.
+// A sentence for every truth that has one: of all, or of those that the method is an answer to.
 void add_speedups(const Sweep& sweep, const std::string& method, std::vector<std::string>& out);
+void add_speedups(const Sweep& sweep, const std::string& method,
+                  const std::vector<std::size_t>& truths, std::vector<std::string>& out);
 
 // What a way of building the kernels gains and costs: the points of the series "math".
 struct MathMode {
