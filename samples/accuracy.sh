@@ -28,6 +28,10 @@ done
 for scene in cornell corridor; do
     "$clgi" sweep "$out/$scene.glb" --method atlas --spp 800 -o "$out/$scene-atlas"
 done
+"$clgi" scene corridor --door 20 -o "$out/corridor-20.glb"
+"$clgi" sweep "$out/cornell.glb" --method antiradiance --spp 768 -o "$out/cornell-antiradiance"
+"$clgi" sweep "$out/corridor-20.glb" --method antiradiance --size 160x120 --spp 2048 -o "$out/corridor-antiradiance"
+"$clgi" sweep "$out/corridor-20.glb" --convergence --iterations 200 -o "$out/corridor-convergence"
 # The environment is a file of its own: sky=FILE.hdr ./samples/accuracy.sh
 if [ -n "${sky:-}" ]; then
     "$clgi" scene hand-like -o "$out/hand.glb"

@@ -313,6 +313,42 @@ TEST(AntiradianceSolver, AsymmetricStepsCanBeStopped) {
     EXPECT_EQ(Solved(test::furnished_room(5), options).solver.status().residuals.size(), 5u);
 }
 
+// With k steps that let light through for each that reflects, the first reflection is step k + 1
+// and is seen in the one after it; until then all numbers are the same. However many, one light.
+TEST(AntiradianceSolver, LetsLightThroughAsOftenAsItIsTold) {
+    AntiradianceOptions options = options_of(Math::strict, 32, 600);
+    options.iteration = Iteration::asymmetric;
+    options.steps = 60;
+    const auto residuals = [&](int through) {
+        options.through_steps = through;
+        return Solved(test::furnished_room(5), options).solver.status().residuals;
+    };
+    const std::vector<double> long_run = residuals(20);
+    for (const int k : {1, 2, 4}) {
+        const std::vector<double> found = residuals(k);
+        ASSERT_EQ(found.size(), 60u);
+        const auto first = static_cast<std::size_t>(k) + 1;
+        for (std::size_t step = 0; step < first; ++step)
+            EXPECT_EQ(found[step], long_run[step]) << k << " " << step;
+        for (std::size_t step = first; step < 30; ++step) {
+            const bool shows = (step - first) % first == 0;
+            EXPECT_EQ(found[step] > found[step - 1], shows) << k << " " << step;
+        }
+    }
+    options.steps = 0;
+    options.residual = 1e-5;
+    options.through_steps = 0;
+    const auto wanted = Solved(test::furnished_room(5), options).irradiances();
+    options.through_steps = 3;
+    const Solved solved(test::furnished_room(5), options);
+    EXPECT_TRUE(solved.solver.status().converged);
+    const auto found = solved.irradiances();
+    double most = 0.0;
+    for (const glm::vec4& e : wanted) most = std::max(most, double(e.x));
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        EXPECT_NEAR(found[i].x, wanted[i].x, 1e-4 * most) << i;
+}
+
 TEST(AntiradianceSolver, StopsWhenItIsToldTo) {
     Solved solved(test::furnished_room(5), options_of(Math::strict, 32, 600), false);
     int asked = 0;
@@ -332,6 +368,8 @@ TEST(AntiradianceSolver, RefusesWhatItCannotDo) {
     refused([](AntiradianceOptions& o) { o.bins = 31; });
     refused([](AntiradianceOptions& o) { o.steps = -1; });
     refused([](AntiradianceOptions& o) { o.most_steps = 0; });
+    refused([](AntiradianceOptions& o) { o.through_steps = -1; });
+    refused([](AntiradianceOptions& o) { o.through_steps = 1001; });
     refused([](AntiradianceOptions& o) { o.residual = std::nan(""); });
     refused([](AntiradianceOptions& o) { o.links.bin_share = 0.0; });
     refused([](AntiradianceOptions& o) { o.elements.wished = 0; });

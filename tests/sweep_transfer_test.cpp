@@ -230,7 +230,7 @@ TEST_F(TransferSweep, WritesFilesThatStandAlone) {
     const std::string why = save_sweep(made(), {"clgi sweep <me>", "1.2.3"}, out.path());
     const std::string csv = text(out.path() / "sweep.csv");
     EXPECT_EQ(csv.rfind("method,series,sh-order,mask,mask-block,cells,table,coarse,rings,looks,spp,"
-                        "ms,error full,front full,error smooth,front smooth,energy ratio\n",
+                        "ms,once ms,error full,front full,error smooth,front smooth,energy ratio\n",
                         0),
               0u)
         << csv.substr(0, 200);
@@ -242,14 +242,14 @@ TEST_F(TransferSweep, WritesFilesThatStandAlone) {
             if (c == '"') quoted = !quoted;
             columns += c == ',' && !quoted;
         }
-        EXPECT_EQ(columns, 17) << line;
+        EXPECT_EQ(columns, 18) << line;
     }
     const auto json = nlohmann::json::parse(text(out.path() / "sweep.json"));
     EXPECT_EQ(json.at("points").size(), made().points.size());
     EXPECT_EQ(json.at("references").size(), 2u);
     for (const auto& point : json.at("points")) {
-        EXPECT_EQ(point.contains("look_ms"), point.at("method") == transfer_sets);
-        EXPECT_GT(point.value("look_ms", 1.0), 0.0);
+        EXPECT_EQ(point.contains("once_ms"), point.at("method") == transfer_sets);
+        EXPECT_GT(point.value("once_ms", 1.0), 0.0);
     }
     const std::string page = text(out.path() / "index.html");
     EXPECT_NE(page.find("<h2>Visible sets</h2>"), std::string::npos);
@@ -271,7 +271,7 @@ TEST_F(TransferSweep, LooksAtTheSceneAsItIs) {
     ASSERT_EQ(sets.size(), 1u);
     EXPECT_EQ(sets[0]->knobs.at("looks"), "1");
     EXPECT_EQ(sets[0]->error, points_of(made(), "mask")[1]->error);
-    EXPECT_GT(sets[0]->look_milliseconds.value_or(0.0), 0.0);
+    EXPECT_GT(sets[0]->once_milliseconds.value_or(0.0), 0.0);
 }
 
 // Frames that were looked at lose nothing, and others the more, the farther they are from one.
@@ -288,7 +288,7 @@ TEST_F(TransferSweep, LooksAtFramesOfTheClip) {
         EXPECT_EQ(looks.size(), 2u);
         EXPECT_EQ(looks[0]->knobs.at("looks"), "2");
         EXPECT_EQ(looks[1]->knobs.at("looks"), "8");
-        EXPECT_GT(*looks[1]->look_milliseconds, *looks[0]->look_milliseconds);
+        EXPECT_GT(*looks[1]->once_milliseconds, *looks[0]->once_milliseconds);
         return std::array{looks[0]->error, looks[1]->error, points_of(sweep, "mask")[1]->error};
     };
     const auto [two, eight, all] = errors(0.5);

@@ -14,6 +14,7 @@
 #include "cli/commands.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
+#include "cli/sweep_flags.hpp"
 #include "cli/version.hpp"
 #include "report/sweep_atlas.hpp"
 #include "report/sweep_files.hpp"
@@ -24,26 +25,6 @@
 namespace clgi::cli {
 namespace {
 
-struct SweepFlags {
-    DeviceFlags device;
-    EnvironmentFlags environment;
-    AnimationFlags animation;
-    std::string scene;
-    std::string output;
-    std::string method = "all";
-    std::string size;
-    std::string reference;
-    int atlas_size = 0;
-    int scene_index = -1;
-    int camera = 0;
-    int samples = 0;
-    int rounds = 0;
-    bool quick = false;
-    std::string command;
-    // Flags given that go with one kind of sweep alone.
-    std::vector<std::string> pictures_only, atlas_only;
-};
-
 bool of_atlas(const SweepFlags& flags) { return flags.method == "atlas"; }
 bool of_transfer(const SweepFlags& flags) { return flags.method == "transfer"; }
 
@@ -53,6 +34,10 @@ report::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
     out.camera = flags.camera;
     out.width = flags.quick ? 160 : 320;
     out.height = flags.quick ? 120 : 240;
+    if (flags.method == "antiradiance") out.methods = {report::antiradiance_method};
+    if (flags.method == "all")
+        out.methods = {report::second_order_method, report::antiradiance_method,
+                       report::light_atlas_method, report::dynamic_transfer_method};
     parse_size("sweep", flags.size, 4096, out.width, out.height);
     return out;
 }
@@ -77,11 +62,14 @@ void run_sweep(const SweepFlags& flags) {
         if (wrong && !given.empty())
             throw Error(fmt::format("sweep: {} goes {}", given.front(), why));
     };
+    refuse(flags.convergence, flags.not_convergence, "not with --convergence");
+    refuse(!flags.convergence, flags.convergence_only, "only with --convergence");
+    if (flags.convergence) return run_convergence(flags);
     refuse(of_atlas(flags) || of_transfer(flags), flags.pictures_only,
            "not with --method " + flags.method);
     refuse(!of_atlas(flags), flags.atlas_only, "only with --method atlas");
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment,
-                                   flags.device.quiet, of_atlas(flags));
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet,
+                             of_atlas(flags));
     report::TransferSweep motion;
     Scene animated;  // as it was before it is posed
     if (of_transfer(flags) && flags.animation.given()) {
@@ -101,9 +89,7 @@ void run_sweep(const SweepFlags& flags) {
     setup.reference_samples = samples_of(flags);
     setup.build = build_of(flags.device);
     setup.folder = flags.output;
-    std::error_code failed;
-    std::filesystem::create_directories(setup.folder, failed);
-    if (failed) throw InputError(fmt::format("{}: {}", flags.output, failed.message()));
+    make_folder(flags.output);
     catch_interrupts();
     setup.progress = progress_bar("sweep", flags.device.quiet);
     report::Sweep result;
@@ -129,6 +115,19 @@ void run_sweep(const SweepFlags& flags) {
 
 }  // namespace
 
+Scene open_sweep_scene(const SweepFlags& flags) {
+    Scene scene =
+        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
+    pose_scene("sweep", flags.animation, scene);
+    return scene;
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) throw InputError(fmt::format("{}: {}", folder, failed.message()));
+}
+
 void add_sweep(CLI::App& app) {
     CLI::App* command = app.add_subcommand("sweep", "Measure accuracy against time");
     const auto flags = std::make_shared<SweepFlags>();
@@ -142,7 +141,7 @@ void add_sweep(CLI::App& app) {
         ->type_name("FOLDER");
     command->add_option("--method", flags->method, "What to measure")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"second-order", "reference", "all", "atlas", "transfer"}));
+        ->check(CLI::IsMember({"second-order", "reference", "all", "atlas", "transfer", "antiradiance"}));
     command->add_option("--size", flags->size, "Pixels across and down")
         ->type_name("WxH")
         ->default_str("320x240; with --quick 160x120");
@@ -164,6 +163,22 @@ void add_sweep(CLI::App& app) {
         ->default_str("3; with --quick 2")
         ->check(CLI::Range(1, 1000));
     command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
+    command->add_flag("--convergence", flags->convergence,
+                      "Instead: how the iterations of antiradiance converge, step by step");
+    command->add_option("--bins", flags->bins, "convergence: Bins of directions, an even number")
+        ->type_name("N")
+        ->default_str("128; with --quick 64")
+        ->check(CLI::Range(32, 4096));
+    command
+        ->add_option("--elements", flags->elements,
+                     "convergence: Parts that surfaces are cut to, about")
+        ->type_name("N")
+        ->default_str("8192; with --quick 2000")
+        ->check(CLI::Range(1, 1 << 24));
+    command->add_option("--iterations", flags->steps, "convergence: Steps of each iteration")
+        ->type_name("N")
+        ->default_str("100; with --quick 40")
+        ->check(CLI::Range(1, 10000));
     add_place_options(*command, flags->scene_index, flags->camera);
     add_animation_flags(*command, flags->animation);
     add_environment_flags(*command, flags->environment);
@@ -171,11 +186,17 @@ void add_sweep(CLI::App& app) {
     command->callback([flags, command] {
         flags->pictures_only = given(*command, {"--size", "--camera"});
         flags->atlas_only = given(*command, {"--atlas-size", "--reference"});
+        flags->convergence_only = given(*command, {"--bins", "--elements", "--iterations"});
+        flags->not_convergence = given(*command, {"--method", "--size", "--camera", "--spp",
+                                                  "--rounds", "--atlas-size", "--reference"});
         flags->command = fmt::format(
             "clgi sweep {} -o {}{}{}", std::filesystem::path(flags->scene).filename().string(),
             std::filesystem::path(flags->output).filename().string(),
             flags->method == "all" ? "" : " --method " + flags->method,
-            (flags->quick ? " --quick" : "") +
+            (flags->quick ? " --quick" : "") + std::string(flags->convergence ? " --convergence" : "") +
+                (flags->bins > 0 ? fmt::format(" --bins {}", flags->bins) : "") +
+                (flags->elements > 0 ? fmt::format(" --elements {}", flags->elements) : "") +
+                (flags->steps > 0 ? fmt::format(" --iterations {}", flags->steps) : "") +
                 (flags->size.empty() ? std::string() : " --size " + flags->size) +
                 (flags->atlas_size > 0 ? fmt::format(" --atlas-size {}", flags->atlas_size) : "") +
                 (flags->reference.empty()

@@ -38,14 +38,20 @@ struct SweepTruth {
     double noise = 0.0;  // standard error over the mean, subtracted from all errors
 };
 
-struct SweepPoint {
+// What is measured of a method, by the name that tables have for it.
+struct SweepSetting {
     std::string method;  // one of Sweep::methods, or path_tracer_name
     std::string series;  // the knob that is varied alone, or "grid"; of the path tracer, the truth
     std::map<std::string, std::string> knobs;
+};
+
+struct SweepPoint : SweepSetting {
     double milliseconds = 0.0;  // median of a whole frame or bake
-    // Of settings with visible sets: finding these, once, which is no part of a frame.
-    std::optional<double> look_milliseconds;
+    // What is done once before all frames and is no part of one: visible sets, links, a bake.
+    std::optional<double> once_milliseconds;
     std::vector<double> error;  // [truths] relative_error() against each
+    // What the method says of its own error, without a reference, by the name of a truth.
+    std::map<std::string, double> estimated_error;
     double energy = 0.0;        // mean over the mean of the first truth
     std::vector<bool> front;    // [truths] on its method's Pareto front against this truth
     io::Image picture;

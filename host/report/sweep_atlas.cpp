@@ -12,8 +12,8 @@
 #include "report/reference_atlas.hpp"
 #include "report/reference_picture.hpp"
 #include "report/sweep_run.hpp"
+#include "report/sweep_turns.hpp"
 #include "report/timed_bake.hpp"
-#include "report/timing.hpp"
 
 namespace clgi::report {
 namespace {
@@ -131,59 +131,35 @@ private:
         const DeviceScene scene(context, device, setup_.scene);
         const Programs programs(context, device);
         const std::vector<AtlasSettings> settings = atlas_settings(setup_.quick, setup_.build);
-        const auto bake_one = [&](const AtlasSettings& one, double done, double share) {
+        const auto bake_one = [&](const AtlasSettings& one, const Progress& part) {
             const std::optional<TimedBake> made = timed_bake(
                 {programs, setup_.queue, setup_.scene, scene, one.vpls, atlas_.layout, one.bake},
-                [&](double part) { return progress_.goes_on(done + share * part); });
+                part);
             if (!made) throw_cancelled();
             return *made;
         };
-        // The same settings are measured once, whatever series they are in.
-        std::vector<const AtlasSettings*> distinct;
-        std::vector<std::size_t> which;
-        double all = 0.0;
-        for (const AtlasSettings& one : settings) {
-            std::size_t i = 0;
-            while (i < distinct.size() && distinct[i]->knobs != one.knobs) ++i;
-            if (i == distinct.size()) {
-                distinct.push_back(&one);
-                all += work_of(one);
-            }
-            which.push_back(i);
-        }
-        std::vector<std::vector<double>> times(distinct.size());
-        std::vector<SweepPoint> results(distinct.size());
         for (const Filling filling : {Filling::gather, Filling::project}) {  // builds kernels
             AtlasSettings least;
             least.vpls.count = 16;
             least.bake.build = setup_.build;
             least.bake.filling = filling;
-            bake_one(least, 0.0, 0.0);
+            bake_one(least, [&](double) { return progress_.goes_on(0.0); });
         }
         constexpr double slow = 3.0;  // seconds: noise is small beside these, one bake is enough
-        double done = 0.0;
-        for (int round = 0; round < setup_.rounds; ++round)
-            for (std::size_t i = 0; i < distinct.size(); ++i) {
-                const double share = work_of(*distinct[i]) / (all * setup_.rounds);
-                if (round == 0 || times[i].front() <= slow) {
-                    const TimedBake made = bake_one(*distinct[i], done, share);
-                    times[i].push_back(made.seconds);
-                    if (round == 0) {
-                        results[i].picture = baked_image(layout_, made.irradiance, effects, false);
-                        judge(results[i], out_.truths, &counted_);
-                        out_.non_finite += made.status.non_finite;
-                    }
-                }
-                done += share;
+        Turns turns;
+        turns.rounds = setup_.rounds;
+        turns.work = [&](std::size_t i) { return work_of(settings[i]); };
+        turns.measure = [&](std::size_t i, SweepPoint* result, const Progress& part) {
+            const TimedBake made = bake_one(settings[i], part);
+            if (result) {
+                result->picture = baked_image(layout_, made.irradiance, effects, false);
+                judge(*result, out_.truths, &counted_);
             }
-        for (std::size_t k = 0; k < settings.size(); ++k) {
-            SweepPoint point = results[which[k]];
-            point.method = settings[k].method;
-            point.series = settings[k].series;
-            point.knobs = settings[k].knobs;
-            point.milliseconds = 1e3 * spread(times[which[k]]).median;
+            return Measured{{1e3 * made.seconds}, {}, made.status.non_finite, made.seconds <= slow};
+        };
+        for (SweepPoint& point :
+             measure_in_turn(names_of(settings), turns, progress_, out_.non_finite))
             out_.points.push_back(std::move(point));
-        }
     }
 
     const SweepSetup& setup_;

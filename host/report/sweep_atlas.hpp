@@ -24,9 +24,7 @@ Sweep sweep_atlas(const SweepSetup& setup, const AtlasSweep& atlas);
 
 // The settings that such a sweep tries, by series. Settings that vary one knob alone are in the
 // order of that knob, from the least accurate one on.
-struct AtlasSettings {
-    std::string method, series;
-    std::map<std::string, std::string> knobs;
+struct AtlasSettings : SweepSetting {
     VplOptions vpls;
     LightAtlasOptions bake;
 };

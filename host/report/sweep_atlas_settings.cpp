@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report/sweep_atlas.hpp"
+#include "report/sweep_settings.hpp"
 
 namespace clgi::report {
 namespace {
@@ -61,11 +62,8 @@ private:
     template <typename Set>
     void vary(const AtlasSettings& base, const std::string& series, const Values& quick,
               const Values& full, const Set& set) {
-        for (const std::uint32_t value : quick_ ? quick : full) {
-            AtlasSettings one = base;
-            set(one, value);
-            add(one, series);
-        }
+        report::vary(base, series, quick_ ? quick : full, set,
+                     [this](AtlasSettings one, const std::string& name) { add(one, name); });
     }
 
     void grid(const AtlasSettings& base, const Values& vpls, const std::vector<int>& sizes,

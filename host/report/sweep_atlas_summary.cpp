@@ -10,9 +10,6 @@
 namespace clgi::report {
 namespace {
 
-// The knob that a series varies: its name up to the comma.
-std::string knob_of(const std::string& series) { return series.substr(0, series.find(',')); }
-
 std::string list(const std::vector<std::string>& words) {
     std::string out;
     for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;

@@ -74,14 +74,30 @@ std::string front_table(const Sweep& sweep, std::size_t truth) {
     return out + "</table>\n";
 }
 
-// Pictures of the front, thinned to the eye: at most eight, from quick to good.
-std::string gallery(const Sweep& sweep, std::size_t truth) {
-    std::vector<const SweepPoint*> front;
+// Points of the front of one of the methods, thinned to the eye, from quick to good.
+std::vector<const SweepPoint*> shown_of(const Sweep& sweep, const std::string& method,
+                                        std::size_t truth, std::size_t most) {
+    std::vector<const SweepPoint*> front, out;
     for (const SweepPoint& point : sweep.points)
-        if (point.front[truth] && point.method == sweep.methods.front()) front.push_back(&point);
+        if (point.front[truth] && point.method == method) front.push_back(&point);
     std::sort(front.begin(), front.end(), [](const SweepPoint* a, const SweepPoint* b) {
         return a->milliseconds < b->milliseconds;
     });
+    const std::size_t count = std::min(front.size(), most);
+    for (std::size_t i = 0; i < count; ++i)
+        out.push_back(front[count == 1 ? front.size() - 1 : i * (front.size() - 1) / (count - 1)]);
+    return out;
+}
+
+// Pictures of the fronts; of bakes those that gather alone.
+std::string gallery(const Sweep& sweep, std::size_t truth) {
+    std::vector<const SweepPoint*> shown;
+    const std::vector<std::string>& methods = sweep.methods;
+    const std::size_t of = sweep.of == SweepOf::atlas ? 1 : methods.size();
+    for (std::size_t m = 0; m < of; ++m) {
+        const auto more = shown_of(sweep, methods[m], truth, of == 1 ? 8 : 3);
+        shown.insert(shown.end(), more.begin(), more.end());
+    }
     const io::Image& truth_picture = sweep.truths[truth].picture;
     const float exposure = preview_exposure(truth_picture);
     std::string out = image_tag(sweep.width, sweep.height, preview(truth_picture, exposure),
@@ -91,12 +107,11 @@ std::string gallery(const Sweep& sweep, std::size_t truth) {
     for (const float value : truth_picture.find("G")->values) scale += double{value};
     scale = 0.25 * scale / static_cast<double>(truth_picture.find("G")->values.size());
     const char* unit = sweep.of == SweepOf::atlas ? "lx" : "cd/m\u00b2";
-    constexpr std::size_t most = 8;
-    const std::size_t count = std::min(front.size(), most);
-    for (std::size_t i = 0; i < count; ++i) {
-        const SweepPoint& point = *front[count == 1 ? 0 : i * (front.size() - 1) / (count - 1)];
-        const std::string title = fmt::format("{:.1f} ms, {:.2f} %: {}", point.milliseconds,
-                                              100.0 * point.error[truth], knobs_text(point));
+    for (const SweepPoint* one : shown) {
+        const SweepPoint& point = *one;
+        const std::string title =
+            fmt::format("{}, {:.1f} ms, {:.2f} %: {}", point.method, point.milliseconds,
+                        100.0 * point.error[truth], knobs_text(point));
         out += "<div class=\"pair\">" +
                image_tag(sweep.width, sweep.height, preview(point.picture, exposure), title);
         const auto difference = difference_picture(point.picture, truth_picture, {.scale = scale});
@@ -105,6 +120,13 @@ std::string gallery(const Sweep& sweep, std::size_t truth) {
                "</div>\n";
     }
     return out;
+}
+
+// Points have one picture: with the light of all truths but these.
+bool has_gallery(const Sweep& sweep, std::size_t truth) {
+    const std::string& name = sweep.truths[truth].name;
+    return sweep.of == SweepOf::atlas || (sweep.of == SweepOf::pictures &&
+                                          name != unshadowed_truth && name != indirect_truth);
 }
 
 // What each filling takes for the same error.
@@ -126,26 +148,51 @@ std::string fillings_table(const Sweep& sweep) {
     return out + "</table>\n";
 }
 
-// What visible sets take once, and what a frame with them.
-std::string sets_table(const Sweep& sweep) {
+// What is done once before all frames, and what a frame takes then.
+std::string once_table(const Sweep& sweep) {
     std::string rows;
     for (const SweepPoint& point : sweep.points) {
-        if (!point.look_milliseconds) continue;
+        if (!point.once_milliseconds) continue;
         rows +=
             fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{:.2f}</td>", point.method,
-                        escaped(knobs_text(point)), *point.look_milliseconds, point.milliseconds);
+                        escaped(knobs_text(point)), *point.once_milliseconds, point.milliseconds);
         for (const double error : point.error)
             rows += fmt::format("<td>{:.2f}</td>", 100.0 * error);
         rows += "</tr>\n";
     }
     if (rows.empty()) return "";
     std::string out =
-        "<h2>Visible sets</h2>\n<p>Looking is done once, before all frames, and is no part of "
-        "their time.</p>\n<table><tr><th>method</th><th>settings</th><th>looking, ms</th>"
+        sweep.of == SweepOf::vertices
+            ? "<h2>Visible sets</h2>\n<p>Looking is done once, before all frames, and is no part of "
+              "their time.</p>\n"
+            : "<h2>Done once</h2>\n<p>What stays good while geometry stands still is no part of a "
+              "frame's time: elements and links of antiradiance, layout and first bake of an atlas, "
+              "transfer vectors.</p>\n";
+    out +=
+        "<table><tr><th>method</th><th>settings</th><th>once, ms</th>"
         "<th>ms</th>";
     for (const SweepTruth& truth : sweep.truths)
         out += fmt::format("<th>error %, {}</th>", truth.name);
     return out + "</tr>\n" + rows + "</table>\n";
+}
+
+// Errors that antiradiance tells of itself, beside the true ones.
+std::string estimates_table(const Sweep& sweep) {
+    std::string rows;
+    for (const SweepPoint& point : sweep.points)
+        for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
+            const auto found = point.estimated_error.find(sweep.truths[t].name);
+            if (found == point.estimated_error.end()) continue;
+            rows += fmt::format(
+                "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
+                sweep.truths[t].name, escaped(knobs_text(point)), 100.0 * found->second,
+                100.0 * point.error[t]);
+        }
+    if (rows.empty()) return "";
+    return "<h2>Estimated errors</h2>\n<p>The difference from the picture with twice as many bins. "
+           "It sees what bins cost, not what elements, shadow maps and steps do.</p>\n"
+           "<table><tr><th>reference</th><th>settings</th><th>estimated %</th><th>true %</th></tr>\n" +
+           rows + "</table>\n";
 }
 
 std::string math_table(const Sweep& sweep) {
@@ -198,11 +245,10 @@ std::string sweep_page(const Sweep& sweep, const SweepNote& note,
         const std::size_t start = plots[t].find("<svg");
         if (start != std::string::npos) out += plots[t].substr(start);
         out += front_table(sweep, t);
-        if (sweep.of == SweepOf::atlas ||
-            (sweep.of == SweepOf::pictures && t != unshadowed_bounce))
-            out += gallery(sweep, t);
+        if (has_gallery(sweep, t)) out += gallery(sweep, t);
     }
-    return out + (sweep.of == SweepOf::atlas ? fillings_table(sweep) : "") + sets_table(sweep) +
+    return out + (sweep.of == SweepOf::atlas ? fillings_table(sweep) : "") + once_table(sweep) +
+           estimates_table(sweep) +
            math_table(sweep) + "</body></html>\n";
 }
 

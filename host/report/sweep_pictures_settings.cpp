@@ -14,14 +14,15 @@ std::string low_resolution_text(const SecondOrderOptions& options) {
 }
 
 Settings settings(const std::string& series, const SecondOrderOptions& options) {
-    return {series,
-            {{"vpls", std::to_string(options.emitters.vpls)},
-             {"negative-vpls", std::to_string(options.negative_vpls)},
-             {"low-res", low_resolution_text(options)},
-             {"shadow-size", std::to_string(options.emitters.shadow_size)},
-             {"area-samples", std::to_string(options.emitters.area_samples)},
-             {"math", options.build.math == Math::fast ? "fast" : "strict"},
-             {"storage", options.build.storage == Storage::half ? "half" : "full"}},
+    return {{second_order_method,
+             series,
+             {{"vpls", std::to_string(options.emitters.vpls)},
+              {"negative-vpls", std::to_string(options.negative_vpls)},
+              {"low-res", low_resolution_text(options)},
+              {"shadow-size", std::to_string(options.emitters.shadow_size)},
+              {"area-samples", std::to_string(options.emitters.area_samples)},
+              {"math", options.build.math == Math::fast ? "fast" : "strict"},
+              {"storage", options.build.storage == Storage::half ? "half" : "full"}}},
             options};
 }
 

@@ -48,7 +48,7 @@ std::vector<std::string> pictures_summary(const Sweep& sweep) {
             best->knobs.at("negative-vpls"), 100.0 * none->error[one_bounce],
             100.0 * best->error[one_bounce]));
 
-    add_speedups(sweep, "second-order", out);
+    add_speedups(sweep, second_order_method, out);
     for (const MathMode& mode : math_modes(sweep))
         if (mode.difference > 0.0)
             out.push_back(fmt::format(
@@ -57,6 +57,15 @@ std::vector<std::string> pictures_summary(const Sweep& sweep) {
                 mode.math == "fast" ? "Fast" : "Strict", mode.storage, mode.speed,
                 100.0 * mode.difference));
 
+    const std::vector<std::string> antiradiance = antiradiance_summary(sweep);
+    out.insert(out.end(), antiradiance.begin(), antiradiance.end());
+    for (const char* series : {"vpls, atlas", "atlas-size, atlas"})
+        add_series(sweep, series, {all_light}, "Laying out and baking, once before all frames,",
+                   out);
+    for (const char* series : {"mask, transfer", "interreflections, transfer"})
+        add_series(sweep, series, {all_light}, "Transfer vectors, once before all frames,", out);
+    for (const char* method : {light_atlas_method, dynamic_transfer_method})
+        add_speedups(sweep, method, {all_light}, out);
     return out;
 }
 

@@ -2,13 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <sstream>
 #include <vector>
 
+#include "report/gnuplot.hpp"
 #include "report/sweep_files.hpp"
 
 namespace clgi::report {
@@ -27,23 +25,22 @@ std::string block(const std::string& name, std::vector<const SweepPoint*> points
     return out + "EOD\n";
 }
 
-// As gnuplot wants a name: in single quotes, those inside doubled.
-std::string quoted(const std::string& name) {
-    std::string out = "'";
-    for (const char c : name) out += c == '\'' ? "''" : std::string(1, c);
-    return out + "'";
-}
-
 // All settings and the front of each method, and the path tracer.
 std::string script(const Sweep& sweep, std::size_t truth, const std::string& file) {
     constexpr struct {
         const char *all, *front;
-    } colors[] = {{"#9ecae1", "#08519c"}, {"#a1d99b", "#006d2c"}, {"#bcbddc", "#54278f"}};
+    } colors[] = {{"#9ecae1", "#08519c"},
+                  {"#a1d99b", "#006d2c"},
+                  {"#bcbddc", "#54278f"},
+                  {"#fcc5e8", "#c51b8a"}};
     const char* unit = sweep.of == SweepOf::atlas      ? "a bake"
                        : sweep.of == SweepOf::vertices ? "for all vertices"
                                                        : "a frame";
     // Where no curve is: the path tracer begins at the top, and ends above what it judges.
-    const char* key = sweep.of == SweepOf::vertices ? "bottom left Left reverse" : "top right";
+    const bool many = sweep.methods.size() > 2 && sweep.of == SweepOf::pictures;
+    const char* key = many                            ? "outside right top Left reverse"
+                      : sweep.of == SweepOf::vertices ? "bottom left Left reverse"
+                                                      : "top right";
     std::string data, plots;
     const auto plot = [&](const std::string& name, const std::vector<const SweepPoint*>& points,
                           const std::string& how) {
@@ -75,42 +72,21 @@ std::string script(const Sweep& sweep, std::size_t truth, const std::string& fil
         if (point.method == path_tracer_name && point.series == sweep.truths[truth].name)
             traced.push_back(&point);
     plot("traced", traced, "linespoints pt 5 ps 0.6 lw 2 lc rgb '#d95f02' title 'path tracer'");
-    return data +
+    return data + plot_head(file, many ? 960 : 760, 460) +
            fmt::format(
-               "set terminal svg size 760,460 font 'sans-serif,13' background '#ffffff'\n"
-               "set output {}\n"
                "set logscale xy\nset xlabel 'milliseconds {}'\n"
-               "set ylabel 'relative error, %'\nset grid lc rgb '#dddddd'\n"
-               "set border lc rgb '#666666'\n"
+               "set ylabel 'relative error, %'\n"
                "set key {}\nset title 'Error against the {} reference' noenhanced\n",
-               file, unit, key, sweep.truths[truth].name) +
+               unit, key, sweep.truths[truth].name) +
            plots + "\n";
 }
 
 }  // namespace
 
-// gnuplot reads its script from a pipe: no name of a user's ever reaches a shell.
 std::string error_plot(const Sweep& sweep, std::size_t truth, const std::filesystem::path& folder,
                        std::string& why) {
-    const std::filesystem::path picture = std::filesystem::absolute(folder / "error-plot.tmp.svg");
-    std::string out;
-    std::FILE* gnuplot = ::popen("gnuplot >/dev/null 2>&1", "w");
-    bool done = gnuplot != nullptr;
-    if (gnuplot) {
-        const std::string text = script(sweep, truth, quoted(picture.string()));
-        done = std::fwrite(text.data(), 1, text.size(), gnuplot) == text.size();
-        const int status = ::pclose(gnuplot);
-        if (status != 0) why = status >> 8 == 127 ? "gnuplot is not there" : "gnuplot failed";
-        done = done && status == 0;
-    }
-    if (done) {
-        std::ostringstream text;
-        text << std::ifstream(picture).rdbuf();
-        out = text.str();
-    }
-    std::error_code ignored;
-    std::filesystem::remove(picture, ignored);
-    return out;
+    return draw_svg([&](const std::string& file) { return script(sweep, truth, file); }, folder,
+                    why);
 }
 
 }  // namespace clgi::report

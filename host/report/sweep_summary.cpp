@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "report/pareto.hpp"
 
@@ -29,6 +30,37 @@ std::vector<const SweepPoint*> points_of(const Sweep& sweep, const std::string& 
     for (const SweepPoint& point : sweep.points)
         if (point.series == series) out.push_back(&point);
     return out;
+}
+
+std::string knob_of(const std::string& series) { return series.substr(0, series.find(',')); }
+
+void add_series(const Sweep& sweep, const std::string& series,
+                const std::vector<std::size_t>& truths, const std::string& once,
+                std::vector<std::string>& out) {
+    const auto points = points_of(sweep, series);
+    if (points.empty()) return;
+    const auto list = [&](const auto& text_of) {
+        std::string text;
+        for (const SweepPoint* point : points) text += (text.empty() ? "" : ", ") + text_of(*point);
+        return text;
+    };
+    const std::string knob = knob_of(series);
+    std::string errors;
+    for (const std::size_t t : truths)
+        errors += fmt::format("{}{} % ({})", errors.empty() ? "" : ", ",
+                              list([&](const SweepPoint& p) {
+                                  return fmt::format("{:.2f}", 100.0 * p.error[t]);
+                              }),
+                              sweep.truths[t].name);
+    out.push_back(fmt::format(
+        "{}, {} {}: error {} in {} ms.", points.front()->method, knob,
+        list([&](const SweepPoint& p) { return p.knobs.at(knob); }), errors,
+        list([](const SweepPoint& p) { return fmt::format("{:.1f}", p.milliseconds); })));
+    if (points.front()->once_milliseconds)
+        out.push_back(fmt::format("{} took {} ms.", once, list([](const SweepPoint& p) {
+                                      const double time = p.once_milliseconds.value_or(0.0);
+                                      return fmt::format("{:.{}f}", time, time < 10.0 ? 2 : 0);
+                                  })));
 }
 
 std::string knobs_text(const SweepPoint& point) {
@@ -78,7 +110,14 @@ Speedup speedup(const Sweep& sweep, const std::string& method, std::size_t truth
 }
 
 void add_speedups(const Sweep& sweep, const std::string& method, std::vector<std::string>& out) {
-    for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
+    std::vector<std::size_t> all(sweep.truths.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    add_speedups(sweep, method, all, out);
+}
+
+void add_speedups(const Sweep& sweep, const std::string& method,
+                  const std::vector<std::size_t>& truths, std::vector<std::string>& out) {
+    for (const std::size_t t : truths) {
         const Speedup factor = speedup(sweep, method, t);
         const auto at = [&](double error) {
             return fmt::format("at {:.2f} %{}", 100.0 * error,

@@ -31,8 +31,18 @@ struct Speedup {
     double measured_to = 0.0;
 };
 Speedup speedup(const Sweep& sweep, const std::string& method, std::size_t truth);
-// A sentence for every truth that has one.
+// The knob that a series varies: its name up to the comma.
+std::string knob_of(const std::string& series);
+// A sentence about a series, with the errors against some truths; and one about what was done once
+// before all frames, which begins with `once`, where there was something. Nothing for no points.
+void add_series(const Sweep& sweep, const std::string& series,
+                const std::vector<std::size_t>& truths, const std::string& once,
+                std::vector<std::string>& out);
+
+// A sentence for every truth that has one: of all, or of those that the method is an answer to.
 void add_speedups(const Sweep& sweep, const std::string& method, std::vector<std::string>& out);
+void add_speedups(const Sweep& sweep, const std::string& method,
+                  const std::vector<std::size_t>& truths, std::vector<std::string>& out);
 
 // What a way of building the kernels gains and costs: the points of the series "math".
 struct MathMode {
@@ -65,5 +75,6 @@ std::vector<std::string> summary(const Sweep& sweep);
 std::vector<std::string> pictures_summary(const Sweep& sweep);
 std::vector<std::string> atlas_summary(const Sweep& sweep);
 std::vector<std::string> transfer_summary(const Sweep& sweep);
+std::vector<std::string> antiradiance_summary(const Sweep& sweep);
 
 }  // namespace clgi::report

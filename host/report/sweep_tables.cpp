@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "report/sweep_atlas.hpp"
@@ -15,21 +16,43 @@ std::string knob(const SweepPoint& point, const std::string& name) {
     return found == point.knobs.end() ? "" : found->second;
 }
 
+template <typename Is>
+bool any(const Sweep& sweep, const Is& is) {
+    return std::any_of(sweep.points.begin(), sweep.points.end(), is);
+}
+
 }  // namespace
 
 std::string sweep_csv(const Sweep& sweep) {
     std::string out = "method,series";
     for (const std::string& name : sweep.knobs) out += fmt::format(",{}", name);
-    out += ",ms";
+    const bool once =
+        any(sweep, [](const SweepPoint& p) { return p.once_milliseconds.has_value(); });
+    std::vector<bool> estimated;  // [truths]
     for (const SweepTruth& truth : sweep.truths)
-        out += fmt::format(",error {0},front {0}", truth.name);
+        estimated.push_back(any(sweep, [&](const SweepPoint& p) {
+            return p.estimated_error.find(truth.name) != p.estimated_error.end();
+        }));
+    out += once ? ",ms,once ms" : ",ms";
+    for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
+        out += fmt::format(",error {0},front {0}", sweep.truths[t].name);
+        if (estimated[t]) out += fmt::format(",estimated_error {}", sweep.truths[t].name);
+    }
     out += ",energy ratio\n";
     for (const SweepPoint& point : sweep.points) {
         out += fmt::format("{},\"{}\"", point.method, point.series);
         for (const std::string& name : sweep.knobs) out += "," + knob(point, name);
         out += fmt::format(",{:.4g}", point.milliseconds);
-        for (std::size_t t = 0; t < sweep.truths.size(); ++t)
+        if (once)
+            out += "," +
+                   (point.once_milliseconds ? fmt::format("{:.4g}", *point.once_milliseconds) : "");
+        for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
             out += fmt::format(",{:.6g},{}", point.error[t], point.front[t] ? 1 : 0);
+            const auto found = point.estimated_error.find(sweep.truths[t].name);
+            if (estimated[t])
+                out += found == point.estimated_error.end() ? ","
+                                                            : fmt::format(",{:.6g}", found->second);
+        }
         out += fmt::format(",{:.6g}\n", point.energy);
     }
     return out;
@@ -79,7 +102,8 @@ std::string sweep_json(const Sweep& sweep, const SweepNote& note) {
                                       {"knobs", point.knobs},
                                       {"ms", point.milliseconds},
                                       {"energy_ratio", point.energy}};
-        if (point.look_milliseconds) row["look_ms"] = *point.look_milliseconds;
+        if (point.once_milliseconds) row["once_ms"] = *point.once_milliseconds;
+        if (!point.estimated_error.empty()) row["estimated_error"] = point.estimated_error;
         for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
             row["error"][sweep.truths[t].name] = point.error[t];
             row["front"][sweep.truths[t].name] = bool{point.front[t]};

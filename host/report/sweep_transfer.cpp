@@ -13,6 +13,7 @@
 #include "report/reference_picture.hpp"
 #include "report/relative_error.hpp"
 #include "report/sweep_run.hpp"
+#include "report/sweep_turns.hpp"
 #include "report/timing.hpp"
 #include "report/transfer_vectors.hpp"
 
@@ -223,68 +224,53 @@ private:
         return out;
     }
 
-    // Times of masks and vectors, warm. The first time also what comes out.
-    void measure(const TransferSettings& one, std::vector<double>& times, SweepPoint& point) {
+    // Times of masks and vectors, warm.
+    Measured measure(const TransferSettings& one, SweepPoint* result, const Progress& part) {
         DynamicTransferOptions options = one.options;
         if (one.coarse > 0) options.coarse = coarse_mesh(scene_, one.coarse);
         DynamicTransferSolver solver(programs_, setup_.queue, scene_, device_scene_, options);
+        Measured out;
         if (one.looks > 0) {
             TransferLooks& looks = looks_[one.knobs];
-            if (times.empty())
+            if (result)
                 looks = look_at_frames(setup_.queue, programs_, scene_, motion_, options, one.looks,
-                                       [&] { progress_.report(done_); });
+                                       [&] {
+                                           if (!part(0.0)) throw_cancelled();
+                                       });
             solver.restrict(looks.sets);
-            point.look_milliseconds = looks.milliseconds;
+            out.once = looks.milliseconds;
         }
         solver.transfer();  // warms up
         solver.light().wait();
+        constexpr double slow = 3000.0;  // milliseconds: noise is small beside these
         constexpr int runs = 3;
-        const bool first = times.empty();
-        for (int run = 0; run < runs; ++run) {
-            times.push_back(time_frame(setup_.queue, [&] { solver.transfer(); }));
-            if (times.back() > slow) break;
+        for (int run = 0; run < runs && out.again; ++run) {
+            out.milliseconds.push_back(time_frame(setup_.queue, [&] { solver.transfer(); }));
+            out.again = out.milliseconds.back() <= slow;
         }
-        if (!first) return;
-        point.picture = lit(solver);
+        if (!result) return out;
+        result->picture = lit(solver);
         const TransferVectors vectors = transfer_vectors(setup_.queue, solver, device_scene_);
-        judge(point, out_.truths, &counted_);
-        point.error[smooth_environment] = relative_error(
+        judge(*result, out_.truths, &counted_);
+        result->error[smooth_environment] = relative_error(
             smoothly_lit(vectors), out_.truths[smooth_environment].picture, &counted_);
-        out_.non_finite += solver.status().non_finite + vectors.non_finite;
+        out.non_finite = solver.status().non_finite + vectors.non_finite;
+        return out;
     }
 
-    // In turn, so that other load on the machine meets all settings. The same settings are measured
-    // once, whatever series they are in.
     void transfer() {
         const std::vector<TransferSettings> settings =
             transfer_settings(setup_.quick, scene_.triangles.size(), can_simplify(),
                               motion_.animated != nullptr, setup_.build);
-        std::map<std::map<std::string, std::string>, std::size_t> first;
-        for (std::size_t k = 0; k < settings.size(); ++k) first.try_emplace(settings[k].knobs, k);
-        std::vector<SweepPoint> points(settings.size());
-        std::vector<std::vector<double>> times(settings.size());
-        const double steps = setup_.rounds * static_cast<double>(settings.size());
-        for (int round = 0; round < setup_.rounds; ++round)
-            for (std::size_t k = 0; k < settings.size(); ++k) {
-                done_ =
-                    (round * static_cast<double>(settings.size()) + static_cast<double>(k)) / steps;
-                progress_.report(done_);
-                if (first[settings[k].knobs] != k) continue;
-                if (round == 0 || times[k].front() <= slow)
-                    measure(settings[k], times[k], points[k]);
-            }
-        for (const TransferSettings& one : settings) {
-            const std::size_t k = first[one.knobs];
-            SweepPoint point = points[k];
-            point.milliseconds = spread(times[k]).median;
-            point.method = one.method;
-            point.series = one.series;
-            point.knobs = one.knobs;
+        Turns turns;
+        turns.rounds = setup_.rounds;
+        turns.measure = [&](std::size_t i, SweepPoint* result, const Progress& part) {
+            return measure(settings[i], result, part);
+        };
+        for (SweepPoint& point :
+             measure_in_turn(names_of(settings), turns, progress_, out_.non_finite))
             out_.points.push_back(std::move(point));
-        }
     }
-
-    static constexpr double slow = 3000.0;  // milliseconds: noise is small beside these
 
     const SweepSetup& setup_;
     TransferSweep motion_;
@@ -296,7 +282,6 @@ private:
     std::vector<reference::Place> places_;
     std::vector<glm::dvec3> light_;  // of smooth_, cd/m^2 sr
     std::map<std::map<std::string, std::string>, TransferLooks> looks_;  // by knobs
-    double done_ = 0.0;
     Mask counted_;
     Sweep out_;
 };

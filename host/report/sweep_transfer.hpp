@@ -35,9 +35,7 @@ Sweep sweep_transfer(const SweepSetup& setup, const TransferSweep& motion = {});
 
 // The settings that such a sweep tries, by series: the knob that is varied alone, from the least
 // accurate value on, or "grid". coarse: triangles of the far mesh; 0: none.
-struct TransferSettings {
-    std::string method, series;
-    std::map<std::string, std::string> knobs;
+struct TransferSettings : SweepSetting {
     DynamicTransferOptions options;  // without the mesh itself
     std::size_t coarse = 0;
     int looks = 0;  // frames whose potentially visible sets masks look at; 0: at all triangles

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
+#include "report/sweep_settings.hpp"
 #include "report/sweep_transfer.hpp"
 
 namespace clgi::report {
@@ -94,13 +93,8 @@ private:
     template <typename Set>
     void vary(const TransferSettings& base, const std::string& series, const Values& quick,
               const Values& full, const Set& set) {
-        Values values = quick_ ? quick : full;
-        values.erase(std::unique(values.begin(), values.end()), values.end());
-        for (const int value : values) {
-            TransferSettings one = base;
-            set(one, value);
-            add(one, series);
-        }
+        report::vary(base, series, quick_ ? quick : full, set,
+                     [this](TransferSettings one, const std::string& name) { add(one, name); });
     }
 
     void add(TransferSettings one, const std::string& series) {

@@ -18,6 +18,7 @@ constexpr const char* owner = "antiradiance";
 
 AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scene) {
     need_range(owner, "steps", options.steps, 0, 10000);
+    need_range(owner, "through_steps", options.through_steps, 0, 1000);
     need_range(owner, "most_steps", options.most_steps, 1, 10000);
     need_range(owner, "residual", options.residual, 1e-6, 1.0);
     if (options.bins < 32 || options.bins > 4096 || options.bins % 4 != 0)

@@ -115,6 +115,7 @@ void AntiradianceSolver::State::asymmetric(const Progress& progress) {
     steps_done = 0;
     start();
     double last = 1.0;
+    int through = 0;  // steps since the last reflection
     // False where that was the last step.
     const auto make = [&](std::uint32_t flags) {
         step(flags);
@@ -125,13 +126,16 @@ void AntiradianceSolver::State::asymmetric(const Progress& progress) {
     while (steps_done < limit() && !record.cancelled()) {
         // What is not yet taken away need not be less than what the next reflection changes.
         const double enough = std::max(0.1 * last, 0.5 * options.residual);
-        do
+        const int wanted = options.through_steps;
+        for (bool more = wanted == 0 || through < wanted; more; ++through) {
             if (!make(LOCAL_RECEIVE | LOCAL_GO_THROUGH)) return;
-        while (!(last < enough));
+            more = wanted == 0 ? !(last < enough) : through + 1 < wanted;
+        }
         if (!make(LOCAL_RECEIVE | LOCAL_REFLECT)) return;
         const bool taken = done(last);
         // A step that lets through shows what the reflection changed.
         const bool more = make(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+        through = 1;
         found.converged = taken && done(last) && !record.cancelled();
         if (!more || (options.steps == 0 && found.converged)) return;
     }

@@ -36,6 +36,9 @@ struct AntiradianceOptions {
     // Local passes, 1 to 10000; 0: until the residual is small. Where the symmetric iteration is
     // given up the asymmetric one makes as many again.
     int steps = 0;
+    // Of the asymmetric iteration: steps that let light through for each one that reflects, up to
+    // 1000; 0: until what they change is a tenth of it.
+    int through_steps = 0;
     // Change of what arrives in a step, of what arrived in the first: 1e-6 to 1.
     double residual = 1e-3;
     int most_steps = 500;  // with steps = 0

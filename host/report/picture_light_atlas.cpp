@@ -1,0 +1,100 @@
+// Frames in the light of an atlas: baked once, lit anew for every frame. [Schaerfig16, section 6.2]
+// SPDX-License-Identifier: MIT
+#include <clgi/bake_layout.hpp>
+#include <clgi/solvers/light_atlas.hpp>
+#include <clgi/solvers/light_atlas_view.hpp>
+#include <optional>
+
+#include "report/picture_methods.hpp"
+#include "report/preview.hpp"
+#include "report/sweep_settings.hpp"
+#include "report/timing.hpp"
+
+namespace clgi::report {
+namespace {
+
+struct AtlasPicture : SweepSetting {
+    std::uint32_t vpls = 1600;
+    int size = 256;
+};
+
+std::vector<AtlasPicture> settings_of(bool quick) {
+    std::vector<AtlasPicture> out;
+    const auto add = [&](AtlasPicture one, const std::string& series) {
+        one.method = light_atlas_method;
+        one.series = series + ", atlas";
+        one.knobs = {{"vpls", std::to_string(one.vpls)}, {"atlas-size", std::to_string(one.size)}};
+        out.push_back(std::move(one));
+    };
+    AtlasPicture base;
+    if (quick) base = {{}, 400, 64};
+    vary(
+        base, "vpls",
+        quick ? std::vector<std::uint32_t>{50, 400} : std::vector<std::uint32_t>{100, 400, 1600},
+        [](AtlasPicture& to, std::uint32_t n) { to.vpls = n; }, add);
+    vary(
+        base, "atlas-size", quick ? std::vector<int>{32, 64} : std::vector<int>{64, 128, 256, 512},
+        [](AtlasPicture& to, int n) { to.size = n; }, add);
+    return out;
+}
+
+Measured measure(const PictureTask& task, const AtlasPicture& one, SweepPoint* result,
+                 const Progress& part) {
+    constexpr double slow = 1000.0;  // milliseconds
+    const cl::CommandQueue& queue = task.setup.queue;
+    Measured out;
+    std::optional<BakeLayout> layout;
+    out.once = time_frame(queue, [&] {
+        VplOptions vpls;
+        vpls.count = one.vpls;
+        AtlasOptions atlas;
+        atlas.size = one.size;
+        layout = make_bake_layout(task.setup.scene, vpls, atlas);
+    });
+    LightAtlasOptions options;
+    options.build = task.setup.build;
+    LightAtlasSolver solver(task.programs, queue, task.scene, layout->vpls, layout->atlas, options);
+    LightAtlasViewOptions shown;
+    shown.width = task.width;
+    shown.height = task.height;
+    shown.emitters.shadow_size = 1024;
+    shown.build = task.setup.build;
+    LightAtlasView view(task.programs, queue, task.scene, layout->atlas, shown);
+    *out.once += time_frame(queue, [&] {
+        if (!solver.run(part)) throw_cancelled();
+    });
+    const auto picture = [&] {
+        return view.render(task.camera, solver.irradiance_planes(), solver.stride());
+    };
+    picture().wait();
+    for (int k = 0; k < 2 && out.again; ++k) {
+        out.milliseconds.push_back(time_frame(queue, [&] {
+            solver.lights_changed();
+            view.lights_changed();
+            solver.run();
+            picture();
+        }));
+        out.again = out.milliseconds.back() <= slow;
+    }
+    out.non_finite = solver.status().non_finite + view.picture().non_finite();
+    if (result) {
+        result->picture = radiance_picture(queue, view.picture());
+        judge(*result, task.truths);
+    }
+    return out;
+}
+
+}  // namespace
+
+PictureMethod light_atlas_pictures(const PictureTask& task) {
+    const std::vector<AtlasPicture> settings = settings_of(task.setup.quick);
+    PictureMethod out;
+    out.knobs = {"vpls", "atlas-size"};
+    out.settings = names_of(settings);
+    out.measure = [&task, settings](std::size_t i, SweepPoint* result, const Progress& part) {
+        return measure(task, settings[i], result, part);
+    };
+    return out;
+}
+
+}  // namespace clgi::report

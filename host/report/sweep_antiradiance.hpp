@@ -1,0 +1,25 @@
+// A sweep of antiradiance: the settings that it tries, and what it says.   [Dachsbacher07]
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/solvers/antiradiance.hpp>
+
+#include "report/sweep.hpp"
+
+namespace clgi::report {
+
+// By series: the knob that is varied alone, from the least accurate value on, or "grid".
+struct AntiradianceSettings : SweepSetting {
+    AntiradianceOptions options;
+    bool estimate = false;  // its error, from a picture with twice as many bins
+};
+std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildOptions& build = {});
+
+// How the estimated errors of settings with different numbers of bins compare with the true ones:
+// the least and the greatest ratio of estimated to true error. Zeros where there are none.
+struct EstimateQuality {
+    double least = 0.0, most = 0.0;
+};
+EstimateQuality estimate_quality(const Sweep& sweep, std::size_t truth);
+
+}  // namespace clgi::report
