@@ -12,8 +12,7 @@
 //              are not finite stay so and are counted
 // Cost         that of antiradiance.global, and 17 operations and 16 bytes (half: 8) a bin
 // SPDX-License-Identifier: MIT
-#include "antiradiance/rows.clh"
-#include "finite.clh"
+#include "antiradiance/leaf.clh"
 
 kernel void antiradiance_local(
     const ElementParams params,
@@ -21,12 +20,7 @@ kernel void antiradiance_local(
     LINK_ARGUMENTS,
     global const float4*  restrict incident,     // [inner elements][CLGI_BINS] radiance
     global const float4*  restrict directions,   // [CLGI_BINS] unit; w: sr
-    global const float4*  restrict sources,      // [leaves] rgb radiance that no pass brings
-    global const float4*  restrict reflectances, // [leaves] rgb
-    global float4*        restrict radiances,    // [leaves] rgb that leaves
-    global float4*        restrict irradiances,  // [leaves] rgb that arrived
-    global float4*        restrict changes,      // [leaves] rgb: watts by which it changed; w: its watts
-    global uint*          restrict non_finite,   // [1] leaves whose irradiance is not finite
+    LEAF_ARGUMENTS,
     global Intensity*     restrict next)         // [elements][CLGI_BINS] intensities
 {
     uint at = (uint)get_global_id(0);
@@ -35,28 +29,12 @@ kernel void antiradiance_local(
     Element leaf = elements[element];
     LinkedElements of = LINKS;
     float4 row[CLGI_BINS];
-    if (params.step & LOCAL_RECEIVE)
-        receive(element, of, incident, row);
-    else
-        for (uint bin = 0; bin < CLGI_BINS; ++bin) row[bin] = (float4)(0.0f);
-
-    float4 arrived = (float4)(0.0f);
-    for (uint bin = 0; bin < CLGI_BINS; ++bin) {
-        float4 w = directions[bin];
-        float cosine = dot(leaf.normal.xyz, w.xyz);
-        if (cosine < 0.0f) arrived = fma((float4)(-cosine * w.w), row[bin], arrived);
-    }
-    float4 change = fabs(arrived - irradiances[leaf.row]) * leaf.normal.w;
-    change.w = (fabs(arrived.x) + fabs(arrived.y) + fabs(arrived.z)) * leaf.normal.w;
-    changes[leaf.row] = change;
-    irradiances[leaf.row] = arrived;
+    receive_at_leaf(element, of, incident, params.step, row);
+    float4 arrived = irradiance_of(leaf, directions, row);
+    note_irradiance(leaf, arrived, irradiances, changes);
     if (!is_finite3(arrived.xyz)) atomic_inc(non_finite);
-
-    float4 radiance = radiances[leaf.row];
-    if (params.step & LOCAL_REFLECT) {
-        radiance = fma(reflectances[leaf.row] * (1.0f / CLGI_PI), arrived, sources[leaf.row]);
-        radiances[leaf.row] = radiance;
-    }
+    float4 radiance =
+        reflect_diffuse(leaf, params.step, arrived, sources, reflectances, radiances);
     ulong first = (ulong)element * CLGI_BINS;
     for (uint bin = 0; bin < CLGI_BINS; ++bin) {
         float cosine = dot(leaf.normal.xyz, directions[bin].xyz);

@@ -9,23 +9,7 @@
 //              may give where little arrives, is 0; what is not finite stays so, for the passes that
 //              count it
 // SPDX-License-Identifier: MIT
-#include "clgi/shared/antiradiance.h"
-#include "clgi/shared/gbuffer.h"
-#include "packet.clh"
-#include "gbuffer/barycentric.clh"
-#include "planes.clh"
-
-// Weights of a patch's corners at a point of its triangle, which has weights of its own.
-CLGI_INLINE float3 weights_in(PatchCorners patch, float2 at) {
-    float2 first = patch.weights.xy, edge1 = patch.weights.zw - first,
-           edge2 = patch.last.xy - first, to = at - first;
-    float area = edge1.x * edge2.y - edge1.y * edge2.x;
-    float b1 = (to.x * edge2.y - to.y * edge2.x) / area;
-    float b2 = (edge1.x * to.y - edge1.y * to.x) / area;
-    return (float3)(1.0f - b1 - b2, b1, b2);
-}
-
-CLGI_INLINE float smallest(float3 weights) { return fmin(fmin(weights.x, weights.y), weights.z); }
+#include "antiradiance/seen.clh"
 
 kernel void antiradiance_show(
     const ShowElementsParams      params,
@@ -45,33 +29,11 @@ kernel void antiradiance_show(
     float sum[3] = {0.0f, 0.0f, 0.0f};
     int triangle = ids[GBUFFER_TRIANGLE * stride + pixel];
     if (triangle >= 0 && triangle < (int)params.triangle_count) {
-        uint4 corners = triangles[triangle];
-        float3 first = positions[corners.x].xyz;
-        float3 edge1 = positions[corners.y].xyz - first, edge2 = positions[corners.z].xyz - first;
-        float3 normal = cross(edge1, edge2);
-        float3 point = (float3)(row_load_one(gbuffer_row(planes, GBUFFER_POSITION, stride), pixel),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 1, stride), pixel),
-                                row_load_one(gbuffer_row(planes, GBUFFER_POSITION + 2, stride), pixel));
-        float3 to_eye = params.eye.w == 0.0f ? params.eye.xyz - point : params.eye.xyz;
-        TrianglePatches root = roots[triangle];
-        uint element = dot(normal, to_eye) < 0.0f && root.back != ELEMENT_NONE ? root.back : root.front;
-        if (element != ELEMENT_NONE) {
-            float2 at = barycentric(point - first, edge1, edge2, normal);
-            while (elements[element].end != element + 1) {
-                uint end = elements[element].end, inside = element + 1;
-                float best = -FLT_MAX;
-                for (uint part = element + 1; part < end; part = elements[part].end) {
-                    float least = smallest(weights_in(patches[part], at));
-                    if (least > best) {
-                        best = least;
-                        inside = part;
-                    }
-                }
-                element = inside;
-            }
-            float3 weights = weights_in(patches[element], at);
-            weights = fmax(weights, (float3)(0.0f));
-            weights /= weights.x + weights.y + weights.z;
+        SeenLeaf seen = seen_leaf(pixel, stride, triangle, params.eye, triangles, positions, roots,
+                                  elements, patches, planes);
+        if (seen.element != ELEMENT_NONE) {
+            float3 weights = seen.weights;
+            uint element = seen.element;
             float4 found = weights.x * light[patches[element].vertex[0]] +
                            weights.y * light[patches[element].vertex[1]] +
                            weights.z * light[patches[element].vertex[2]];
