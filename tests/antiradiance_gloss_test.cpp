@@ -84,12 +84,6 @@ double rounding(double exponent, std::size_t bins) {
     return 3e-6 + 4e-7 * test::exponent_between_bins(exponent, bins);
 }
 
-double at_step(const std::vector<float>& curve, double cosine) {
-    const double at = std::sqrt(cosine) * double(ALBEDO_STEPS);
-    const auto step = std::min(static_cast<std::size_t>(at), std::size_t{ALBEDO_STEPS} - 1);
-    return curve[step] + (at - static_cast<double>(step)) * (curve[step + 1] - curve[step]);
-}
-
 // What a bin brings leaves with the lobe's albedo, whatever its exponent; and what leaves along a
 // bin under light from everywhere is the same, as nearly as the rounds of scaling bring it.
 TEST_P(AntiradianceGloss, HasTheAlbedoOfTheLobeInEveryBin) {
@@ -119,7 +113,7 @@ TEST_P(AntiradianceGloss, HasTheAlbedoOfTheLobeInEveryBin) {
                                        solid * std::max(0.0, -other);
                         }
                         const double wanted =
-                            at_step(curve, std::abs(cosine) / glm::length(normal));
+                            test::lobe_albedo_at(curve, std::abs(cosine) / glm::length(normal));
                         if (cosine > 0.0) {
                             EXPECT_NEAR(leaves, wanted, within * wanted)
                                 << exponents[k] << ", " << count << " bins";
@@ -189,7 +183,7 @@ TEST_P(AntiradianceGloss, OfOneBinIsSpreadAboutTheMirroredOne) {
                 EXPECT_GT(glm::dot(bright, mirror), std::cos(1.5 * std::sqrt(4.0 * pi / count)))
                     << exponents[k] << ", " << count << " bins";
             }
-            const double albedo = at_step(lobe_albedos(exponents[k]), -glm::dot(n, w));
+            const double albedo = test::lobe_albedo_at(lobe_albedos(exponents[k]), -glm::dot(n, w));
             for (int c = 0; c < 3; ++c) {
                 const double wanted =
                     2.0 * flux * arrives[c] * (0.1 * (c + 1) + lobe.color[c] * albedo);

@@ -59,6 +59,13 @@ struct HandElements {
     void close(std::uint32_t i) { elements[i].end = static_cast<std::uint32_t>(elements.size()); }
 };
 
+// Of lobe_albedos(), between its steps.
+inline double lobe_albedo_at(const std::vector<float>& curve, double cosine) {
+    const double at = std::sqrt(cosine) * double(ALBEDO_STEPS);
+    const auto step = std::min(static_cast<std::size_t>(at), std::size_t{ALBEDO_STEPS} - 1);
+    return curve[step] + (at - static_cast<double>(step)) * (curve[step + 1] - curve[step]);
+}
+
 // As wide as a bin at least.
 inline double exponent_between_bins(double asked, std::size_t bins) {
     return std::min(asked, static_cast<double>(bins) / 6.283185307179586);
