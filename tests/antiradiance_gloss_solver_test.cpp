@@ -126,6 +126,32 @@ TEST_P(GlossyLeaves, ReflectDirectLight) {
     }
 }
 
+// The light of several emitters adds up, each with its colour.
+TEST_P(GlossyLeaves, AddUpTheLightOfEmitters) {
+    const Light point = test::point_light({1.0, 2.0, 0.0}), other = test::point_light({-0.5, 1, 2});
+    AntiradianceOptions options = antiradiance_options(GetParam(), 64, 100);
+    options.steps = 1;
+    const auto rows = [&](const Scene& scene) {
+        GlossyPicture shown(scene, options);
+        EXPECT_TRUE(shown.solver.run());
+        auto out = test::download<float>(shown.solver.gloss().sources,
+                                         shown.solver.gloss().count * std::size_t{3} * 64);
+        for (float& radiance : out) radiance *= static_cast<float>(shown.scene.frame().exposure);
+        return out;
+    };
+    Scene first = sheet(&point), second = sheet(&other), both = sheet(&point);
+    second.lights[0].intensity = {11.0f, 1.0f, 2.0f};
+    both.lights.push_back(second.lights[0]);
+    const std::vector<float> one = rows(first), two = rows(second), sum = rows(both);
+    ASSERT_EQ(sum.size(), one.size());
+    int of_both = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        EXPECT_NEAR(sum[i], one[i] + two[i], 1e-6f + 1e-5f * sum[i]) << i;
+        if (one[i] > 0.0f && two[i] > 0.0f) ++of_both;
+    }
+    EXPECT_GT(of_both, 100);
+}
+
 // Vertices have the mean of their glossy leaves alone, by area.
 TEST_P(GlossyLeaves, ShareTheirVerticesAmongThemselves) {
     Scene scene = test::plain_scene();

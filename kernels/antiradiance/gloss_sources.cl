@@ -9,7 +9,7 @@
 //              local size; tail guarded
 // Writes       the rows and the colours of its leaves; what is not finite stays so, for the pass
 //              that counts it
-// Cost         with an emitter, 27 operations for each bin and 16 more for each above the surface
+// Cost         for an emitter 45 operations a bin, and that of lights.direct at the points
 // SPDX-License-Identifier: MIT
 #include "antiradiance/lobe.clh"
 #include "clgi/shared/scene.h"

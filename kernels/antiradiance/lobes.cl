@@ -10,7 +10,7 @@
 // Work size    1D, one work-item a glossy leaf; any local size; tail guarded
 // Writes       the factors of its leaf: out at bins above the surface, in at their opposites.
 //              NaN for an exponent that is NaN
-// Cost         LOBE_ROUNDS + 1 times 37 operations for every pair of bins above the surface
+// Cost         LOBE_ROUNDS + 1 times 33 operations for every pair of bins above the surface
 // SPDX-License-Identifier: MIT
 #include "antiradiance/lobe.clh"
 
