@@ -371,6 +371,8 @@ TEST(AntiradianceSolver, RefusesWhatItCannotDo) {
     refused([](AntiradianceOptions& o) { o.through_steps = -1; });
     refused([](AntiradianceOptions& o) { o.through_steps = 1001; });
     refused([](AntiradianceOptions& o) { o.residual = std::nan(""); });
+    for (const double least : {-0.1, 1.1, std::nan("")})
+        refused([&](AntiradianceOptions& o) { o.least_gloss = least; });
     refused([](AntiradianceOptions& o) { o.links.bin_share = 0.0; });
     refused([](AntiradianceOptions& o) { o.elements.wished = 0; });
     AntiradianceOptions small = options_of(Math::strict, 32, 300);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
-#include <clgi/passes/antiradiance.hpp>
+#include <clgi/passes/antiradiance_gloss.hpp>
+#include <cmath>
 #include <glm/gtc/packing.hpp>
+#include <optional>
 #include <vector>
 
 #include "device.hpp"
@@ -16,11 +18,20 @@ struct HandLink {
     float form_factor;
 };
 
+// A leaf with a lobe, and what it sends along each bin by itself.
+struct HandLobe {
+    std::uint32_t element;
+    glm::vec3 color;
+    float exponent;
+    std::vector<glm::vec3> sources;  // [bins]
+};
+
 // Elements in depth-first order.
 struct HandElements {
     std::vector<glm::vec4> directions;  // xyz: unit; w: sr
     std::vector<Element> elements;
     std::vector<HandLink> links;
+    std::vector<HandLobe> lobes;  // by element
     std::vector<glm::vec4> sky, sources, reflectances;  // of bins; of leaves
 
     std::uint32_t bins() const { return static_cast<std::uint32_t>(directions.size()); }
@@ -48,16 +59,45 @@ struct HandElements {
     }
     // What the sender has before it in the link's bin; not above 0: the link reads a row.
     float cosine(const HandLink& link) const {
+        for (const HandLobe& lobe : lobes)
+            if (lobe.element >= link.sender && lobe.element < elements[link.sender].end) return 0.0f;
         return glm::dot(glm::vec3(elements[link.sender].normal), glm::vec3(directions[link.bin]));
     }
     void close(std::uint32_t i) { elements[i].end = static_cast<std::uint32_t>(elements.size()); }
 };
 
-// One step after another, in double.
+// Of lobe_albedos(), between its steps.
+inline double lobe_albedo_at(const std::vector<float>& curve, double cosine) {
+    const double at = std::sqrt(cosine) * double(ALBEDO_STEPS);
+    const auto step = std::min(static_cast<std::size_t>(at), std::size_t{ALBEDO_STEPS} - 1);
+    return curve[step] + (at - static_cast<double>(step)) * (curve[step + 1] - curve[step]);
+}
+
+// As wide as a bin at least.
+inline double exponent_between_bins(double asked, std::size_t bins) {
+    return std::min(asked, static_cast<double>(bins) / 6.283185307179586);
+}
+
+// What of the light that a bin brings leaves along another, with the factors of
+// AntiradianceGlossPasses::lobes: 0 unless the surface is met from the front and left to the front.
+inline double between_bins(const HandElements& of, const HandLobe& lobe, const float* factors,
+                           std::size_t from, std::size_t to) {
+    const glm::dvec3 normal(of.elements[lobe.element].normal);
+    const glm::dvec3 n = glm::normalize(normal), w(of.directions[to]);
+    const glm::dvec3 light = -glm::dvec3(of.directions[from]);
+    if (glm::dot(n, light) <= 0.0 || glm::dot(n, w) <= 0.0) return 0.0;
+    const double cosine = glm::dot(2.0 * glm::dot(n, light) * n - light, w);
+    if (cosine <= 0.0) return 0.0;
+    return double(factors[from]) * double(factors[to]) *
+           std::pow(cosine, exponent_between_bins(lobe.exponent, of.directions.size()));
+}
+
+// One step after another, in double. factors: of the lobes, [lobes][bins].
 class LightByDefinition {
 public:
-    explicit LightByDefinition(const HandElements& of)
+    explicit LightByDefinition(const HandElements& of, std::vector<float> factors = {})
         : of_(of),
+          factors_(std::move(factors)),
           exitant(of.elements.size() * of.bins(), glm::dvec3(0.0)),
           radiances(of.sources.size(), glm::dvec3(0.0)),
           irradiances(of.sources.size(), glm::dvec3(0.0)) {}
@@ -91,8 +131,11 @@ public:
             for (std::uint32_t b = 0; b < bins; ++b) {
                 const double scale =
                     leaf.normal.w * glm::dot(normal, glm::dvec3(of_.directions[b]));
-                if (scale > 0.0)
-                    next[i * bins + b] = scale * radiances[leaf.row];
+                if (scale > 0.0) {
+                    if (flags & LOCAL_REFLECT || !lobe_of(i))
+                        next[i * bins + b] =
+                            scale * (radiances[leaf.row] + gloss(i, b, arrives.data() + i * bins));
+                }
                 else if (flags & LOCAL_GO_THROUGH)
                     next[i * bins + b] = scale * arrives[i * bins + b];
             }
@@ -109,7 +152,27 @@ public:
     }
 
 private:
+    const HandLobe* lobe_of(std::uint32_t i) const {
+        for (const HandLobe& lobe : of_.lobes)
+            if (lobe.element == i) return &lobe;
+        return nullptr;
+    }
+
+    glm::dvec3 gloss(std::uint32_t i, std::uint32_t to, const glm::dvec3* arrives) const {
+        const HandLobe* lobe = lobe_of(i);
+        if (!lobe) return glm::dvec3(0.0);
+        const float* factors =
+            factors_.data() + static_cast<std::size_t>(lobe - of_.lobes.data()) * of_.bins();
+        glm::dvec3 sum(0.0);
+        const glm::dvec3 normal(of_.elements[i].normal);
+        for (std::uint32_t b = 0; b < of_.bins(); ++b)
+            sum += between_bins(of_, *lobe, factors, b, to) * of_.directions[b].w *
+                   -glm::dot(normal, glm::dvec3(of_.directions[b])) * arrives[b];
+        return glm::dvec3(lobe->color) * sum + glm::dvec3(lobe->sources[to]);
+    }
+
     const HandElements& of_;
+    std::vector<float> factors_;
 
 public:
     std::vector<glm::dvec3> exitant;                 // [elements][bins]
@@ -150,7 +213,9 @@ public:
             }
             const std::uint32_t parent = of.elements[i].parent;
             level[i] = parent == ELEMENT_NONE ? 0 : level[parent] + 1;
-            std::vector<std::uint32_t>& list = of.is_leaf(i) ? leaves_ : inner_;
+            std::vector<std::uint32_t>& list = !of.is_leaf(i) ? inner_
+                                               : is_glossy(of, i) ? glossy_
+                                                                  : leaves_;
             if (!of.is_leaf(i)) levels_ = std::max(levels_, level[i] + 1);
             list.push_back(i);
         }
@@ -176,7 +241,7 @@ public:
         links_.element_count = count;
         links_.row_count = static_cast<std::uint32_t>(with_rows.size());
         links_.inner_count = static_cast<std::uint32_t>(inner_.size());
-        links_.leaf_count = static_cast<std::uint32_t>(leaves_.size());
+        links_.leaf_count = static_cast<std::uint32_t>(leaves_.size() + glossy_.size());
         rows_.sky = upload(of.sky);
         rows_.incident =
             empty<glm::vec4>(std::max<std::size_t>(inner_.size(), 1) * of.directions.size());
@@ -185,12 +250,13 @@ public:
         rows_.next = upload(nothing);
         rows_.powers = upload(std::vector<glm::vec4>(count, glm::vec4(0.0f)));
         rows_.next_powers = upload(std::vector<glm::vec4>(count, glm::vec4(0.0f)));
-        const std::vector<glm::vec4> dark(leaves_.size(), glm::vec4(0.0f));
+        const std::vector<glm::vec4> dark(links_.leaf_count, glm::vec4(0.0f));
         light = {upload(of.sources), upload(of.reflectances),        upload(dark), upload(dark),
                  upload(dark),       upload(std::vector<cl_uint>{0})};
         directions_ = upload(of.directions);
-        leaf_list_ = upload(leaves_);
+        leaf_list_ = upload(leaves_.empty() ? std::vector<std::uint32_t>{0} : leaves_);
         inner_list_ = upload(inner_.empty() ? std::vector<std::uint32_t>{0} : inner_);
+        if (!of.lobes.empty()) make_gloss(of, how);
     }
 
     void step(std::uint32_t flags) {
@@ -200,8 +266,10 @@ public:
         };
         for (std::uint32_t l = 0; l < levels_; ++l)
             passes_.global(queue, level(l), inner_list_, links_, rows_);
-        passes_.local(queue, {0, links_.leaf_count, flags, 0}, leaf_list_, links_, rows_,
-                      directions_, light);
+        const auto count = static_cast<std::uint32_t>(leaves_.size());
+        passes_.local(queue, {0, count, flags, 0}, leaf_list_, links_, rows_, directions_, light);
+        if (gloss_passes_)
+            gloss_passes_->gloss(queue, flags, links_, rows_, directions_, light, gloss);
         for (std::uint32_t l = levels_; l-- > 0;)
             passes_.pull(queue, level(l), inner_list_, links_, rows_);
         std::swap(rows_.exitant, rows_.next);
@@ -228,12 +296,54 @@ public:
     }
 
     std::vector<std::uint32_t> with_rows;  // elements whose rows links read, and all below them
+    // [lobes][bins]
+    std::vector<float> factors() const {
+        return download<float>(gloss.factors,
+                               gloss.count * static_cast<std::size_t>(passes_.bins()));
+    }
+
     LeafBuffers light;
+    GlossBuffers gloss;
 
 private:
+    static bool is_glossy(const HandElements& of, std::uint32_t i) {
+        return std::any_of(of.lobes.begin(), of.lobes.end(),
+                           [&](const HandLobe& lobe) { return lobe.element == i; });
+    }
+
+    void make_gloss(const HandElements& of, const BuildOptions& how) {
+        gloss_passes_.emplace(programs(), static_cast<int>(of.bins()), how);
+        const auto stride = static_cast<std::size_t>(GLOSS_STRIDE(of.bins()));
+        std::vector<GlossyLeaf> leaves;
+        std::vector<glm::vec4> colors;
+        std::vector<float> albedos, sources(of.lobes.size() * 3 * stride, 0.0f);
+        for (const HandLobe& lobe : of.lobes) {
+            const auto k = static_cast<std::uint32_t>(leaves.size());
+            leaves.push_back({lobe.element, of.elements[lobe.element].row, k, lobe.exponent});
+            colors.emplace_back(lobe.color, 0.0f);
+            const std::vector<float> curve =
+                lobe_albedos(std::isfinite(lobe.exponent) ? lobe.exponent : 1.0f);
+            albedos.insert(albedos.end(), curve.begin(), curve.end());
+            for (std::size_t b = 0; b < lobe.sources.size(); ++b)
+                for (int c = 0; c < 3; ++c)
+                    sources[(3 * k + static_cast<std::size_t>(c)) * stride + b] =
+                        lobe.sources[b][c];
+        }
+        gloss.count = static_cast<std::uint32_t>(leaves.size());
+        gloss.leaves = upload(leaves);
+        gloss.albedos = upload(albedos);
+        gloss.bins = upload(direction_planes(of.directions));
+        gloss.factors = empty<float>(leaves.size() * of.bins());
+        gloss.colors = upload(colors);
+        gloss.sources = upload(sources);
+        gloss.arriving = upload(std::vector<float>(sources.size(), 0.0f));
+        gloss_passes_->lobes(device().queue, links_, gloss);
+    }
+
     AntiradiancePasses passes_;
     bool half_;
-    std::vector<std::uint32_t> leaves_, inner_, begins_;
+    std::optional<AntiradianceGlossPasses> gloss_passes_;
+    std::vector<std::uint32_t> leaves_, glossy_, inner_, begins_;
     std::uint32_t levels_ = 0;
     LinkBuffers links_;
     ElementRows rows_;

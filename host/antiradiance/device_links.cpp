@@ -6,15 +6,25 @@
 namespace clgi {
 namespace {
 
-// Of the front of each link's sender with its bin; 0 where it sends nothing before it, or not one
-// way.
-std::vector<float> cosines_before(const ElementTree& tree, const DirectionBins& bins,
+// Elements in one plane that send as diffuse ones do, without a lobe among them.
+std::vector<std::uint8_t> even_elements(const ElementTree& tree,
+                                        const std::vector<GlossyLeaf>& glossy) {
+    std::vector<std::uint8_t> out(tree.count());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = tree.is_flat(i) ? 1 : 0;
+    for (const GlossyLeaf& leaf : glossy)
+        for (std::uint32_t i = leaf.element; i != no_index; i = tree.parents[i]) out[i] = 0;
+    return out;
+}
+
+// Of the front of each link's sender with its bin; 0 where it sends nothing before it, or not as a
+// diffuse plane does.
+std::vector<float> cosines_before(const std::vector<std::uint8_t>& even, const DirectionBins& bins,
                                   const Links& links, const std::vector<Element>& elements) {
     std::vector<glm::vec3> directions;  // as the kernels have them
     for (const glm::dvec3& direction : bins.directions) directions.emplace_back(direction);
     std::vector<float> out(links.count(), 0.0f);
     for (std::size_t k = 0; k < out.size(); ++k)
-        if (const std::uint32_t sender = links.senders[k]; tree.is_flat(sender))
+        if (const std::uint32_t sender = links.senders[k]; even[sender])
             out[k] = std::max(
                 0.0f, glm::dot(glm::vec3(elements[sender].normal), directions[links.bins[k]]));
     return out;
@@ -34,8 +44,10 @@ std::uint32_t number_rows(const std::vector<std::uint8_t>& read, std::vector<Ele
 }  // namespace
 
 DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, const Links& links,
-                         double scale, std::vector<Element>& elements) {
-    const std::vector<float> before = cosines_before(tree, bins, links, elements);
+                         double scale, const std::vector<GlossyLeaf>& glossy,
+                         std::vector<Element>& elements) {
+    const std::vector<float> before =
+        cosines_before(even_elements(tree, glossy), bins, links, elements);
     std::vector<std::uint8_t> read(elements.size(), 0);
     for (std::size_t k = 0; k < links.count(); ++k)
         if (!(before[k] > 0.0f)) read[links.senders[k]] = 1;

@@ -20,9 +20,11 @@ struct DeviceLinks {
     std::uint32_t rows = 0;           // 0: nothing can lie between any two elements
 };
 
-// elements: as the device has them; gives those a row whose row is read. scale: metres of a unit of
+// glossy: leaves with lobes, which send otherwise than evenly before them. elements: as the device
+// has them; gives those a row whose row is read. scale: metres of a unit of
 // the device's frame.
 DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, const Links& links,
-                         double scale, std::vector<Element>& elements);
+                         double scale, const std::vector<GlossyLeaf>& glossy,
+                         std::vector<Element>& elements);
 
 }  // namespace clgi

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <clgi/planes.hpp>
 
-#include "opencl/launch.hpp"
+#include "antiradiance/linked.hpp"
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
@@ -14,34 +14,10 @@ namespace {
 constexpr std::size_t word = sizeof(std::uint32_t);
 constexpr std::size_t color = sizeof(glm::vec4);
 
-// LINK_ARGUMENTS of kernels/antiradiance/rows.clh.
-struct Linked {
-    const LinkBuffers& links;
-    const ElementRows& rows;
-};
-void set_argument(cl::Kernel& kernel, cl_uint& index, const Linked& from) {
-    const LinkBuffers& l = from.links;
-    for (const cl::Buffer* buffer : {&l.elements, &l.first_links, &l.senders, &l.bins,
-                                     &l.form_factors, &from.rows.sky, &from.rows.powers, &from.rows.exitant})
-        kernel.setArg(index++, *buffer);
-}
-
 void need_list(const PassKernel& pass, const ElementParams& params, const cl::Buffer& list,
                const LinkBuffers& links) {
     need(pass, "list", list, (std::size_t{params.first} + params.count) * word);
     need(pass, "elements", links.elements, links.element_count * sizeof(Element));
-}
-
-void need_linked(const PassKernel& pass, int bins, const LinkBuffers& l, const ElementRows& rows) {
-    const auto row = static_cast<std::size_t>(bins) * color;
-    need(pass, "first_links", l.first_links, (2 * std::size_t{l.element_count} + 1) * word);
-    const std::size_t count = std::max<std::size_t>(l.link_count, 1);
-    need(pass, "senders", l.senders, count * word);
-    need(pass, "bins", l.bins, count * word / 2);
-    need(pass, "form_factors", l.form_factors, count * word);
-    need(pass, "sky", rows.sky, row);
-    need(pass, "powers", rows.powers, l.element_count * color);
-    need(pass, "incident", rows.incident, std::max<std::size_t>(l.inner_count, 1) * row);
 }
 
 void need_points(const PassKernel& pass, const LeafPointParams& params) {
@@ -57,9 +33,7 @@ void need_points(const PassKernel& pass, const LeafPointParams& params) {
 AntiradiancePasses::AntiradiancePasses(const Programs& programs, int bins,
                                        const BuildOptions& options)
     : bins_(bins) {
-    if (bins < 32 || bins > 4096 || bins % 4 != 0)
-        throw Error("antiradiance: bins is " + std::to_string(bins) +
-                    ", a multiple of 4 from 32 to 4096 needed");
+    need_bins(bins);
     BuildOptions one = options;
     one.packet_width = 1;
     const std::string defines = "-DCLGI_BINS=" + std::to_string(bins);
@@ -84,8 +58,7 @@ void AntiradiancePasses::build(std::initializer_list<const char*> passes) const 
 }
 
 std::size_t AntiradiancePasses::intensity_bytes(std::size_t rows) const {
-    return std::max<std::size_t>(rows, 1) * static_cast<std::size_t>(bins_) *
-           (local_.storage == Storage::half ? color / 2 : color);
+    return intensities(local_, bins_, rows);
 }
 
 cl::Event AntiradiancePasses::global(const cl::CommandQueue& queue, const ElementParams& params,
@@ -104,20 +77,9 @@ cl::Event AntiradiancePasses::local(const cl::CommandQueue& queue, const Element
                                     const LeafBuffers& leaves, const WaitList& wait) const {
     need_list(local_, params, list, links);
     need_linked(local_, bins_, links, rows);
-    need(local_, "exitant", rows.exitant, intensity_bytes(links.row_count));
-    need(local_, "next", rows.next, intensity_bytes(links.row_count));
-    need(local_, "next_powers", rows.next_powers, links.element_count * color);
-    need(local_, "directions", directions, static_cast<std::size_t>(bins_) * color);
-    need(local_, "sources", leaves.sources, links.leaf_count * color);
-    need(local_, "reflectances", leaves.reflectances, links.leaf_count * color);
-    need(local_, "radiances", leaves.radiances, links.leaf_count * color);
-    need(local_, "irradiances", leaves.irradiances, links.leaf_count * color);
-    need(local_, "changes", leaves.changes, links.leaf_count * color);
-    need(local_, "non_finite", leaves.non_finite, word);
+    need_leaves(local_, bins_, links, rows, directions, leaves);
     return launch(local_, queue, params.count, wait, params, list, Linked{links, rows},
-                  rows.incident, directions, leaves.sources, leaves.reflectances, leaves.radiances,
-                  leaves.irradiances, leaves.changes, leaves.non_finite, rows.next_powers,
-                  rows.next);
+                  rows.incident, directions, Lit{leaves}, rows.next_powers, rows.next);
 }
 
 cl::Event AntiradiancePasses::pull(const cl::CommandQueue& queue, const ElementParams& params,
@@ -169,16 +131,7 @@ cl::Event AntiradiancePasses::show(const cl::CommandQueue& queue, const ShowElem
                                    const LeafSurface& surface, const GBuffer& seen,
                                    const cl::Buffer& shown, const WaitList& wait) const {
     need_stride(show_, "pixel_stride", params.pixel_stride, params.pixel_count);
-    if (params.element_count > links.element_count || links.element_count > surface.patch_count)
-        throw Error(show_.name + ": element_count is " + std::to_string(params.element_count) +
-                    ", there are " + std::to_string(links.element_count) + " elements and " +
-                    std::to_string(surface.patch_count) + " patches");
-    if (params.triangle_count > scene.info().triangle_count)
-        throw Error(show_.name + ": triangle_count is " + std::to_string(params.triangle_count) +
-                    ", the scene has " + std::to_string(scene.info().triangle_count));
-    need(show_, "roots", surface.roots, params.triangle_count * sizeof(TrianglePatches));
-    need(show_, "elements", links.elements, links.element_count * sizeof(Element));
-    need(show_, "patches", surface.patches, surface.patch_count * sizeof(PatchCorners));
+    need_shown(show_, params.triangle_count, params.element_count, scene, links, surface);
     need(show_, "planes", seen.planes,
          gbuffer_bytes(show_.storage, params.pixel_stride, GBUFFER_BASE));
     need(show_, "ids", seen.ids, GBUFFER_ID_PLANES * word * params.pixel_stride);

@@ -131,6 +131,7 @@ void run_antiradiance(RenderFlags flags) {
                    solver.bytes() + view.bytes() + motion.bytes());
     record.method = "antiradiance";
     record.effects = effects_of(device_scene, view.picture());
+    if (solver.gloss().count > 0) record.effects.push_back("glossy-indirect");
     record.antiradiance = summary;
     save_stats(record, flags.stats);
 }
@@ -161,6 +162,11 @@ void add_antiradiance_flags(CLI::App& command, AntiradianceFlags& flags) {
                     "antiradiance: Change in a step at which it ends, of the light that arrives")
         ->type_name("X")
         ->check(CLI::Range(1e-6, 1.0));
+    command
+        .add_option("--least-gloss", options.least_gloss,
+                    "antiradiance: Share of all light above which lobes count; 1: none does")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1.0));
     command
         .add_option("--bin-share", options.links.bin_share,
                     "antiradiance: Size at which linked elements are refined, of a bin's solid "

@@ -20,6 +20,7 @@ AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scen
     need_range(owner, "steps", options.steps, 0, 10000);
     need_range(owner, "through_steps", options.through_steps, 0, 1000);
     need_range(owner, "most_steps", options.most_steps, 1, 10000);
+    need_range(owner, "least_gloss", options.least_gloss, 0.0, 1.0);
     need_range(owner, "residual", options.residual, 1e-6, 1.0);
     if (options.bins < 32 || options.bins > 4096 || options.bins % 4 != 0)
         throw Error("antiradiance: bins is " + std::to_string(options.bins) +
@@ -32,10 +33,11 @@ AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scen
 
 }  // namespace
 
-AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueue& on,
+AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on,
                                  const Scene& file, const DeviceScene& of,
                                  const AntiradianceOptions& wanted)
-    : queue(on),
+    : programs(all),
+      queue(on),
       scene(of),
       options(checked(wanted, of)),
       bins(direction_bins(options.bins)),
@@ -49,10 +51,12 @@ AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueu
     tree = make_elements(file, options.elements);
     if (tree.leaves == 0) throw Error("antiradiance: the scene has no surface");
     made = make_element_surface(tree, bins, file, scene);
+    glossy = find_glossy_leaves(tree, made, file, options.least_gloss);
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
     table(DeviceLinks()).check(device, options.memory_budget, scene.bytes());  // before it takes time
     const DeviceLinks between = device_links(
-        tree, bins, make_links(tree, bins, options.links), scene.frame().scale, made.elements);
+        tree, bins, make_links(tree, bins, options.links), scene.frame().scale,
+        glossy.leaves, made.elements);
     linking = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     link_total = between.senders.size();
     const BufferTable rows_of = table(between);
@@ -108,16 +112,18 @@ BufferTable AntiradianceSolver::State::table(const DeviceLinks& between) {
     t.add(points.ids, "sample points", size, GBUFFER_ID_PLANES * word * points.stride);
     t.add(irradiance, "sample points", size, irradiance_bytes(Storage::full, points.stride));
     t.add(directions, "directions", bin, m * color);
-    t.add(leaf_list, "elements", size, leaf * word);
+    t.add(leaf_list, "elements", size, glossy.others.size() * word);
     t.add(inner_list, "elements", size, made.inner.size() * word);
     t.add(sum, "counters", size, color);
     t.add(scratch, "counters", size, sum_scratch_bytes(leaf));
+    add_gloss(t);
     return t;
 }
 
 void AntiradianceSolver::State::build() const {
     passes.build({"global", "local", "pull", "sources", "vertices"});
     if (made.first_back < made.leaves.size()) passes.build({"turn"});
+    if (gloss_passes) gloss_passes->build({"lobes", "gloss_sources", "gloss", "gloss_vertices"});
     gbuffer.build({"surface"});
     lights.build({"direct"});
     parallel.build({"sum_tiles", "sum_merge"});
@@ -142,8 +148,9 @@ void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& betw
     put(surface.vertex_leaves, made.vertex_leaves);
     put(samples, made.samples);
     put(directions, direction_rows(bins));
-    put(leaf_list, made.leaves);
+    put(leaf_list, glossy.others);
     put(inner_list, made.inner);
+    write_gloss();
     const auto count = static_cast<std::uint32_t>(made.samples.size());
     record("gbuffer.surface", count, [&](const WaitList& wait) {
         return gbuffer.surface(queue, scene, {count, points.stride, 0, 0}, samples, points, {},
@@ -193,6 +200,7 @@ const std::vector<std::uint32_t>& AntiradianceSolver::leaf_elements() const {
 }
 const LinkBuffers& AntiradianceSolver::links() const { return state_->links; }
 const LeafSurface& AntiradianceSolver::surface() const { return state_->surface; }
+const GlossBuffers& AntiradianceSolver::gloss() const { return state_->gloss; }
 const AntiradiancePasses& AntiradianceSolver::passes() const { return state_->passes; }
 
 }  // namespace clgi

@@ -32,6 +32,7 @@ void AntiradianceSolver::State::light_leaves() {
     record("antiradiance.sources", links.leaf_count, [&](const WaitList& wait) {
         return passes.sources(queue, point_params, scene, points, irradiance, leaves, wait);
     });
+    light_gloss();
 }
 
 // Nothing has arrived yet: leaves send their own light alone.
@@ -53,10 +54,12 @@ void AntiradianceSolver::State::step(std::uint32_t flags) {
         record("antiradiance.global", level(l).count, [&](const WaitList& wait) {
             return passes.global(queue, level(l), inner_list, links, rows, wait);
         });
-    record("antiradiance.local", links.leaf_count, [&](const WaitList& wait) {
-        return passes.local(queue, {0, links.leaf_count, flags, 0}, leaf_list, links, rows,
-                            directions, leaves, wait);
+    const std::uint32_t diffuse = links.leaf_count - gloss.count;
+    record("antiradiance.local", diffuse, [&](const WaitList& wait) {
+        return passes.local(queue, {0, diffuse, flags, 0}, leaf_list, links, rows, directions,
+                            leaves, wait);
     });
+    step_gloss(flags);
     for (std::size_t l = levels; l-- > 0;)
         record("antiradiance.pull", level(l).count, [&](const WaitList& wait) {
             return passes.pull(queue, level(l), inner_list, links, rows, wait);
@@ -154,6 +157,7 @@ bool AntiradianceSolver::State::run(const Progress& progress) {
         asymmetric(progress);
     record("antiradiance.vertices", surface.vertex_count,
            [&](const WaitList& wait) { return passes.vertices(queue, surface, leaves, wait); });
+    keep_gloss();
     record.wait();
     record.report(1.0);
     return !record.cancelled();

@@ -3,17 +3,20 @@
 #pragma once
 
 #include <clgi/kit/emitters.hpp>
+#include <clgi/passes/antiradiance_gloss.hpp>
 #include <clgi/passes/lights.hpp>
 #include <clgi/passes/parallel.hpp>
 #include <clgi/solvers/antiradiance.hpp>
+#include <optional>
 
 #include "antiradiance/device_links.hpp"
 #include "antiradiance/element_surface.hpp"
+#include "antiradiance/glossy_leaves.hpp"
 
 namespace clgi {
 
 struct AntiradianceSolver::State {
-    State(const Programs& programs, const cl::CommandQueue& on, const Scene& file,
+    State(const Programs& all, const cl::CommandQueue& on, const Scene& file,
           const DeviceScene& of, const AntiradianceOptions& wanted);
 
     BufferTable table(const DeviceLinks& between);
@@ -24,6 +27,13 @@ struct AntiradianceSolver::State {
     void put(const cl::Buffer& buffer, const std::vector<T>& values) {
         if (!values.empty()) record.write(buffer, values.data(), values.size() * sizeof(T));
     }
+
+    // Of glossy leaves; nothing where there are none.
+    void add_gloss(BufferTable& table);
+    void write_gloss();
+    void light_gloss();
+    void step_gloss(std::uint32_t flags);
+    void keep_gloss();
 
     void light_leaves();
     void start();
@@ -38,6 +48,7 @@ struct AntiradianceSolver::State {
     void report(const Progress& progress);
     bool run(const Progress& progress);
 
+    Programs programs;
     cl::CommandQueue queue;
     const DeviceScene& scene;
     AntiradianceOptions options;
@@ -45,8 +56,10 @@ struct AntiradianceSolver::State {
     DirectionBins bins;
     ElementTree tree;
     ElementSurface made;  // on the host
+    GlossyLeaves glossy;
     Emitters emitters;
     AntiradiancePasses passes;
+    std::optional<AntiradianceGlossPasses> gloss_passes;  // none without glossy leaves
     GBufferPasses gbuffer;
     LightPasses lights;
     ParallelPasses parallel;
@@ -55,6 +68,7 @@ struct AntiradianceSolver::State {
     ElementRows rows;
     LeafBuffers leaves;
     LeafSurface surface;
+    GlossBuffers gloss;
     RasterBuffers lists;
     LeafPointParams point_params{};
     GBuffer points;

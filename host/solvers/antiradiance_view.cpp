@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/planes.hpp>
 #include <clgi/solvers/antiradiance_view.hpp>
+#include <optional>
 
 namespace clgi {
 namespace {
@@ -21,6 +22,9 @@ struct AntiradianceView::State {
           passes(programs, from.options().bins, picture.options().build) {
         picture.allocate(picture.table(), solver.bytes());
         passes.build({"show"});
+        if (solver.gloss().count == 0) return;
+        gloss_passes.emplace(programs, from.options().bins, picture.options().build);
+        gloss_passes->build({"show_gloss"});
     }
 
     cl::Event render(const Camera& camera, const WaitList& wait) {
@@ -38,13 +42,35 @@ struct AntiradianceView::State {
                                picture.gbuffer(), picture.irradiance(), before);
         });
         picture.combine(view);
+        if (gloss_passes) add_gloss(eye);
         return picture.end(view);
+    }
+
+    // What lobes reflect of all light but direct light, which the picture has.
+    void add_gloss(const glm::vec4& eye) {
+        const auto pixels = static_cast<std::uint32_t>(picture.pixels());
+        const ShowGlossParams params{eye,
+                                     pixels,
+                                     picture.stride(),
+                                     scene.info().triangle_count,
+                                     solver.links().element_count,
+                                     static_cast<float>(scene.frame().exposure),
+                                     0,
+                                     0,
+                                     0};
+        Recorder& record = picture.record();
+        record("antiradiance.show_gloss", pixels, [&](const WaitList& before) {
+            return gloss_passes->show(record.queue(), params, scene, solver.links(),
+                                      solver.surface(), solver.gloss(), picture.gbuffer(),
+                                      picture.radiance(), picture.counter(), before);
+        });
     }
 
     const DeviceScene& scene;
     const AntiradianceSolver& solver;
     Picture picture;
     AntiradiancePasses passes;
+    std::optional<AntiradianceGlossPasses> gloss_passes;  // none without glossy leaves
 };
 
 AntiradianceView::AntiradianceView(const Programs& programs, const cl::CommandQueue& queue,

@@ -12,8 +12,7 @@
 //              are not finite stay so and are counted
 // Cost         that of antiradiance.global, and 36 operations and 16 bytes (half: 8) a bin
 // SPDX-License-Identifier: MIT
-#include "antiradiance/rows.clh"
-#include "finite.clh"
+#include "antiradiance/leaf.clh"
 
 kernel void antiradiance_local(
     const ElementParams params,
@@ -21,12 +20,7 @@ kernel void antiradiance_local(
     LINK_ARGUMENTS,
     global const float4*  restrict incident,     // [inner elements][CLGI_BINS] radiance
     global const float4*  restrict directions,   // [CLGI_BINS] unit; w: sr
-    global const float4*  restrict sources,      // [leaves] rgb radiance that no pass brings
-    global const float4*  restrict reflectances, // [leaves] rgb
-    global float4*        restrict radiances,    // [leaves] rgb that leaves
-    global float4*        restrict irradiances,  // [leaves] rgb that arrived
-    global float4*        restrict changes,      // [leaves] rgb: watts by which it changed; w: its watts
-    global uint*          restrict non_finite,   // [1] leaves whose irradiance is not finite
+    LEAF_ARGUMENTS,
     global float4*        restrict next_powers,  // [elements] area times radiance
     global Intensity*     restrict next)         // [rows][CLGI_BINS] intensities
 {
@@ -36,35 +30,18 @@ kernel void antiradiance_local(
     Element leaf = elements[element];
     LinkedElements of = LINKS;
     Bins4 row[CLGI_FOURS];
-    if (params.step & LOCAL_RECEIVE)
-        receive(element, of, incident, row);
-    else
-        for (uint four = 0; four < CLGI_FOURS; ++four) row[four] = (Bins4)(0.0f);
-
-    global const float* toward = (global const float*)directions;
-    Bins4 normal = in_all_bins((float4)(leaf.normal.xyz, 0.0f)), none = (Bins4)(0.0f);
-    Bins4 sum = none;
-    for (uint four = 0; four < CLGI_FOURS; ++four) {
-        Bins4 w = vload16(four, toward);
-        Bins4 before = fmax(-cosines(w, normal), none) * w.s33337777bbbbffff;
-        sum = fma(before, select(none, row[four], before > none), sum);
-    }
-    float4 arrived = sum_of_bins(sum);
-    float4 change = fabs(arrived - irradiances[leaf.row]) * leaf.normal.w;
-    change.w = (fabs(arrived.x) + fabs(arrived.y) + fabs(arrived.z)) * leaf.normal.w;
-    changes[leaf.row] = change;
-    irradiances[leaf.row] = arrived;
+    receive_at_leaf(element, of, incident, params.step, row);
+    float4 arrived = irradiance_of(leaf, directions, row);
+    note_irradiance(leaf, arrived, irradiances, changes);
     if (!is_finite3(arrived.xyz)) atomic_inc(non_finite);
-
-    float4 radiance = radiances[leaf.row];
-    if (params.step & LOCAL_REFLECT) {
-        radiance = fma(reflectances[leaf.row] * (1.0f / CLGI_PI), arrived, sources[leaf.row]);
-        radiances[leaf.row] = radiance;
-    }
+    float4 radiance =
+        reflect_diffuse(leaf, params.step, arrived, sources, reflectances, radiances);
     next_powers[element] = leaf.normal.w * radiance;
     if (leaf.sends == ELEMENT_NONE) return;
     ulong first = (ulong)leaf.sends * CLGI_FOURS;
+    global const float* toward = (global const float*)directions;
     int goes_through = (params.step & LOCAL_GO_THROUGH) != 0;
+    Bins4 normal = in_all_bins((float4)(leaf.normal.xyz, 0.0f)), none = (Bins4)(0.0f);
     Bins4 sent = in_all_bins(radiance), area = (Bins4)(leaf.normal.w);
     for (uint four = 0; four < CLGI_FOURS; ++four) {
         Bins4 cosine = cosines(vload16(four, toward), normal), scale = cosine * area;

@@ -9,20 +9,7 @@
 //              may give where little arrives, is 0; what is not finite stays so, for the passes that
 //              count it
 // SPDX-License-Identifier: MIT
-#include "clgi/shared/antiradiance.h"
-#include "clgi/shared/gbuffer.h"
-#include "gbuffer/seen.clh"
-#include "planes.clh"
-
-// The half in which weights are those of a point, and its weights there.
-CLGI_INLINE uint halve(float3* weights, uint edge) {
-    float3 w = *weights;
-    if (edge == 1) w = w.yzx;
-    if (edge == 2) w = w.zxy;
-    uint second = w.y > w.x;
-    *weights = second ? (float3)(w.z, 2.0f * w.x, w.y - w.x) : (float3)(w.z, w.x - w.y, 2.0f * w.y);
-    return second;
-}
+#include "antiradiance/seen.clh"
 
 kernel void antiradiance_show(
     const ShowElementsParams      params,
@@ -42,28 +29,12 @@ kernel void antiradiance_show(
     float sum[3] = {0.0f, 0.0f, 0.0f};
     int triangle = seen_triangle(ids, stride, pixel, params.triangle_count);
     if (triangle >= 0) {
-        Seen seen = seen_at(params.eye, triangles[triangle], positions, planes, stride, pixel);
-        float2 at = seen.weights;
-        TrianglePatches root = roots[triangle];
-        bool back = seen.back && root.back != ELEMENT_NONE;
-        uint element = back ? root.back : root.front;
-        if (element != ELEMENT_NONE) {
-            float3 weights = (float3)(1.0f - at.x - at.y, at);
-            if (back) weights = weights.xzy;  // it is wound the other way
-            uint end = element < params.element_count ? elements[element].end : element + 1;
-            while (end != element + 1) {
-                uint cut = elements[element].cut;
-                uint part = halve(&weights, CUT_EDGE(cut)), parts = 2;
-                if (cut & CUT_TWICE) {
-                    part = 2 * part + halve(&weights, CUT_EDGE_OF_HALF(cut, part));
-                    parts = 4;
-                }
-                uint size = (end - (element + 1)) / parts;  // of each, in elements
-                element += 1 + part * size;
-                end = element + size;
-            }
-            weights = fmax(weights, (float3)(0.0f));
-            weights /= weights.x + weights.y + weights.z;
+        SeenLeaf seen = seen_leaf(
+            seen_at(params.eye, triangles[triangle], positions, planes, stride, pixel),
+            roots[triangle], elements, params.element_count);
+        if (seen.element != ELEMENT_NONE) {
+            float3 weights = seen.weights;
+            uint element = seen.element;
             float4 found = weights.x * light[patches[element].vertex[0]] +
                            weights.y * light[patches[element].vertex[1]] +
                            weights.z * light[patches[element].vertex[2]];

@@ -8,11 +8,9 @@
 // Work size    1D, one work-item a pixel; any local size; tail guarded
 // Writes       radiance of its own pixel; adds to non_finite
 // SPDX-License-Identifier: MIT
-#include "clgi/shared/gbuffer.h"
 #include "clgi/shared/receivers.h"
 #include "clgi/shared/scene.h"
-#include "finite.clh"
-#include "planes.clh"
+#include "gloss.clh"
 
 kernel void transfer_add_gloss(
     const AddGlossParams           params,
@@ -30,14 +28,8 @@ kernel void transfer_add_gloss(
     if (material < 0) return;
     float4 reflectance = materials[material].reflectance;
     if (!(reflectance.y + reflectance.z > 0.0f)) return;
-    for (int c = 0; c < 3; ++c) {
-        float base = row_load_one(gbuffer_row(planes, GBUFFER_BASE + c, stride), pixel);
-        float arrives = row_load_one(irradiance_row(light, c, stride), pixel);
-        float sum = fma(fma(reflectance.z, base, reflectance.y) * params.exposure,
-                        arrives > 0.0f ? arrives : 0.0f, radiance[c * stride + pixel]);
-        if (is_finite(arrives) && is_finite(sum))
-            radiance[c * stride + pixel] = sum;
-        else
-            atomic_inc(non_finite);
-    }
+    float arrives[3];
+    for (int c = 0; c < 3; ++c)
+        arrives[c] = row_load_one(irradiance_row(light, c, stride), pixel);
+    add_gloss(pixel, stride, reflectance, arrives, params.exposure, planes, radiance, non_finite);
 }

@@ -88,6 +88,45 @@ typedef struct {
     uint element_count;
 } ShowElementsParams;
 
+// A leaf whose surface has a lobe (docs/materials.md). Its rows of light are planes of red, green
+// and blue, with room for whole packets of bins.
+typedef struct {
+    uint element;
+    uint row;        // among all leaves
+    uint material;   // of the scene: which albedos
+    float exponent;  // of the lobe; those narrower than a bin are widened to it
+} GlossyLeaf;
+
+// Albedos of a lobe that reflects all of what arrives from above: at cosine (k / ALBEDO_STEPS)^2
+// between the normal and the light, k from 0 to ALBEDO_STEPS.
+enum { ALBEDO_STEPS = 32 };
+
+// Bins of a row of a glossy leaf, those that fill its last packet included.
+#define GLOSS_STRIDE(bins) (((bins) + 15) / 16 * 16)
+
+typedef struct {
+    uint leaf_count;     // glossy leaves
+    uint samples;        // points of each
+    uint point_stride;   // of the planes of points
+    uint emitter_count;
+    float texel_bias;  // of shadow maps
+    uint depth_words;
+    uint pad0_;
+    uint pad1_;
+} GlossSourceParams;
+
+typedef struct {
+    float4 eye;         // as in ShowElementsParams
+    uint pixel_count;
+    uint pixel_stride;
+    uint triangle_count;
+    uint element_count;
+    float exposure;
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+} ShowGlossParams;
+
 CLGI_SHARED_END
 
 #endif

@@ -10,7 +10,7 @@
 #include <clgi/kit/buffer_table.hpp>
 #include <clgi/kit/recorder.hpp>
 #include <clgi/links.hpp>
-#include <clgi/passes/antiradiance.hpp>
+#include <clgi/passes/antiradiance_gloss.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
 #include <memory>
@@ -33,6 +33,9 @@ struct AntiradianceOptions {
     // environment arrives in bins.
     EmitterOptions emitters;
     Iteration iteration = Iteration::automatic;
+    // Leaves whose material's lobe reflects more than this share of all light, 0 to 1, send gloss
+    // along every bin; others are diffuse alone. 1: all are.
+    double least_gloss = 1e-4;
     // Local passes, 1 to 10000; 0: until the residual is small. Where the symmetric iteration is
     // given up the asymmetric one makes as many again.
     int steps = 0;
@@ -59,7 +62,7 @@ struct AntiradianceStatus {
 // Owns its buffers, works on the given queue (in order or not). The scene must outlive the solver
 // and stay as it was uploaded. One thread at a time.
 //
-// Diffuse light alone is exchanged. What emissive surfaces send comes through their sample points,
+// Surfaces with lobes exchange gloss as well, in bins. What emissive surfaces send comes through their sample points,
 // as direct light. Surfaces with an alpha mask block as a whole.
 class CLGI_API AntiradianceSolver {
 public:
@@ -101,6 +104,7 @@ public:
     const std::vector<std::uint32_t>& leaf_elements() const;  // [rows] of LeafBuffers
     const LinkBuffers& links() const;
     const LeafSurface& surface() const;
+    const GlossBuffers& gloss() const;  // count is 0 where no leaf is glossy
     const AntiradiancePasses& passes() const;
 
 private:
