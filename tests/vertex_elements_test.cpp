@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "antiradiance/solid_angle.hpp"
 #include "links_checks.hpp"
 #include "spheres.hpp"
 
@@ -170,7 +171,7 @@ TEST(VertexElements, OfOpenSheetsHaveBacks) {
     EXPECT_EQ(make_elements(scene, {.max_area = 1.0, .backs = false}).leaves, 81u);
 }
 
-// Two sheets that touch at a corner; a needle, whose tip has no normal.
+// Two sheets that touch at a corner; a needle, whose tips have no normals.
 TEST(VertexElements, LeaveAloneWhatIsNoSurface) {
     Scene scene = test::plain_scene();
     const auto flat = [](double, double) { return 0.0; };
@@ -183,7 +184,7 @@ TEST(VertexElements, LeaveAloneWhatIsNoSurface) {
 
     Scene needle = test::plain_scene();
     const int sides = 64;
-    needle.positions = {{0, 10, 0}, {0, 0, 0}};
+    needle.positions = {{0, 10, 0}, {0, -10, 0}};
     for (int k = 0; k < sides; ++k) {
         const double a = 2.0 * pi * k / sides;
         needle.positions.emplace_back(std::cos(a), 0.0, std::sin(a));
@@ -194,6 +195,51 @@ TEST(VertexElements, LeaveAloneWhatIsNoSurface) {
     needle.normals.assign(needle.positions.size(), glm::vec3(0, 1, 0));
     EXPECT_EQ(expect_consistent(make_elements(needle, {.max_area = 100.0})), 0u);
     EXPECT_EQ(make_elements(needle, {.max_area = 100.0}).leaves, 128u);
+}
+
+// Beside a coarse sphere, the sender of each link to a small plate is as large as the thirds of its
+// triangles are, those that face the other way subtracted.
+TEST(VertexElements, CoverWhatTheirOutlineCovers) {
+    Scene scene = test::plain_scene();
+    test::add_sphere(scene, {0, 1, 0}, 0.6, 1, 1);
+    const auto plate = static_cast<std::uint32_t>(scene.triangles.size());
+    test::add_triangle(scene, {0, 0, 0}, {0, 0, 1e-3}, {1e-3, 0, 0});
+    const ElementTree tree = make_elements(scene, {.max_area = 1.0});
+    EXPECT_EQ(expect_consistent(tree), 42u);
+    const DirectionBins bins = direction_bins(4096);
+    const Links links = make_links(tree, bins);
+    int mixed = 0, seen = 0;
+    for (std::uint32_t i = 0; i < tree.count(); ++i) {
+        if (tree.triangles[i] != plate || tree.backs[i]) continue;
+        std::vector<double> found(tree.count(), 0.0);
+        for (std::uint32_t k = links.first[i]; k < links.first[i + 1]; ++k) {
+            const auto bin = static_cast<std::size_t>(links.bins[k]);
+            found[links.senders[k]] +=
+                double{links.form_factors[k]} * tree.areas[links.senders[k]] *
+                std::abs(test::bin_cosine(tree, bins, links.senders[k], links.bins[k])) *
+                bins.solid_angles[bin];
+        }
+        for (std::uint32_t s = 0; s < tree.count(); ++s) {
+            if (found[s] == 0.0 || !tree.is_vertex(s)) continue;
+            const glm::dvec3 eye = tree.positions[i];
+            const double side = glm::dot(tree.normals[s], eye - tree.positions[s]) > 0 ? 1 : -1;
+            double wanted = 0.0, away = 0.0;
+            for (std::uint32_t k = tree.first_thirds[s]; k < tree.first_thirds[s + 1]; ++k) {
+                const auto& [a, b, c] = tree.thirds[k].corners;
+                const glm::dvec3 middle = (a + b + c) / 3.0, b2 = (a + b) / 2.0, c2 = (a + c) / 2.0;
+                const double part =
+                    solid_angle({a, b2, middle}, eye) + solid_angle({a, middle, c2}, eye);
+                const bool faces = side * glm::dot(glm::cross(b - a, c - a), eye - a) > 0.0;
+                wanted += faces ? part : -part;
+                away += faces ? 0.0 : part;
+            }
+            EXPECT_NEAR(found[s], wanted, 1e-5 * wanted) << s;
+            ++seen;
+            mixed += away > 0.0;
+        }
+    }
+    EXPECT_GT(seen, 30);
+    EXPECT_GT(mixed, 2);
 }
 
 // From within a sphere of radiance 1 all directions above a leaf are bright: not less than between

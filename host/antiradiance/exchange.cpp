@@ -23,10 +23,6 @@ constexpr double least_sent = 1e-2, least_received = 1e-6;
 constexpr double part_share = 0.25;
 constexpr int most_cuts = 8;
 
-// Radii of a leaf at a vertex beyond which its solid angle is area * cosine / distance^2, as in the
-// paper: the error is at most some (1 / near_radii)^2.
-constexpr double near_radii = 8.0;
-
 constexpr double rounding = 1e-12;  // of heights above a sender, as a share of its radius
 
 }  // namespace
@@ -116,8 +112,7 @@ void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vec
     receives_ = {-tree_.normals[receiver], least_received};
     if (!(distance > 0.0)) return;
     double angle = tree_.areas[sender] / (distance * distance);
-    const bool near =
-        tree_.is_vertex(sender) && (distance < near_radii * tree_.radii[sender] || angle > limit_);
+    const bool near = tree_.is_vertex(sender) && angle > limit_;
     // A leaf that spans bins may have parts in front of the receiver where its middle is behind.
     const bool parts = (tree_.is_patch(sender) || near) && spread_ == Spread::precise;
     if (!parts && !arrives(way)) return;

@@ -28,7 +28,7 @@ LeafVertices leaf_vertices(const ElementTree& tree, const std::vector<std::uint3
     LeafVertices out;
     out.vertices.resize(rows.size());
     std::vector<std::vector<std::uint32_t>> around;  // rows of each vertex
-    std::size_t next = 0;                            // corner
+    std::size_t corner = 0;
     for (std::uint32_t row = 0; row < rows.size(); ++row) {
         if (tree.is_vertex(rows[row])) {
             out.vertices[row].fill(static_cast<std::uint32_t>(around.size()));
@@ -39,7 +39,7 @@ LeafVertices leaf_vertices(const ElementTree& tree, const std::vector<std::uint3
         }
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::dvec3& normal = tree.normals[rows[row]];
-            std::vector<std::uint32_t>& here = at_place[places[next++]];
+            std::vector<std::uint32_t>& here = at_place[places[corner++]];
             std::size_t v = 0;
             while (v < here.size() && glm::dot(normals[here[v]], normal) <= alike) ++v;
             if (v == here.size()) {
