@@ -29,6 +29,12 @@ AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scen
     return options;
 }
 
+std::size_t bytes_of(const std::vector<cl::Buffer>& buffers) {
+    std::size_t sum = 0;
+    for (const cl::Buffer& buffer : buffers) sum += buffer.getInfo<CL_MEM_SIZE>();
+    return sum;
+}
+
 }  // namespace
 
 AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueue& on,
@@ -53,6 +59,7 @@ AntiradianceSolver::State::State(const Programs& programs, const cl::CommandQueu
     const Links between = make_links(tree, bins, options.links);
     linking = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     link_total = between.count();
+    pair_total = between.pairs;
     const BufferTable rows_of = table(between);
     rows_of.check(device, options.memory_budget, scene.bytes());
     rows_of.allocate(record);
@@ -182,8 +189,17 @@ const AntiradianceOptions& AntiradianceSolver::options() const { return state_->
 const ElementTree& AntiradianceSolver::elements() const { return state_->tree; }
 const DirectionBins& AntiradianceSolver::bins() const { return state_->bins; }
 std::size_t AntiradianceSolver::link_count() const { return state_->link_total; }
+std::size_t AntiradianceSolver::link_pairs() const { return state_->pair_total; }
 double AntiradianceSolver::linking_seconds() const { return state_->linking; }
 std::size_t AntiradianceSolver::bytes() const { return state_->bytes; }
+std::size_t AntiradianceSolver::table_bytes() const {
+    const ElementRows& rows = state_->rows;
+    return bytes_of({rows.sky, rows.incident, rows.exitant, rows.next});
+}
+std::size_t AntiradianceSolver::link_bytes() const {
+    const LinkBuffers& links = state_->links;
+    return bytes_of({links.first_links, links.senders, links.bins, links.form_factors});
+}
 const LeafBuffers& AntiradianceSolver::leaves() const { return state_->leaves; }
 const std::vector<std::uint32_t>& AntiradianceSolver::leaf_elements() const {
     return state_->made.leaves;
