@@ -29,9 +29,10 @@ std::uint32_t add_shine(Scene& scene, const glm::vec3& color, const GlossyOption
 
 // Closed, facing inward, around (0, height / 2, 0).
 void add_room(Scene& scene, const glm::dvec3& size, int cells, const glm::vec3& left,
-              const glm::vec3& right) {
+              const glm::vec3& right, float brightness) {
     using generated::add_material;
-    const std::uint32_t pale = add_material(scene, "walls", {0.76f, 0.75f, 0.72f});
+    const std::uint32_t pale =
+        add_material(scene, "walls", brightness * glm::vec3(1.0f, 0.985f, 0.95f));
     const std::uint32_t floor = add_material(scene, "floor", {0.58f, 0.56f, 0.52f});
     generated::Hollow room;
     room.cuts = {generated::even_cuts(-0.5 * size.x, 0.5 * size.x, cells),
@@ -95,7 +96,7 @@ Scene glossy_box(const GlossyOptions& options) {
     check("glossy-box", options);
     Scene scene;
     scene.name = "glossy-box";
-    add_room(scene, {3.0, 2.4, 3.4}, 6, {0.74f, 0.46f, 0.22f}, {0.34f, 0.56f, 0.30f});
+    add_room(scene, {3.0, 2.4, 3.4}, 6, {0.74f, 0.46f, 0.22f}, {0.34f, 0.56f, 0.30f}, 0.76f);
     const std::uint32_t shine = add_shine(scene, {0.26f, 0.42f, 0.86f}, options);
     add_round_cube(scene, generated::placed({0.1, 0.5, -0.45}, 0.62), 0.5, shine);
     generated::end_part(scene, "cube");
@@ -109,7 +110,7 @@ Scene glossy_bust_like(const GlossyOptions& options) {
     check("glossy-bust-like", options);
     Scene scene;
     scene.name = "glossy-bust-like";
-    add_room(scene, {2.8, 2.4, 3.0}, 4, {0.76f, 0.34f, 0.16f}, {0.22f, 0.40f, 0.62f});
+    add_room(scene, {2.8, 2.4, 3.0}, 4, {0.78f, 0.52f, 0.34f}, {0.22f, 0.40f, 0.62f}, 0.36f);
     const std::uint32_t stone = generated::add_material(scene, "stone", {0.48f, 0.46f, 0.43f});
     const std::uint32_t shine = add_shine(scene, {0.88f, 0.62f, 0.30f}, options);
     const glm::dvec3 place(0.0, 0.0, -0.2);
