@@ -27,7 +27,8 @@ TEST_F(Program, ListsTheDeviceThatItWouldTake) {
 
 TEST_F(Program, RendersEveryProceduralSceneToAFinitePicture) {
     for (const std::string name :
-         {"box", "cornell", "furnace", "corridor", "cloth", "chess", "fight-like", "hand-like"}) {
+         {"box", "cornell", "furnace", "corridor", "cloth", "chess", "fight-like", "hand-like",
+          "maze", "office", "character", "oriental-like", "glossy-box", "glossy-bust-like"}) {
         const std::string scene = make(name);
         const fs::path exr = file(name + ".exr");
         const Outcome outcome = run("render " + scene + " -o " + exr.string() + " --png " +

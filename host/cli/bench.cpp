@@ -211,6 +211,8 @@ void run_bench(const BenchFlags& flags) {
     const Session session = open_session(flags.device);
     if (flags.table == "schaerfig1") return run_schaerfig(flags, session);
     if (flags.table == "kautz1" || flags.table == "kautz2") return run_kautz(flags, session);
+    if (flags.table == "dachsbacher1" || flags.table == "dachsbacher2")
+        return run_dachsbacher(flags, session);
     if (flags.table == "layer") return run_layer(flags, session);
     if (flags.table == "views") return run_views(flags, session);
     if (flags.table == "animation") return run_animation(flags, session);
@@ -240,13 +242,15 @@ void add_bench(CLI::App& app) {
                      "schaerfig1: seconds of bakes against numbers of VPLs; "
                      "kautz1: frame rate and error of self-shadowed scenes that deform; "
                      "kautz2: where their time goes; "
+                     "dachsbacher1: frame rate of antiradiance in rooms whose light moves; "
+                     "dachsbacher2: where its time goes, and memory; "
                      "views: hemicubes per second; "
                      "animation: time of a step of animated scenes; "
                      "layer: passes against the same kernels enqueued by hand")
         ->required()
         ->type_name("TABLE")
-        ->check(CLI::IsMember({"cochran1", "cochran2", "schaerfig1", "kautz1", "kautz2", "views",
-                               "animation", "layer"}));
+        ->check(CLI::IsMember({"cochran1", "cochran2", "schaerfig1", "kautz1", "kautz2",
+                               "dachsbacher1", "dachsbacher2", "views", "animation", "layer"}));
     command->add_option("--mesh", flags->mesh, "Mesh in the box, such as the Stanford bunny")
         ->type_name("FILE")
         ->default_str("a generated solid");
@@ -260,10 +264,19 @@ void add_bench(CLI::App& app) {
         ->check(CLI::Range(100, 25600));
     command
         ->add_option("--only", flags->only,
-                     "kautz1, kautz2: this scene, of cloth, fight, chess and hand; may be repeated")
+                     "kautz1, kautz2: this scene, of cloth, fight, chess and hand; dachsbacher1, "
+                     "dachsbacher2: of office, character, oriental, glossy-box and glossy-bust; "
+                     "may be repeated")
         ->type_name("NAME")
         ->default_str("all")
-        ->check(CLI::IsMember({"cloth", "fight", "chess", "hand"}));
+        ->check(CLI::IsMember({"cloth", "fight", "chess", "hand", "office", "character", "oriental",
+                               "glossy-box", "glossy-bust"}));
+    command
+        ->add_option("--spp", flags->samples,
+                     "dachsbacher1: samples per pixel of what errors are measured against; 0: no "
+                     "errors")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1 << 24));
     command
         ->add_option("--vertices", flags->vertices,
                      "kautz1: at most so many vertices of a scene are compared with cast rays; "

@@ -21,6 +21,7 @@ struct BenchFlags {
     std::uint32_t most_vpls = 1600;
     int repeats = 30;
     int vertices = 1000;
+    int samples = 0;
     bool json = false;
 };
 
@@ -44,5 +45,8 @@ inline nlohmann::ordered_json table_json(const BenchFlags& flags, const std::str
 
 // kautz1 and kautz2. Throws Error in a program built without clgi::mesh.
 void run_kautz(const BenchFlags& flags, const Session& session);
+
+// dachsbacher1 and dachsbacher2.
+void run_dachsbacher(const BenchFlags& flags, const Session& session);
 
 }  // namespace clgi::cli

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <clgi/deforming.hpp>
 #include <clgi/error.hpp>
+#include <clgi/interiors.hpp>
 #include <clgi/io/gltf.hpp>
 #include <clgi/procedural.hpp>
 #include <map>
@@ -99,16 +100,29 @@ Scene make_hand(const SceneFlags& flags) {
     return hand_like(options);
 }
 
+template <Scene (*make)(const GlossyOptions&)>
+Scene make_glossy(const SceneFlags& flags) {
+    GlossyOptions options;
+    take(options.roughness, flags.roughness);
+    return make(options);
+}
+
 const std::vector<SceneKind>& scene_kinds() {
     static const std::vector<SceneKind> kinds = {
         {"box", {"--mesh", "--light", "--cone"}, make_box},
+        {"character", {}, [](const SceneFlags&) { return character(); }},
         {"chess", {}, [](const SceneFlags&) { return chess(); }},
         {"cloth", {}, [](const SceneFlags&) { return cloth(); }},
         {"cornell", {"--light", "--cone"}, make_cornell},
         {"corridor", {"--rooms", "--door", "--cone"}, make_corridor},
         {"fight-like", {}, [](const SceneFlags&) { return fight_like(); }},
         {"furnace", {"--light", "--albedo", "--subdivisions", "--cone"}, make_furnace},
+        {"glossy-box", {"--roughness"}, make_glossy<glossy_box>},
+        {"glossy-bust-like", {"--roughness"}, make_glossy<glossy_bust_like>},
         {"hand-like", {"--roughness"}, make_hand},
+        {"maze", {}, [](const SceneFlags&) { return maze(); }},
+        {"office", {}, [](const SceneFlags&) { return office(); }},
+        {"oriental-like", {}, [](const SceneFlags&) { return oriental_like(); }},
     };
     return kinds;
 }
@@ -189,9 +203,11 @@ void add_scene(CLI::App& app) {
         ->default_str(degrees(CorridorOptions().door_angle));
     command
         ->add_option("--roughness", flags->roughness,
-                     "hand-like: of the skin, 0.05 to 1; below 1 it has gloss")
+                     "hand-like, glossy-box, glossy-bust-like: of the object, 0.05 to 1; below 1 "
+                     "it has gloss")
         ->type_name("X")
-        ->default_str(fmt::format("{}", HandOptions().roughness));
+        ->default_str(fmt::format("{}; glossy-...: {}", HandOptions().roughness,
+                                  GlossyOptions().roughness));
     add_quiet_flag(*command, flags->quiet);
     command->callback([command, flags] { run_scene(*command, *flags); });
 }

@@ -10,67 +10,19 @@
 #include <glm/gtc/constants.hpp>
 
 #include "scene/fight_motion.hpp"
-#include "scene/flesh.hpp"
+#include "scene/figure.hpp"
 #include "scene/surfaces.hpp"
 
 namespace clgi {
 namespace {
 
-using namespace generated::fight;
+using namespace generated::figure;
+using generated::fight::clip_length;
+using generated::fight::stance_at;
 
 constexpr std::size_t figure_vertices = 1528;
 constexpr int belt_sides = 24, belt_around = 6;
 constexpr int keys = 97;
-
-generated::Flesh flesh() {
-    generated::Flesh out;
-    out.blend = 0.016;
-    const auto middle = [&](std::uint32_t of, const glm::dvec3& a, const glm::dvec3& b, double p,
-                            double q) {
-        out.bones.push_back({of, a, b, p, q});
-    };
-    const auto pair = [&](std::uint32_t left, std::uint32_t right, const glm::dvec3& a,
-                          const glm::dvec3& b, double p,
-                          double q) { out.add_pair(left, right, a, b, p, q); };
-    pair(pelvis, pelvis, {0.0, 0.95, 0.005}, {0.070, 0.935, 0.0}, 0.095, 0.085);
-    pair(pelvis, pelvis, {0.070, 0.90, -0.045}, {0.075, 0.88, -0.04}, 0.066, 0.060);
-    pair(spine, spine, {0.035, 1.03, 0.010}, {0.045, 1.17, 0.010}, 0.086, 0.088);
-    pair(chest, chest, {0.055, 1.24, 0.0}, {0.075, 1.36, -0.005}, 0.092, 0.090);
-    pair(chest, chest, {0.075, 1.325, 0.060}, {0.100, 1.345, 0.050}, 0.047, 0.042);
-    pair(chest, chest, {0.100, 1.24, -0.035}, {0.125, 1.35, -0.03}, 0.050, 0.055);
-    pair(chest, chest, {0.030, 1.455, -0.015}, {0.135, 1.425, -0.012}, 0.042, 0.042);
-    middle(head, {0.0, 1.42, -0.01}, {0.0, 1.54, 0.003}, 0.055, 0.052);
-    middle(head, {0.0, 1.605, 0.0}, {0.0, 1.648, -0.008}, 0.078, 0.084);
-    middle(head, {0.0, 1.545, 0.040}, {0.0, 1.555, 0.045}, 0.042, 0.046);
-
-    const glm::dvec3 along = glm::normalize(joint_places[left_hand] - joint_places[left_arm]);
-    const glm::dvec3 shoulder = joint_places[left_arm], elbow = joint_places[left_forearm],
-                     hand = joint_places[left_hand];
-    pair(left_arm, right_arm, shoulder, shoulder + 0.03 * along, 0.058, 0.056);
-    pair(left_arm, right_arm, shoulder, elbow, 0.046, 0.036);
-    pair(left_arm, right_arm, shoulder + 0.11 * along + glm::dvec3(0.0, 0.0, 0.012),
-         shoulder + 0.17 * along + glm::dvec3(0.0, 0.0, 0.012), 0.042, 0.038);
-    pair(left_forearm, right_forearm, elbow, hand, 0.036, 0.026);
-    pair(left_forearm, right_forearm, elbow + 0.05 * along, elbow + 0.10 * along, 0.039, 0.036);
-    // Gloves.
-    pair(left_hand, right_hand, hand + 0.010 * along, hand + 0.03 * along, 0.036, 0.044);
-    pair(left_hand, right_hand, hand + 0.055 * along, hand + 0.085 * along, 0.056, 0.052);
-    pair(left_hand, right_hand, hand + 0.05 * along + glm::dvec3(0.0, 0.0, 0.042),
-         hand + 0.075 * along + glm::dvec3(0.0, 0.0, 0.045), 0.026, 0.022);
-
-    const glm::dvec3 hip = joint_places[left_thigh], knee = joint_places[left_shin],
-                     ankle = joint_places[left_foot];
-    pair(left_thigh, right_thigh, hip - glm::dvec3(0.0, 0.05, 0.0), knee, 0.080, 0.052);
-    pair(left_thigh, right_thigh, hip - glm::dvec3(0.0, 0.14, -0.02),
-         hip - glm::dvec3(-0.01, 0.24, -0.02), 0.064, 0.056);
-    pair(left_shin, right_shin, knee, ankle, 0.050, 0.036);
-    pair(left_shin, right_shin, glm::mix(knee, ankle, 0.2) - glm::dvec3(0.0, 0.0, 0.018),
-         glm::mix(knee, ankle, 0.45) - glm::dvec3(0.0, 0.0, 0.016), 0.049, 0.043);
-    pair(left_foot, right_foot, ankle - glm::dvec3(0.0, 0.045, 0.03),
-         ankle + glm::dvec3(0.012, -0.056, 0.13), 0.040, 0.030);
-    pair(left_foot, right_foot, ankle, ankle - glm::dvec3(0.0, 0.03, 0.0), 0.036, 0.038);
-    return out;
-}
 
 // White is what a material's colour is multiplied by, so the material is white.
 glm::vec4 color_of(const glm::dvec3& p, std::uint32_t follows, const FightOptions& options) {
@@ -145,16 +97,9 @@ Scene fight_like(const FightOptions& options) {
 
     generated::Rig rig(scene, "fight", clip_length);
     const std::vector<int> parents(std::begin(joint_parents), std::end(joint_parents));
-    for (std::size_t j = 0; j < joint_count; ++j) {
-        const int parent = joint_parents[j];
-        rig.add_node(
-            joint_names[j], parent,
-            joint_places[j] -
-                (parent < 0 ? glm::dvec3(0.0) : joint_places[static_cast<std::size_t>(parent)]));
-    }
-    const int joints = rig.add_skin();
+    const int joints = add_skeleton(rig);
 
-    const generated::Flesh body = flesh();
+    const generated::Flesh body = figure_flesh(Hands::gloves);
     const generated::FleshMesh mesh = generated::mesh_of(body, figure_vertices);
     const std::vector<std::vector<double>> sharp = generated::weights_of(body, mesh, parents, 0);
     const std::vector<std::vector<double>> weights = generated::weights_of(body, mesh, parents, 3);
@@ -182,15 +127,10 @@ Scene fight_like(const FightOptions& options) {
     }
     scene.colors.resize(scene.positions.size(), glm::vec4(1.0f));
 
-    std::vector<glm::dvec3> places;
-    std::vector<std::vector<glm::dquat>> turns(joint_count);
-    for (int key = 0; key < keys; ++key) {
-        const Stance stance = stance_at(clip_length * key / (keys - 1));
-        places.push_back(stance.pelvis);
-        for (std::size_t j = 0; j < joint_count; ++j) turns[j].push_back(stance.turns[j]);
-    }
-    rig.shift(pelvis, places);
-    for (std::uint32_t j = 0; j < joint_count; ++j) rig.turn(j, turns[j]);
+    std::vector<Stance> stances;
+    for (int key = 0; key < keys; ++key)
+        stances.push_back(stance_at(clip_length * key / (keys - 1)));
+    play(rig, stances);
 
     generated::add_daylight(scene, {-0.55f, -1.0f, -0.5f}, 2.2f);
     scene.cameras.push_back(

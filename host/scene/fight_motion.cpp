@@ -1,38 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene/fight_motion.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
-#include "scene/rigging.hpp"
-
 namespace clgi::generated::fight {
-
-const char* const joint_names[joint_count] = {
-    "pelvis",    "spine",       "chest",         "head",       "left arm",   "left forearm",
-    "left hand", "right arm",   "right forearm", "right hand", "left thigh", "left shin",
-    "left foot", "right thigh", "right shin",    "right foot"};
-
-const int joint_parents[joint_count] = {-1, 0, 1, 2, 2, 4, 5, 2, 7, 8, 0, 10, 11, 0, 13, 14};
-
-const std::array<glm::dvec3, joint_count> joint_places = {{{0.0, 0.95, 0.0},
-                                                           {0.0, 1.08, 0.0},
-                                                           {0.0, 1.22, 0.0},
-                                                           {0.0, 1.49, 0.0},
-                                                           {0.185, 1.415, -0.01},
-                                                           {0.385, 1.215, -0.01},
-                                                           {0.575, 1.025, -0.01},
-                                                           {-0.185, 1.415, -0.01},
-                                                           {-0.385, 1.215, -0.01},
-                                                           {-0.575, 1.025, -0.01},
-                                                           {0.095, 0.92, 0.0},
-                                                           {0.125, 0.50, 0.008},
-                                                           {0.150, 0.086, -0.01},
-                                                           {-0.095, 0.92, 0.0},
-                                                           {-0.125, 0.50, 0.008},
-                                                           {-0.150, 0.086, -0.01}}};
-
 namespace {
 
 using Row = std::vector<glm::dvec3>;
@@ -70,81 +41,27 @@ const Row foot_turns = {{-10, -48, 14}, {-10, -48, 14}, {-10, -46, 18}, {-10, -4
                         {-8, -12, 30},  {-4, 6, -34},   {-4, 8, -48},   {-6, -6, 0},
                         {-8, -30, 26},  {-10, -46, 14}, {-10, -48, 14}, {-10, -48, 14}};
 
-glm::dquat about(const glm::dvec3& axis, double degrees) {
-    return glm::angleAxis(glm::radians(degrees), axis);
-}
-
-const glm::dvec3 x_axis(1.0, 0.0, 0.0), y_axis(0.0, 1.0, 0.0);
-
-// Axes: along a bone, towards the side that its joint bends out to, across.
-glm::dmat3 frame(const glm::dvec3& along, const glm::dvec3& out) {
-    const glm::dvec3 d = glm::normalize(along);
-    const glm::dvec3 m = glm::normalize(out - d * glm::dot(d, out));
-    return glm::dmat3(d, m, glm::cross(d, m));
-}
-
-// Turns two bones to the world so that their end reaches for a target and the joint between them
-// bends towards `out`.
-void reach(Joint upper, const glm::dvec3& root, const glm::dvec3& target, const glm::dvec3& out,
-           const glm::dvec3& out_at_rest, std::array<glm::dquat, joint_count>& world) {
-    const glm::dvec3 first = joint_places[upper + 1] - joint_places[upper];
-    const glm::dvec3 second = joint_places[upper + 2] - joint_places[upper + 1];
-    const double a = glm::length(first), b = glm::length(second);
-    const glm::dvec3 way = target - root;
-    const double far = std::clamp(glm::length(way), 1.05 * std::abs(a - b) + 0.05, 0.992 * (a + b));
-    const double cosine = std::clamp((a * a + far * far - b * b) / (2.0 * a * far), -1.0, 1.0);
-    const glm::dmat3 axes = frame(way, out);
-    const glm::dvec3 bend = a * (cosine * axes[0] + std::sqrt(1.0 - cosine * cosine) * axes[1]);
-    const glm::dvec3 rest = far * axes[0] - bend;
-    const auto turn = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        return glm::normalize(
-            glm::quat_cast(frame(to, out) * glm::transpose(frame(from, out_at_rest))));
-    };
-    world[upper] = turn(first, bend);
-    world[upper + 1] = turn(second, rest);
-}
-
 }  // namespace
 
-Stance stance_at(double seconds) {
+figure::Stance stance_at(double seconds) {
     const double share = seconds / clip_length;
-    const glm::dvec3 twist = through(twists, share), feet = through(foot_turns, share);
-    Stance stance;
-    stance.pelvis = through(pelvis_places, share);
-
-    std::array<glm::dquat, joint_count> world;
-    world[pelvis] = about(y_axis, twist[0]) * about(x_axis, 0.25 * twist[2]);
-    world[chest] = about(y_axis, twist[1]) * about(x_axis, twist[2]);
-    world[spine] = glm::slerp(world[pelvis], world[chest], 0.5);
-    world[head] = about(y_axis, 0.15 * twist[1]) * about(x_axis, 0.3 * twist[2] + 4.0);
-    const auto offset = [](Joint from, Joint to) { return joint_places[to] - joint_places[from]; };
-    const glm::dvec3 waist = stance.pelvis + world[pelvis] * offset(pelvis, spine);
-    const glm::dvec3 ribs = waist + world[spine] * offset(spine, chest);
-
+    const glm::dvec3 feet = through(foot_turns, share);
+    const glm::dvec3 x_axis(1.0, 0.0, 0.0), y_axis(0.0, 1.0, 0.0), forward(0.0, 0.0, 1.0);
+    figure::Moment at;
+    at.pelvis = through(pelvis_places, share);
+    at.twist = through(twists, share);
+    at.left_hand = through(left_fists, share);
+    at.right_hand = through(right_fists, share);
+    at.left_foot = through(left_feet, share);
+    at.right_foot = through(right_feet, share);
     // Elbows bend down and out, knees to where the foot points.
-    reach(left_arm, ribs + world[chest] * offset(chest, left_arm), through(left_fists, share),
-          {0.75, -1.0, -0.25}, {0.0, 0.0, -1.0}, world);
-    reach(right_arm, ribs + world[chest] * offset(chest, right_arm), through(right_fists, share),
-          {-0.85, -1.0, -0.25}, {0.0, 0.0, -1.0}, world);
-    world[left_hand] = world[left_forearm];
-    world[right_hand] = world[right_forearm];
-    const glm::dvec3 forward(0.0, 0.0, 1.0);
-    const glm::dvec3 left_knee = about(y_axis, feet[0] + 12.0) * forward;
-    const glm::dvec3 right_knee = about(y_axis, feet[1]) * forward + glm::dvec3(-0.15, 0.35, 0.0);
-    reach(left_thigh, stance.pelvis + world[pelvis] * offset(pelvis, left_thigh),
-          through(left_feet, share), left_knee, forward, world);
-    reach(right_thigh, stance.pelvis + world[pelvis] * offset(pelvis, right_thigh),
-          through(right_feet, share), right_knee, forward, world);
-    world[left_foot] = about(y_axis, feet[0]);
-    world[right_foot] = about(y_axis, feet[1]) * about(x_axis, feet[2]);
-
-    for (std::size_t j = 0; j < joint_count; ++j) {
-        const int parent = joint_parents[j];
-        stance.turns[j] = parent < 0
-                              ? world[j]
-                              : glm::inverse(world[static_cast<std::size_t>(parent)]) * world[j];
-    }
-    return stance;
+    at.left_elbow = {0.75, -1.0, -0.25};
+    at.right_elbow = {-0.85, -1.0, -0.25};
+    at.left_knee = figure::about(y_axis, feet[0] + 12.0) * forward;
+    at.right_knee = figure::about(y_axis, feet[1]) * forward + glm::dvec3(-0.15, 0.35, 0.0);
+    at.left_sole = figure::about(y_axis, feet[0]);
+    at.right_sole = figure::about(y_axis, feet[1]) * figure::about(x_axis, feet[2]);
+    return stance_of(at);
 }
 
 }  // namespace clgi::generated::fight

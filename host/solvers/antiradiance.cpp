@@ -31,6 +31,12 @@ AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scen
     return options;
 }
 
+std::size_t bytes_of(const std::vector<cl::Buffer>& buffers) {
+    std::size_t sum = 0;
+    for (const cl::Buffer& buffer : buffers) sum += buffer.getInfo<CL_MEM_SIZE>();
+    return sum;
+}
+
 }  // namespace
 
 AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on,
@@ -54,11 +60,12 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
     glossy = find_glossy_leaves(tree, made, file, options.least_gloss);
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
     table(DeviceLinks()).check(device, options.memory_budget, scene.bytes());  // before it takes time
-    const DeviceLinks between = device_links(
-        tree, bins, make_links(tree, bins, options.links), scene.frame().scale,
-        glossy.leaves, made.elements);
+    const Links all_links = make_links(tree, bins, options.links);
+    const DeviceLinks between = device_links(tree, bins, all_links, scene.frame().scale,
+                                             glossy.leaves, made.elements);
     linking = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     link_total = between.senders.size();
+    pair_total = all_links.pairs;
     const BufferTable rows_of = table(between);
     rows_of.check(device, options.memory_budget, scene.bytes());
     rows_of.allocate(record);
@@ -192,8 +199,18 @@ const AntiradianceOptions& AntiradianceSolver::options() const { return state_->
 const ElementTree& AntiradianceSolver::elements() const { return state_->tree; }
 const DirectionBins& AntiradianceSolver::bins() const { return state_->bins; }
 std::size_t AntiradianceSolver::link_count() const { return state_->link_total; }
+std::size_t AntiradianceSolver::link_pairs() const { return state_->pair_total; }
 double AntiradianceSolver::linking_seconds() const { return state_->linking; }
 std::size_t AntiradianceSolver::bytes() const { return state_->bytes; }
+std::size_t AntiradianceSolver::table_bytes() const {
+    const ElementRows& rows = state_->rows;
+    return bytes_of({rows.sky, rows.incident, rows.exitant, rows.next, rows.powers,
+                     rows.next_powers});
+}
+std::size_t AntiradianceSolver::link_bytes() const {
+    const LinkBuffers& links = state_->links;
+    return bytes_of({links.first_links, links.senders, links.bins, links.form_factors});
+}
 const LeafBuffers& AntiradianceSolver::leaves() const { return state_->leaves; }
 const std::vector<std::uint32_t>& AntiradianceSolver::leaf_elements() const {
     return state_->made.leaves;

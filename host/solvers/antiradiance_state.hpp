@@ -74,7 +74,7 @@ struct AntiradianceSolver::State {
     GBuffer points;
     cl::Buffer samples, irradiance, directions, leaf_list, inner_list, sum, scratch, bad_points;
     AntiradianceStatus found;
-    std::size_t link_total = 0, bytes = 0;
+    std::size_t link_total = 0, pair_total = 0, bytes = 0;
     int steps_done = 0;          // of this run
     double first_arrived = 0.0;  // lumens, in the first step
 };

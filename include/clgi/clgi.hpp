@@ -16,6 +16,7 @@
 #include <clgi/elements.hpp>
 #include <clgi/emitters.hpp>
 #include <clgi/error.hpp>
+#include <clgi/interiors.hpp>
 #include <clgi/interval.hpp>
 #include <clgi/kernel_source.hpp>
 #include <clgi/kit/buffer_table.hpp>

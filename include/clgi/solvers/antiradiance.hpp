@@ -96,8 +96,11 @@ public:
     const ElementTree& elements() const;
     const DirectionBins& bins() const;
     std::size_t link_count() const;  // for one direction each
+    std::size_t link_pairs() const;  // Links::pairs
     double linking_seconds() const;  // that elements and links took
     std::size_t bytes() const;
+    std::size_t table_bytes() const;  // of them, intensities and incident light
+    std::size_t link_bytes() const;   // and links
 
     // Results, valid after run().
     const LeafBuffers& leaves() const;
