@@ -288,8 +288,9 @@ void add_render(CLI::App& app) {
             *command, {"--sh-order", "--mask", "--table", "--mask-block", "--sh-window", "--coarse",
                        "--rings", "--per-pixel", "--probe-step", "--interreflections"});
         flags->antiradiance_only = given(*command, {"--bins", "--elements", "--iteration",
-                                                    "--iterations", "--residual", "--bin-share"});
-        flags->not_antiradiance = given(*command, {"--vpls", "--environment-lights", "--fps"});
+                                                    "--iterations", "--residual", "--bin-share",
+                                                    "--poses"});
+        flags->not_antiradiance = given(*command, {"--vpls", "--environment-lights"});
         flags->not_transfer = given(*command, {"--vpls", "--no-direct", "--environment-lights"});
         flags->atlas.bake.emitters = flags->options.emitters;
         if (command->count("--shadow-size") == 0)

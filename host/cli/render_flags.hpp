@@ -35,6 +35,7 @@ struct AntiradianceFlags {
     AntiradianceOptions solver;
     int elements = static_cast<int>(ElementOptions().wished);
     std::string iteration = "auto";
+    int poses = 16;
 };
 
 struct RenderFlags {
