@@ -32,7 +32,7 @@ MovingElementPasses::MovingElementPasses(const Programs& programs, int bins,
     const std::string defines = "-DCLGI_BINS=" + std::to_string(bins);
     refit_ = programs.kernel("antiradiance", "refit", scalar(options), defines);
     refit_clusters_ = programs.kernel("antiradiance", "refit_clusters", scalar(options));
-    relink_ = programs.kernel("antiradiance", "relink", scalar(options), defines);
+    relink_ = programs.kernel("antiradiance", "relink", full(options), defines);
 }
 
 void MovingElementPasses::build(std::initializer_list<const char*> passes) const {
@@ -76,7 +76,7 @@ cl::Event MovingElementPasses::relink(const cl::CommandQueue& queue, const Devic
     // Twice the mean spacing of bins, as links of what stands still have it.
     const double farthest = std::cos(2.0 * std::sqrt(4.0 * 3.14159265358979323846 / bins_));
     const RelinkParams params{moving.link_count, static_cast<float>(farthest), 0, 0};
-    return launch(relink_, queue, moving.link_count, wait, params, moving.links, moving.places,
+    return launch(relink_, queue, packets(relink_, moving.link_count), wait, params, moving.links, moving.places,
                   moving.patches, scene.triangles(), scene.positions(), directions, links.senders,
                   links.bins, links.form_factors);
 }
