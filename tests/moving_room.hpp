@@ -27,8 +27,9 @@ struct MovingRoom {
         for (int y = 0; y < 4; ++y)
             for (int x = 0; x < 4; ++x) {
                 const glm::dvec3 at(2.6 + 0.2 * x, 1.9, 0.6 + 0.2 * y);
-                add_quad(scene, {at, at + glm::dvec3(0, 0, 0.2), at + glm::dvec3(0.2, 0, 0.2),
-                                 at + glm::dvec3(0.2, 0, 0)},
+                add_quad(scene,
+                         {at, at + glm::dvec3(0, 0, 0.2), at + glm::dvec3(0.2, 0, 0.2),
+                          at + glm::dvec3(0.2, 0, 0)},
                          material);
             }
         rest_ = scene.positions;
@@ -64,9 +65,8 @@ struct MovingRoom {
         for (const SceneTriangle& triangle : out.triangles) {
             if (triangle.vertex[0] < first) continue;
             const glm::dvec3& a = out.positions[triangle.vertex[0]];
-            const glm::vec3 normal(glm::normalize(
-                glm::cross(out.positions[triangle.vertex[1]] - a,
-                           out.positions[triangle.vertex[2]] - a)));
+            const glm::vec3 normal(glm::normalize(glm::cross(
+                out.positions[triangle.vertex[1]] - a, out.positions[triangle.vertex[2]] - a)));
             for (const std::uint32_t vertex : triangle.vertex) out.normals[vertex] = normal;
         }
         return out;

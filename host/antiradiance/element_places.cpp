@@ -19,11 +19,11 @@ std::vector<ElementPlace> element_places(const ElementTree& tree,
     std::vector<ElementPlace> out(tree.count());
     for (std::size_t i = 0; i < tree.count(); ++i) {
         const double radius = tree.is_leaf(i) ? 0.0 : radii[i] * scale;
-        out[i].position = glm::vec4(device.frame().to_local(tree.positions[i]),
-                                    static_cast<float>(radius));
+        out[i].position =
+            glm::vec4(device.frame().to_local(tree.positions[i]), static_cast<float>(radius));
         if (tree.is_flat(i))
-            out[i].normal = glm::vec4(glm::dvec4(tree.normals[i],
-                                                 bins.hemisphere_scale(tree.normals[i])));
+            out[i].normal =
+                glm::vec4(glm::dvec4(tree.normals[i], bins.hemisphere_scale(tree.normals[i])));
         out[i].area = static_cast<float>(tree.areas[i] * scale * scale);
         out[i].triangle = tree.is_patch(i) ? on_device[tree.triangles[i]] : ELEMENT_NONE;
     }

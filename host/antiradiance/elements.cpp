@@ -142,7 +142,8 @@ private:
                 high = glm::max(high, at[*f]);
             }
             const glm::dvec3 size = high - low;
-            const int k = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+            const int k =
+                size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
             if (size[k] <= longest) continue;
             longest = size[k];
             axis = k;
@@ -190,9 +191,9 @@ private:
 
     ElementTree& out_;
     const std::vector<Face>& faces_;
-    const std::vector<std::uint8_t>& moves_;         // [triangles]; empty: none does
-    std::vector<std::vector<glm::dvec3>> centres_;   // [1 + poses][faces]; the scene's own first
-    std::vector<std::uint32_t> order_;               // of faces
+    const std::vector<std::uint8_t>& moves_;        // [triangles]; empty: none does
+    std::vector<std::vector<glm::dvec3>> centres_;  // [1 + poses][faces]; the scene's own first
+    std::vector<std::uint32_t> order_;              // of faces
 };
 
 double reach(const Corners& corners, const glm::dvec3& position) {

@@ -8,6 +8,7 @@
 
 #include "antiradiance/faces.hpp"
 #include "antiradiance/parts.hpp"
+#include "antiradiance/refine.hpp"
 #include "antiradiance/solid_angle.hpp"
 
 namespace clgi {
@@ -128,6 +129,7 @@ void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vec
 
 void Exchange::slots(std::uint32_t sender, std::uint32_t receiver, double angle,
                      std::vector<Link>& out) {
+    if (!(angle > 0.0)) return;
     int cuts = 0;
     if (tree_.is_patch(sender) && spread_ == Spread::precise)
         while (cuts < most_part_cuts && angle > std::ldexp(limit_, 2 * cuts)) ++cuts;
@@ -148,7 +150,10 @@ Link Exchange::slot(std::uint32_t sender, std::uint32_t receiver, std::uint32_t 
     }
     const glm::dvec3 way = eye_ - from;
     const double distance = glm::length(way);
-    if (!(angle > 0.0 && distance > 0.0) || !arrives(way)) return out;
+    if (!(angle > 0.0 && distance > 0.0)) return out;
+    // Among pairs that some pose shows to each other are such as lie in one plane in another pose.
+    const double rise = glm::dot(receives_.normal, way);
+    if (tree_.is_flat(receiver) && !(rise > least_rise * distance)) return out;
     const std::optional<int> bin = choose_(way / distance, sends_, receives_);
     if (!bin || !is_ahead(sender, receiver, *bin)) return out;
     out.bin = static_cast<std::uint16_t>(*bin);

@@ -93,8 +93,8 @@ struct Found {
 };
 
 void link_tasks(const Refine& refine, const MotionRefine* motion,
-                const std::vector<ElementPair>& tasks,
-                std::atomic<std::size_t>& next, Exchange exchange, Found& out) {
+                const std::vector<ElementPair>& tasks, std::atomic<std::size_t>& next,
+                Exchange exchange, Found& out) {
     std::vector<ElementPair> open;
     for (std::size_t task = next++; task < tasks.size(); task = next++) {
         open.assign(1, tasks[task]);

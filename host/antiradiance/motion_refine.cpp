@@ -11,6 +11,7 @@ namespace clgi {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+constexpr double rounding = 1e-12;  // of heights above a sender, as a share of its radius
 
 // From the origin to what lies between two points.
 double distance_to(const glm::dvec3& a, const glm::dvec3& b) {
@@ -85,10 +86,12 @@ double MotionRefine::solid_angle(std::size_t sender, std::size_t receiver) const
         const glm::dvec3& eye = pose.positions[receiver];
         const glm::dvec3 way = eye - pose.positions[sender];
         const double square = glm::dot(way, way);
-        if (tree_.is_patch(sender))
-            out = std::max(out, clgi::solid_angle(pose.corners[sender], eye));
-        else if (square > 0.0)
+        if (!(square > 0.0)) continue;
+        const double height = std::abs(glm::dot(pose.normals[sender], way));
+        if (!tree_.is_patch(sender))
             out = std::max(out, pose.areas[sender] / square);
+        else if (height > rounding * pose.radii[sender])
+            out = std::max(out, clgi::solid_angle(pose.corners[sender], eye));
     }
     return out;
 }

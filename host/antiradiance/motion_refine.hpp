@@ -25,7 +25,11 @@ public:
     bool passes(std::size_t sender, std::size_t receiver) const;
     bool far_apart(std::size_t a, std::size_t b) const;
 
-    // The largest that a sender has in a pose, sr, of patches exact.
+    // The largest of all poses.
+    double radius(std::size_t i) const { return radii_[i]; }
+
+    // The largest that a sender has in a pose, sr, of patches exact; 0 where it never faces the
+    // receiver.
     double solid_angle(std::size_t sender, std::size_t receiver) const;
 
 private:

@@ -76,9 +76,9 @@ cl::Event MovingElementPasses::relink(const cl::CommandQueue& queue, const Devic
     // Twice the mean spacing of bins, as links of what stands still have it.
     const double farthest = std::cos(2.0 * std::sqrt(4.0 * 3.14159265358979323846 / bins_));
     const RelinkParams params{moving.link_count, static_cast<float>(farthest), 0, 0};
-    return launch(relink_, queue, packets(relink_, moving.link_count), wait, params, moving.links, moving.places,
-                  moving.patches, scene.triangles(), scene.positions(), directions, links.senders,
-                  links.bins, links.form_factors);
+    return launch(relink_, queue, packets(relink_, moving.link_count), wait, params, moving.links,
+                  moving.places, moving.patches, scene.triangles(), scene.positions(), directions,
+                  links.senders, links.bins, links.form_factors);
 }
 
 }  // namespace clgi

@@ -16,8 +16,7 @@ void place_patch(const Scene& scene, const std::vector<glm::dvec3>& positions,
                  ElementTree& out) {
     const auto p = triangle_corners(scene.triangles[out.triangles[i]], positions);
     for (std::size_t k = 0; k < 3; ++k)
-        out.corners[i][k] =
-            p[0] + weights[k].x * (p[1] - p[0]) + weights[k].y * (p[2] - p[0]);
+        out.corners[i][k] = p[0] + weights[k].x * (p[1] - p[0]) + weights[k].y * (p[2] - p[0]);
     out.positions[i] = centroid(out.corners[i]);
     out.radii[i] = 0.0;
     for (const glm::dvec3& corner : out.corners[i])
@@ -61,9 +60,8 @@ VertexPoses vertex_poses(const Scene& scene, std::size_t clip, int count) {
     if (animation.ranges.empty()) return out;
     for (int k = 0; k < count; ++k) {
         const double share = count > 1 ? static_cast<double>(k) / (count - 1) : 0.0;
-        out.push_back(
-            posed(scene, pose_at(animation, clip, share * animation.clips[clip].duration))
-                .positions);
+        out.push_back(posed(scene, pose_at(animation, clip, share * animation.clips[clip].duration))
+                          .positions);
     }
     return out;
 }

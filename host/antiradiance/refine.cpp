@@ -12,9 +12,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// What rises less than this above a receiver's plane, as a share of its distance, lies in it: it
-// would give less than 1e-6 of the light of a whole hemisphere. Flat clusters are rough by 1e-3.
-constexpr double least_rise = 1e-6, rough = 2e-3;
+constexpr double rough = 2e-3;  // flat clusters are by 1e-3, as a share of a distance
 
 }  // namespace
 
@@ -54,6 +52,8 @@ bool Refine::passes(std::size_t sender, std::size_t receiver) const {
     return glm::dot(tree_.normals[sender], way) <= 0.0;
 }
 
+double Refine::radius(std::size_t i) const { return motion_ ? motion_->radius(i) : tree_.radii[i]; }
+
 bool Refine::far_apart(std::size_t a, std::size_t b) const {
     if (motion_ && motion_->moves(a, b)) return motion_->far_apart(a, b);
     return glm::distance(tree_.positions[a], tree_.positions[b]) * least_ahead >
@@ -75,12 +75,12 @@ bool Refine::operator()(ElementPair& pair, std::vector<ElementPair>& children) c
     pair.to_b = pair.to_b && !hidden(a, b);
     if (!pair.to_a && !pair.to_b) return false;
 
-    const bool apart = far_apart(a, b) ||
-                       (!(pair.to_b && passes(a, b)) && !(pair.to_a && passes(b, a)));
+    const bool apart =
+        far_apart(a, b) || (!(pair.to_b && passes(a, b)) && !(pair.to_a && passes(b, a)));
     const bool cut_a = !tree_.is_leaf(a) && (!apart || seen(a, b) > limit_);
     const bool cut_b = !tree_.is_leaf(b) && (!apart || seen(b, a) > limit_);
     if (!cut_a && !cut_b) return true;
-    if (cut_a && (!cut_b || tree_.radii[a] >= tree_.radii[b])) {
+    if (cut_a && (!cut_b || radius(a) >= radius(b))) {
         for (std::uint32_t c = a + 1; c < tree_.ends[a]; c = tree_.ends[c])
             children.push_back({c, b, pair.to_a, pair.to_b});
     } else {

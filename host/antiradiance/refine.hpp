@@ -15,6 +15,10 @@ struct ElementPair {
     bool to_a, to_b;  // who may receive light of the other
 };
 
+// What rises less than this above a receiver's plane, as a share of its distance, lies in it: it
+// would give less than 1e-6 of the light of a whole hemisphere.
+constexpr double least_rise = 1e-6;
+
 // A link's bin may lie two spacings off its direction, so light gains at least this share of the
 // distance along the bin. Elements further apart than that are ordered along it, all leaves of one
 // before all leaves of the other.
@@ -47,6 +51,7 @@ public:
 
 private:
     bool far_apart(std::size_t a, std::size_t b) const;
+    double radius(std::size_t i) const;
 
     const ElementTree& tree_;
     const double limit_;

@@ -48,8 +48,7 @@ void AntiradianceMotion::build() const { passes_.build({"refit", "refit_clusters
 void AntiradianceMotion::write(Recorder& record, const cl::Buffer& patches) {
     moving_.patches = patches;
     const auto put = [&](const cl::Buffer& buffer, auto& values) {
-        if (!values.empty())
-            record.write(buffer, values.data(), values.size() * sizeof(values[0]));
+        if (!values.empty()) record.write(buffer, values.data(), values.size() * sizeof(values[0]));
         values = {};
     };
     put(moving_.places, places_);

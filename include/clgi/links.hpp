@@ -43,8 +43,8 @@ struct LinkOptions {
 struct LinkOfMotion {
     std::uint32_t link;  // in the arrays of Links
     std::uint32_t receiver;
-    std::uint32_t part;  // of the sender: 0: all of it; else of its quarters and their quarters, see
-                         // clgi/shared/moving_elements.h
+    std::uint32_t part;  // of the sender: 0: all of it; else of its quarters and their quarters,
+                         // see clgi/shared/moving_elements.h
 };
 
 // By receiver, then by sender, then by bin; links of which an end moves by part of the sender.
@@ -69,9 +69,9 @@ struct Links {
 // clgi/moving_elements.hpp); empty: nothing moves. Two elements of which one moves are refined as
 // the worst of the poses wants it, where both go straight from each pose to the next. Between poses
 // a surface that turns may show parts that no pose shows: more poses make that less. Where a
-// sender's triangle exceeds bin_share of a bin in some pose it is cut into 4 or 16 parts with a link
-// each, which may give nothing as long as the elements do not face each other. In the links made
-// here they are as the tree has them.
+// sender's triangle exceeds bin_share of a bin in some pose it is cut into 4 or 16 parts with a
+// link each, which may give nothing as long as the elements do not face each other. In the links
+// made here they are as the tree has them.
 //
 // Throws Error for options out of range, for poses of another number of elements and for more than
 // 2^32 - 1 links, InputError for elements so small that floats cannot hold a form factor.

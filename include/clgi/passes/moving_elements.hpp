@@ -13,8 +13,8 @@ namespace clgi {
 struct MovingElements {
     cl::Buffer places;   // [element_count] ElementPlace
     cl::Buffer patches;  // [element_count] PatchCorners, as of LeafSurface
-    cl::Buffer list;     // uint: elements that move; patches, then clusters from the lowest level up
-    cl::Buffer links;    // [link_count] uint2: moving links; one at least
+    cl::Buffer list;   // uint: elements that move; patches, then clusters from the lowest level up
+    cl::Buffer links;  // [link_count] uint2: moving links; one at least
     std::uint32_t link_count = 0;
 };
 
