@@ -28,7 +28,7 @@ struct Posed {
     ElementTree tree, at;
     Links links;  // at that pose
 
-    Posed(Math math, double time, int bins = 128, std::size_t wished = 700)
+    Posed(Math math, double time, int bins = 128, std::size_t wished = 1500)
         : room(5),
           scene(test::on_device(room.scene)),
           solver(test::programs(), test::device().queue, room.scene, scene,
@@ -228,6 +228,28 @@ TEST(Refit, PutsElementsWhereTheHostDoes) {
     }
 }
 
+// A box that shrinks to a point: its clusters are there, and those above are where the rest is.
+TEST(Refit, FollowsTrianglesThatCollapse) {
+    Followed of;
+    std::vector<glm::dvec3> pose = of.posed.room.at(0.37);
+    for (std::uint32_t v = 0; v < 24; ++v) pose[of.posed.room.first + v] = {1.0, 1.2, 0.9};
+    of.posed.mover.move(0, pose, of.posed.room.scene.normals).wait();
+    of.follow({});
+    const ElementTree at = posed_elements(of.posed.tree, of.posed.room.scene, pose);
+    const auto places = of.places();
+    std::size_t collapsed = 0;
+    for (std::size_t i = 0; i < at.count(); ++i) {
+        const glm::vec3 wanted = of.posed.scene.frame().to_local(at.positions[i]);
+        EXPECT_LT(glm::distance(glm::vec3(places[i].position), wanted), 2e-6f) << i;
+        collapsed += at.areas[i] == 0.0;
+        if (at.areas[i] == 0.0) {
+            EXPECT_EQ(places[i].area, 0.0f) << i;
+            EXPECT_EQ(places[i].normal, glm::vec4(0.0f)) << i;
+        }
+    }
+    EXPECT_GT(collapsed, 12u);
+}
+
 // A room of millimetres and one of a kilometre: powers of two change no bit.
 TEST(RelinkBits, AreTheSameAtEveryScale) {
     const test::MovingRoom room;
@@ -286,6 +308,7 @@ TEST_P(Relink, StaysFiniteWhereSurfacesMeet) {
     places.push_back(places[0]);                            // a line
     for (std::uint32_t v = second; v < scene.positions.size(); ++v)
         places.back()[v] = scene.positions[first] + 0.01 * (v - second) * glm::dvec3(1, 1, 0);
+    std::size_t in_plane = 0;
     for (const auto& place : places) {
         mover.move(0, place, scene.normals).wait();
         solver.geometry_changed();
@@ -296,10 +319,27 @@ TEST_P(Relink, StaysFiniteWhereSurfacesMeet) {
             ASSERT_GE(factor, 0.0f);
         }
         for (const std::uint16_t bin : bins_of(solver)) ASSERT_LT(bin, 128);
+        // What lies in a sender's plane sees nothing of it, and what collapsed sends nothing.
+        const ElementTree here = posed_elements(solver.elements(), scene, place);
+        const auto firsts =
+            test::download<std::uint32_t>(solver.links().first_links, here.count() + 1);
+        const auto senders =
+            test::download<std::uint32_t>(solver.links().senders, solver.link_count());
+        const auto factors = factors_of(solver);
+        for (std::size_t r = 0; r < here.count(); ++r)
+            for (std::uint32_t k = firsts[r]; k < firsts[r + 1]; ++k) {
+                const std::uint32_t s = senders[k];
+                if (!here.is_patch(s) || !(here.moves(s) || here.moves(r))) continue;
+                const glm::dvec3 way = here.positions[r] - here.positions[s];
+                if (std::abs(glm::dot(here.normals[s], way)) > 1e-9) continue;
+                ++in_plane;
+                ASSERT_EQ(factors[k], 0.0f);
+            }
         for (const glm::vec4& e :
              test::download<glm::vec4>(solver.leaves().irradiances, solver.elements().leaves))
             ASSERT_TRUE(std::isfinite(e.x + e.y + e.z));
     }
+    EXPECT_GT(in_plane, 1000u);
 }
 
 TEST(MovingElementPasses, RefuseWhatDoesNotFit) {
