@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "antiradiance/element_places.hpp"
@@ -340,52 +338,6 @@ TEST_P(Relink, StaysFiniteWhereSurfacesMeet) {
             ASSERT_TRUE(std::isfinite(e.x + e.y + e.z));
     }
     EXPECT_GT(in_plane, 1000u);
-}
-
-TEST(MovingElementPasses, RefuseWhatDoesNotFit) {
-    for (const int bins : {0, 30, 33, 4098})
-        EXPECT_THROW(MovingElementPasses(test::programs(), bins), Error) << bins;
-    const MovingElementPasses passes(test::programs(), 32);
-    const cl::CommandQueue& queue = test::device().queue;
-    const test::MovingRoom room;
-    const DeviceScene scene = test::on_device(room.scene);
-    const cl::Buffer tiny = test::empty<char>(1);
-    const auto zeros = [](std::size_t bytes) { return test::upload(std::vector<char>(bytes, 0)); };
-    const std::uint32_t count = 3;
-    LinkBuffers links{
-        zeros(count * sizeof(Element)), zeros(16), zeros(4), zeros(2), zeros(4), count, 1, 2, 1};
-    MovingElements moving{zeros(count * sizeof(ElementPlace)), zeros(count * sizeof(PatchCorners)),
-                          zeros(4), zeros(8), 1};
-    cl::Buffer directions = zeros(32 * 16);
-    const ElementParams one{0, 1, 0, 0};
-    const auto refit = [&] { passes.refit(queue, one, scene, moving, links, directions).wait(); };
-    const auto clusters = [&] { passes.refit_clusters(queue, one, moving, links).wait(); };
-    const auto relink = [&] { passes.relink(queue, scene, moving, links, directions).wait(); };
-    EXPECT_NO_THROW(refit());
-    EXPECT_NO_THROW(relink());
-    const auto refuse = [&](cl::Buffer& buffer, std::initializer_list<std::function<void()>> who) {
-        const cl::Buffer kept = buffer;
-        const std::size_t bytes = kept.getInfo<CL_MEM_SIZE>();
-        for (const cl::Buffer& small : {tiny, test::empty<char>(bytes - 1)}) {
-            buffer = small;
-            for (const auto& pass : who) EXPECT_THROW(pass(), Error);
-        }
-        buffer = kept;
-    };
-    refuse(moving.list, {refit, clusters});
-    refuse(moving.places, {refit, clusters, relink});
-    refuse(links.elements, {refit, clusters, relink});
-    refuse(moving.patches, {refit, relink});
-    refuse(directions, {refit, relink});
-    refuse(moving.links, {relink});
-    refuse(links.senders, {relink});
-    refuse(links.bins, {relink});
-    refuse(links.form_factors, {relink});
-    // Nothing to do.
-    EXPECT_NO_THROW(passes.refit(queue, {0, 0, 0, 0}, scene, moving, links, directions).wait());
-    EXPECT_NO_THROW(passes.refit_clusters(queue, {0, 0, 0, 0}, moving, links).wait());
-    moving.link_count = 0;
-    EXPECT_NO_THROW(relink());
 }
 
 }  // namespace
