@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <clgi/shared/moving_elements.h>
+
 namespace clgi {
 namespace {
 
@@ -27,6 +29,8 @@ std::vector<float> cosines_before(const std::vector<std::uint8_t>& even, const D
         if (const std::uint32_t sender = links.senders[k]; even[sender])
             out[k] = std::max(
                 0.0f, glm::dot(glm::vec3(elements[sender].normal), directions[links.bins[k]]));
+    // Where what moves goes is not known.
+    for (const LinkOfMotion& link : links.moving) out[link.link] = 0.0f;
     return out;
 }
 
@@ -52,8 +56,17 @@ DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, con
     for (std::size_t k = 0; k < links.count(); ++k)
         if (!(before[k] > 0.0f)) read[links.senders[k]] = 1;
     DeviceLinks out;
+    out.places.resize(links.count());
     out.rows = number_rows(read, elements);
+    std::size_t next = 0;  // moving link
     const auto add = [&](std::size_t k, std::uint32_t sender, double factor) {
+        if (next < links.moving.size() && links.moving[next].link == k) {
+            const LinkOfMotion& link = links.moving[next++];
+            out.moving.emplace_back(static_cast<std::uint32_t>(out.senders.size()),
+                                    link.receiver | link.part << PART_SHIFT);
+            out.moving_senders.push_back(links.senders[k]);
+        }
+        out.places[k] = static_cast<std::uint32_t>(out.senders.size());
         out.senders.push_back(sender);
         out.bins.push_back(links.bins[k]);
         out.form_factors.push_back(static_cast<float>(factor / (scale * scale)));

@@ -18,6 +18,12 @@ struct DeviceLinks {
     std::vector<std::uint16_t> bins;
     std::vector<float> form_factors;  // of the device's frame
     std::uint32_t rows = 0;           // 0: nothing can lie between any two elements
+
+    std::vector<std::uint32_t> places;  // [links] as they were given: where each is now
+
+    // Links of which an end moves; all of them read rows, whichever side they come from.
+    std::vector<glm::uvec2> moving;             // MovingElements::links
+    std::vector<std::uint32_t> moving_senders;  // their elements
 };
 
 // glossy: leaves with lobes, which send otherwise than evenly before them. elements: as the device

@@ -6,18 +6,10 @@
 
 #include "antiradiance/halve.hpp"
 #include "antiradiance/leaf_vertices.hpp"
+#include "antiradiance/patch_weights.hpp"
 
 namespace clgi {
 namespace {
-
-// Weights of the second and third corner of a triangle at a point in its plane.
-glm::dvec2 weights_at(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& point) {
-    const glm::dvec3 edge1 = corners[1] - corners[0], edge2 = corners[2] - corners[0];
-    const glm::dvec3 normal = glm::cross(edge1, edge2), to = point - corners[0];
-    const double scale = 1.0 / glm::dot(normal, normal);
-    return {scale * glm::dot(glm::cross(to, edge2), normal),
-            scale * glm::dot(glm::cross(edge1, to), normal)};
-}
 
 // Where a patch with parts was cut; its parts are as many elements each.
 std::uint32_t cut_of(const ElementTree& tree, std::size_t i) {
@@ -142,14 +134,9 @@ ElementSurface make_element_surface(const ElementTree& tree, const DirectionBins
     out.patches.resize(tree.count());
     for (std::uint32_t i = 0; i < tree.count(); ++i) {
         if (!tree.is_patch(i)) continue;
-        const SceneTriangle& triangle = scene.triangles[tree.triangles[i]];
-        std::array<glm::dvec3, 3> whole;
-        for (std::size_t k = 0; k < 3; ++k) whole[k] = scene.positions[triangle.vertex[k]];
-        glm::vec2 weights[3];
-        for (std::size_t k = 0; k < 3; ++k)
-            weights[k] = glm::vec2(weights_at(whole, tree.corners[i][k]));
-        out.patches[i].weights = {weights[0], weights[1]};
-        out.patches[i].last = {weights[2], 0.0f, 0.0f};
+        const PatchWeights weights = patch_weights(tree, i, scene);
+        out.patches[i].weights = {glm::vec2(weights[0]), glm::vec2(weights[1])};
+        out.patches[i].last = {glm::vec2(weights[2]), 0.0f, 0.0f};
         const std::uint32_t t = on_device[tree.triangles[i]], parent = tree.parents[i];
         if (t == no_index || (parent != no_index && tree.is_patch(parent))) continue;
         (tree.backs[i] ? out.roots[t].back : out.roots[t].front) = i;

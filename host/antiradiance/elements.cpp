@@ -10,6 +10,7 @@
 #include "antiradiance/faces.hpp"
 #include "antiradiance/halve.hpp"
 #include "antiradiance/leaf_area.hpp"
+#include "antiradiance/moving_triangles.hpp"
 #include "antiradiance/vertex_cells.hpp"
 
 namespace clgi {
@@ -35,11 +36,16 @@ void check(const ElementOptions& options) {
 // Writes elements in depth-first order; what depends on children comes after.
 class Builder {
 public:
-    Builder(const VertexCells& leaves, ElementTree& out)
-        : out_(out), leaves_(leaves), faces_(leaves.faces) {
-        for (const Face& face : faces_) centres_.push_back(centroid(face.corners));
-        for (const VertexCell& cell : leaves.cells) centres_.push_back(cell.position);
-        order_.resize(centres_.size());
+    // moves: [triangles of the scene]; empty: none does, else there are faces alone.
+    Builder(const VertexCells& leaves, const Scene& scene, const VertexPoses& poses,
+            const std::vector<std::uint8_t>& moves, ElementTree& out)
+        : out_(out), leaves_(leaves), faces_(leaves.faces), moves_(moves), centres_(1) {
+        for (const Face& face : faces_) centres_[0].push_back(centroid(face.corners));
+        for (const VertexCell& cell : leaves.cells) centres_[0].push_back(cell.position);
+        if (!moves.empty())
+            for (const std::vector<glm::dvec3>& pose : poses)
+                centres_.push_back(centroids(faces_, scene, pose));
+        order_.resize(centres_[0].size());
         std::iota(order_.begin(), order_.end(), 0u);
     }
 
@@ -51,12 +57,12 @@ public:
         std::uint32_t* const backs =
             std::stable_partition(first, last, [&](std::uint32_t f) { return !is_back(f); });
         if (backs == last) {
-            tree(first, last, no_index);
+            part(first, last, no_index);
             return;
         }
         const std::uint32_t root = open(no_index);
-        tree(first, backs, root);
-        tree(backs, last, root);
+        part(first, backs, root);
+        part(backs, last, root);
         close(root);
     }
 
@@ -123,22 +129,49 @@ private:
         close(i);
     }
 
-    // At the median of the longest axis of the box of centroids; by number where they are equal,
-    // so halves are halves for identical ones too.
+    bool moves(std::uint32_t face) const {
+        return !moves_.empty() && moves_[faces_[face].triangle] != 0;
+    }
+
+    // At the median of the longest axis of the box of centroids, of those of all poses if they
+    // move; by number where they are equal, so halves are halves for identical ones too.
     Iterator split(Iterator first, Iterator last) {
-        glm::dvec3 low = centres_[*first], high = low;
-        for (Iterator f = first; f != last; ++f) {
-            low = glm::min(low, centres_[*f]);
-            high = glm::max(high, centres_[*f]);
+        const std::vector<glm::dvec3>* centres = nullptr;
+        int axis = 0;
+        double longest = -1.0;
+        for (std::size_t pose = 0; pose < (moves(*first) ? centres_.size() : 1); ++pose) {
+            const std::vector<glm::dvec3>& at = centres_[pose];
+            glm::dvec3 low = at[*first], high = low;
+            for (Iterator f = first; f != last; ++f) {
+                low = glm::min(low, at[*f]);
+                high = glm::max(high, at[*f]);
+            }
+            const glm::dvec3 size = high - low;
+            const int k =
+                size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+            if (size[k] <= longest) continue;
+            longest = size[k];
+            axis = k;
+            centres = &at;
         }
-        const glm::dvec3 size = high - low;
-        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
         const Iterator middle = first + (last - first + 1) / 2;
         std::nth_element(first, middle, last, [&](std::uint32_t a, std::uint32_t b) {
-            const double at_a = centres_[a][axis], at_b = centres_[b][axis];
+            const double at_a = (*centres)[a][axis], at_b = (*centres)[b][axis];
             return at_a != at_b ? at_a < at_b : a < b;
         });
         return middle;
+    }
+
+    // What stands still before what moves: a cluster of both would have to be linked anew whenever
+    // one of its triangles moves.
+    void part(Iterator first, Iterator last, std::uint32_t parent) {
+        const Iterator moving =
+            std::stable_partition(first, last, [&](std::uint32_t f) { return !moves(f); });
+        if (moving == first || moving == last) return tree(first, last, parent);
+        const std::uint32_t i = open(parent);
+        tree(first, moving, i);
+        tree(moving, last, i);
+        close(i);
     }
 
     void tree(Iterator first, Iterator last, std::uint32_t parent) {
@@ -165,8 +198,10 @@ private:
     ElementTree& out_;
     const VertexCells& leaves_;
     const std::vector<Face>& faces_;
-    std::vector<glm::dvec3> centres_;   // [faces, then cells]
-    std::vector<std::uint32_t> order_;  // of them
+    const std::vector<std::uint8_t>& moves_;        // [triangles]; empty: none does
+    std::vector<std::vector<glm::dvec3>> centres_;  // [1 + poses][faces, then cells]; the scene's
+                                                    // own first
+    std::vector<std::uint32_t> order_;              // of faces and cells
 };
 
 // From a position to the farthest point of a leaf or a patch.
@@ -209,7 +244,7 @@ void measure_radii(ElementTree& tree) {
 void find_flat_clusters(ElementTree& tree) {
     const double least = std::cos(flatness);
     for (std::size_t i = tree.count(); i-- > 0;) {
-        if (tree.is_leaf(i) || tree.is_patch(i)) continue;
+        if (tree.is_leaf(i) || tree.is_patch(i) || tree.moves(i)) continue;
         glm::dvec3 sum(0.0);
         for (std::size_t c = i + 1; c < tree.ends[i]; c = tree.ends[c])
             sum += tree.areas[c] * tree.normals[c];
@@ -236,11 +271,22 @@ VertexCells mixed_leaves(const Scene& scene, const Faces& faces, double max_area
     return too_few ? all_faces : out;
 }
 
+void mark_moving(const std::vector<std::uint8_t>& moves, ElementTree& tree) {
+    if (moves.empty()) return;
+    tree.moving.assign(tree.count(), 0);
+    for (std::size_t i = tree.count(); i-- > 0;) {
+        if (tree.is_patch(i)) tree.moving[i] = moves[tree.triangles[i]];
+        if (tree.parents[i] != no_index) tree.moving[tree.parents[i]] |= tree.moving[i];
+    }
+}
+
 }  // namespace
 
-ElementTree make_elements(const Scene& scene, const ElementOptions& options) {
+ElementTree make_elements(const Scene& scene, const ElementOptions& options,
+                          const VertexPoses& poses) {
     check(options);
     const Faces faces = make_faces(scene, options.backs);
+    const std::vector<std::uint8_t> moves = moving_triangles(scene, poses);
     ElementTree out;
     out.skipped_triangles = faces.skipped;
     out.skipped_area = faces.skipped_area;
@@ -251,10 +297,13 @@ ElementTree make_elements(const Scene& scene, const ElementOptions& options) {
                     std::to_string(leaves) +
                     ", at most 67108864 are possible; max_area, min_area "
                     "or wished must be coarser");
-    const VertexCells mixed = mixed_leaves(scene, faces, out.max_area, options);
-    Builder(mixed, out).build();
+    ElementOptions cells = options;
+    cells.vertices = options.vertices && moves.empty();
+    const VertexCells mixed = mixed_leaves(scene, faces, out.max_area, cells);
+    Builder(mixed, scene, poses, moves, out).build();
     if (!mixed.cells.empty())
         out.first_thirds.push_back(static_cast<std::uint32_t>(out.thirds.size()));
+    mark_moving(moves, out);
     gather(out);
     measure_radii(out);
     find_flat_clusters(out);

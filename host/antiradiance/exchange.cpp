@@ -4,8 +4,11 @@
 #include <clgi/error.hpp>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "antiradiance/faces.hpp"
+#include "antiradiance/parts.hpp"
+#include "antiradiance/refine.hpp"
 #include "antiradiance/solid_angle.hpp"
 #include "antiradiance/vertex_cells.hpp"
 
@@ -105,31 +108,52 @@ void Exchange::spread_thirds(double angle) {
     for (const int bin : used_) sums_[static_cast<std::size_t>(bin)] *= angle / seen;
 }
 
-void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out) {
+double Exchange::aim(std::uint32_t sender, std::uint32_t receiver) {
     eye_ = tree_.positions[receiver];
     const glm::dvec3 way = eye_ - tree_.positions[sender];
     const double distance = glm::length(way);
     receives_ = {-tree_.normals[receiver], least_received};
-    if (!(distance > 0.0)) return;
-    double angle = tree_.areas[sender] / (distance * distance);
-    const bool near = tree_.is_vertex(sender) && angle > limit_;
-    // A leaf that spans bins may have parts in front of the receiver where its middle is behind.
-    const bool parts = (tree_.is_patch(sender) || near) && spread_ == Spread::precise;
-    if (!parts && !arrives(way)) return;
-
-    const bool flat = tree_.is_flat(sender);
     sends_ = {};
-    if (flat) {
-        const double height = glm::dot(tree_.normals[sender], way);
-        sends_ = {height > 0.0 ? tree_.normals[sender] : -tree_.normals[sender], least_sent};
-        angle = tree_.is_patch(sender) ? solid_angle(tree_.corners[sender], eye_)
-                : near                 ? cut_thirds(sender, height > 0.0 ? 1.0 : -1.0)
-                                       : angle * std::abs(height) / distance;
-        // In the sender's plane rounding would choose a side, within the sender for 2 pi.
-        if (!(angle > 0.0 && std::abs(height) > rounding * tree_.radii[sender])) return;
-    }
+    near_ = false;
+    if (!(distance > 0.0)) return 0.0;
+    double angle = tree_.areas[sender] / (distance * distance);
+    near_ = tree_.is_vertex(sender) && angle > limit_;
+    if (!tree_.is_flat(sender)) return angle;
+    const double height = glm::dot(tree_.normals[sender], way);
+    sends_ = {height > 0.0 ? tree_.normals[sender] : -tree_.normals[sender], least_sent};
+    angle = tree_.is_patch(sender) ? solid_angle(tree_.corners[sender], eye_)
+            : near_                ? cut_thirds(sender, height > 0.0 ? 1.0 : -1.0)
+                                   : angle * std::abs(height) / distance;
+    // In the sender's plane rounding would choose a side, within the sender for 2 pi.
+    return std::abs(height) > rounding * tree_.radii[sender] ? angle : 0.0;
+}
+
+float Exchange::form_factor(std::uint32_t sender, std::uint32_t receiver, int bin,
+                            double angle) const {
+    const auto j = static_cast<std::size_t>(bin);
+    // What the sender's intensity in this bin is for radiance 1, per area.
+    const double cosine = tree_.is_flat(sender)
+                              ? scales_[sender] * glm::dot(sends_.normal, bins_.directions[j])
+                              : 1.0;
+    const double factor = angle / (tree_.areas[sender] * cosine * bins_.solid_angles[j]);
+    const auto rounded = static_cast<float>(factor);
+    if (!std::isfinite(rounded))
+        throw InputError("make_links: the form factor of element " + std::to_string(sender) +
+                         " to " + std::to_string(receiver) + " is " + std::to_string(factor) +
+                         ", too large for floats");
+    return rounded;
+}
+
+void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out) {
+    const double angle = aim(sender, receiver);
+    const glm::dvec3 way = eye_ - tree_.positions[sender];
+    const double distance = glm::length(way);
+    // A leaf that spans bins may have parts in front of the receiver where its middle is behind.
+    const bool parts = (tree_.is_patch(sender) || near_) && spread_ == Spread::precise;
+    if (!(angle > 0.0) || (!parts && !arrives(way))) return;
+
     if (parts && angle > limit_) {
-        if (near)
+        if (near_)
             spread_thirds(angle);
         else
             spread(tree_.corners[sender], angle, 0);
@@ -144,21 +168,46 @@ void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vec
     if (angle > limit_ && !used_.empty()) ++unrefined_;
 
     for (const int bin : used_) {
-        const auto j = static_cast<std::size_t>(bin);
-        // What the sender's intensity in this bin is for radiance 1, per area.
-        const double cosine =
-            flat ? scales_[sender] * glm::dot(sends_.normal, bins_.directions[j]) : 1.0;
-        const double factor = sums_[j] / (tree_.areas[sender] * cosine * bins_.solid_angles[j]);
-        sums_[j] = 0.0;
+        const double sum = std::exchange(sums_[static_cast<std::size_t>(bin)], 0.0);
         if (!is_ahead(sender, receiver, bin)) continue;
-        const auto rounded = static_cast<float>(factor);
-        if (!std::isfinite(rounded))
-            throw InputError("make_links: the form factor of element " + std::to_string(sender) +
-                             " to " + std::to_string(receiver) + " is " + std::to_string(factor) +
-                             ", too large for floats");
-        out.push_back({receiver, sender, static_cast<std::uint32_t>(bin), rounded});
+        out.push_back({receiver, sender, static_cast<std::uint16_t>(bin), still_part,
+                       form_factor(sender, receiver, bin, sum)});
     }
     used_.clear();
+}
+
+void Exchange::slots(std::uint32_t sender, std::uint32_t receiver, double angle,
+                     std::vector<Link>& out) {
+    if (!(angle > 0.0)) return;
+    int cuts = 0;
+    if (tree_.is_patch(sender) && spread_ == Spread::precise)
+        while (cuts < most_part_cuts && angle > std::ldexp(limit_, 2 * cuts)) ++cuts;
+    for (std::uint32_t part = first_part(cuts); part < first_part(cuts + 1); ++part)
+        out.push_back(slot(sender, receiver, part));
+    if (angle > limit_) ++unrefined_;
+}
+
+Link Exchange::slot(std::uint32_t sender, std::uint32_t receiver, std::uint32_t part) {
+    Link out{receiver, sender, 0, static_cast<std::uint16_t>(part), 0.0f};
+    double angle = aim(sender, receiver);
+    glm::dvec3 from = tree_.positions[sender];
+    if (tree_.is_patch(sender)) {
+        const Corners corners = part_of(tree_.corners[sender], part);
+        from = centroid(corners);
+        if (angle > 0.0) angle = solid_angle(corners, eye_);
+        if (!tree_.is_flat(sender)) return out;
+    }
+    const glm::dvec3 way = eye_ - from;
+    const double distance = glm::length(way);
+    if (!(angle > 0.0 && distance > 0.0)) return out;
+    // Among pairs that some pose shows to each other are such as lie in one plane in another pose.
+    const double rise = glm::dot(receives_.normal, way);
+    if (tree_.is_flat(receiver) && !(rise > least_rise * distance)) return out;
+    const std::optional<int> bin = choose_(way / distance, sends_, receives_);
+    if (!bin || !is_ahead(sender, receiver, *bin)) return out;
+    out.bin = static_cast<std::uint16_t>(*bin);
+    out.form_factor = form_factor(sender, receiver, *bin, angle);
+    return out;
 }
 
 }  // namespace clgi

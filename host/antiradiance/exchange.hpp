@@ -12,8 +12,12 @@
 
 namespace clgi {
 
+constexpr std::uint16_t still_part = 0xffff;
+
 struct Link {
-    std::uint32_t receiver, sender, bin;
+    std::uint32_t receiver, sender;
+    std::uint16_t bin;
+    std::uint16_t part;  // of the sender, see part_of(); still_part: no end of the link moves
     float form_factor;
 };
 
@@ -28,11 +32,26 @@ public:
     // Appends the links from sender to receiver.
     void operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out);
 
+    // The same for a pair of which an end moves: a link for each of the parts that the sender is
+    // cut to, whether it brings light as the tree is or not. solid_angle: the largest that the
+    // sender has from the receiver, sr.
+    void slots(std::uint32_t sender, std::uint32_t receiver, double solid_angle,
+               std::vector<Link>& out);
+
+    // One of these links. Form factor and bin are 0 where no light arrives from that part.
+    Link slot(std::uint32_t sender, std::uint32_t receiver, std::uint32_t part);
+
     std::size_t unrefined() const { return unrefined_; }
 
 private:
     using Corners = std::array<glm::dvec3, 3>;
 
+    // Makes a pair the present one: sr of the sender from the receiver's position, and what both
+    // demand of bins; 0 where neither light nor antiradiance arrives.
+    double aim(std::uint32_t sender, std::uint32_t receiver);
+    // Throws InputError if it is too large for floats.
+    float form_factor(std::uint32_t sender, std::uint32_t receiver, int bin,
+                      double solid_angle) const;
     // Light on `way` meets the front of the receiver, or the receiver has no front.
     bool arrives(const glm::dvec3& way) const { return glm::dot(receives_.normal, way) >= 0.0; }
     void add(int bin, double solid_angle);
@@ -62,6 +81,7 @@ private:
     // Of the present pair.
     glm::dvec3 eye_{0.0};  // the receiver's position
     BinDemand sends_, receives_;
+    bool near_ = false;  // the sender is a leaf at a vertex, and its thirds count
     std::vector<std::pair<Corners, double>> halves_;  // of thirds, with their solid angles
     std::vector<double> sums_;                        // [bins] sr; zero between calls
     std::vector<int> used_;                           // bins that are not zero

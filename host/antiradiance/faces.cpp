@@ -40,6 +40,13 @@ double least_height(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& 
 
 }  // namespace
 
+bool is_thin(const std::array<glm::dvec3, 3>& p, const glm::dvec3& middle) {
+    const double longest =
+        std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
+    const double twice = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+    return !(longest > 0.0 && twice / longest > least_height(p, middle));
+}
+
 Faces make_faces(const Scene& scene, bool backs) {
     check_materials(scene);
     Adjacency mesh = adjacency(scene);
@@ -54,10 +61,7 @@ Faces make_faces(const Scene& scene, bool backs) {
         for (int k = 0; k < 3; ++k) p[k] = scene.positions[scene.triangles[t].vertex[k]];
         const glm::dvec3 across = glm::cross(p[1] - p[0], p[2] - p[0]);
         const double twice = glm::length(across);
-        const double longest = std::max(
-            {glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
-        const bool thin = !(longest > 0.0 && twice / longest > least_height(p, middle));
-        if (thin || mesh.pieces[t] == no_index) {
+        if (is_thin(p, middle) || mesh.pieces[t] == no_index) {
             ++out.skipped;
             out.skipped_area += 0.5 * twice;
             continue;

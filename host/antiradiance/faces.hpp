@@ -29,6 +29,9 @@ struct Faces {
 // backs: of double-sided triangles and of those in pieces that are not closed.
 Faces make_faces(const Scene& scene, bool backs);
 
+// Floats could not tell the normal of a triangle in a scene about `middle`.
+bool is_thin(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& middle);
+
 inline glm::dvec3 centroid(const std::array<glm::dvec3, 3>& corners) {
     return corners[0] + ((corners[1] - corners[0]) + (corners[2] - corners[0])) / 3.0;
 }

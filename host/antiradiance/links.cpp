@@ -9,11 +9,13 @@
 #include <future>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <tuple>
 
 #include "antiradiance/exchange.hpp"
+#include "antiradiance/motion_refine.hpp"
 #include "antiradiance/refine.hpp"
 
 namespace clgi {
@@ -22,7 +24,12 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t tasks_wanted = 4096;  // many for each thread, for they differ in size
 
-void check(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options) {
+void check(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
+           const std::vector<ElementTree>& poses) {
+    for (const ElementTree& pose : poses)
+        if (pose.count() != tree.count())
+            throw Error("make_links: a pose has " + std::to_string(pose.count()) +
+                        " elements, the tree has " + std::to_string(tree.count()));
     if (!(options.bin_share > 0.0 && std::isfinite(options.bin_share)))
         throw Error("make_links: bin_share is " + std::to_string(options.bin_share) +
                     ", needs a number above 0");
@@ -86,8 +93,9 @@ struct Found {
     std::size_t unrefined = 0;
 };
 
-void link_tasks(const Refine& refine, const std::vector<ElementPair>& tasks,
-                std::atomic<std::size_t>& next, Exchange exchange, Found& out) {
+void link_tasks(const Refine& refine, const MotionRefine* motion,
+                const std::vector<ElementPair>& tasks, std::atomic<std::size_t>& next,
+                Exchange exchange, Found& out) {
     std::vector<ElementPair> open;
     for (std::size_t task = next++; task < tasks.size(); task = next++) {
         open.assign(1, tasks[task]);
@@ -96,8 +104,15 @@ void link_tasks(const Refine& refine, const std::vector<ElementPair>& tasks,
             open.pop_back();
             if (!refine(pair, open)) continue;
             ++out.pairs;
-            if (pair.to_a) exchange(pair.b, pair.a, out.links);
-            if (pair.to_b) exchange(pair.a, pair.b, out.links);
+            const auto link = [&](std::uint32_t sender, std::uint32_t receiver) {
+                if (motion && motion->moves(sender, receiver))
+                    exchange.slots(sender, receiver, motion->solid_angle(sender, receiver),
+                                   out.links);
+                else
+                    exchange(sender, receiver, out.links);
+            };
+            if (pair.to_a) link(pair.b, pair.a);
+            if (pair.to_b) link(pair.a, pair.b);
         }
     }
     out.unrefined = exchange.unrefined();
@@ -105,11 +120,15 @@ void link_tasks(const Refine& refine, const std::vector<ElementPair>& tasks,
 
 }  // namespace
 
-Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options) {
-    check(tree, bins, options);
+Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
+                 const std::vector<ElementTree>& poses) {
+    check(tree, bins, options, poses);
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const int threads = options.threads > 0 ? options.threads : cores;
-    const Refine refine(tree, options.bin_share * 4.0 * pi / bins.count());
+    std::optional<MotionRefine> motion;
+    if (!poses.empty()) motion.emplace(tree, poses);
+    const MotionRefine* const moving = motion ? &*motion : nullptr;
+    const Refine refine(tree, options.bin_share * 4.0 * pi / bins.count(), moving);
     const std::vector<double> scales = hemisphere_scales(tree, bins);
     const std::vector<ElementPair> tasks = make_tasks(tree, refine);
     std::shared_ptr<const SpreadTable> table;
@@ -118,7 +137,7 @@ Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkO
     std::vector<Found> found(static_cast<std::size_t>(threads));
     std::atomic<std::size_t> next{0};
     on_threads(threads, [&](int t) {
-        link_tasks(refine, tasks, next, Exchange(tree, bins, scales, options, table),
+        link_tasks(refine, moving, tasks, next, Exchange(tree, bins, scales, options, table),
                    found[static_cast<std::size_t>(t)]);
     });
 
@@ -150,15 +169,18 @@ Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkO
             const auto begin = sorted.begin() + out.first[i],
                        end = sorted.begin() + out.first[i + 1];
             std::sort(begin, end, [](const Link& a, const Link& b) {
-                return std::tie(a.sender, a.bin) < std::tie(b.sender, b.bin);
+                return std::tie(a.sender, a.part, a.bin) < std::tie(b.sender, b.part, b.bin);
             });
             for (std::size_t k = out.first[i]; k < out.first[i + 1]; ++k) {
                 out.senders[k] = sorted[k].sender;
-                out.bins[k] = static_cast<std::uint16_t>(sorted[k].bin);
+                out.bins[k] = sorted[k].bin;
                 out.form_factors[k] = sorted[k].form_factor;
             }
         }
     });
+    for (std::uint32_t k = 0; motion && k < total; ++k)
+        if (sorted[k].part != still_part)
+            out.moving.push_back({k, sorted[k].receiver, sorted[k].part});
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "antiradiance/motion_refine.hpp"
 #include "antiradiance/vertex_cells.hpp"
 
 namespace clgi {
@@ -12,18 +13,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// What rises less than this above a receiver's plane, as a share of its distance, lies in it: it
-// would give less than 1e-6 of the light of a whole hemisphere. Flat clusters are rough by 1e-3.
-constexpr double least_rise = 1e-6, rough = 2e-3;
-
-// A link's bin may lie two spacings off its direction, so light gains at least this share of the
-// distance along the bin. Elements further apart than that are ordered along it, all leaves of one
-// before all leaves of the other.
-constexpr double least_ahead = 0.8;
+constexpr double rough = 2e-3;  // flat clusters are by 1e-3, as a share of a distance
 
 }  // namespace
 
 double Refine::seen(std::size_t element, std::size_t from) const {
+    if (motion_ && motion_->moves(element, from)) return motion_->seen(element, from);
     const glm::dvec3 way = tree_.positions[from] - tree_.positions[element];
     const double distance = glm::length(way), radius = tree_.radii[element];
     if (distance <= radius + tree_.radii[from]) return std::numeric_limits<double>::infinity();
@@ -34,9 +29,8 @@ double Refine::seen(std::size_t element, std::size_t from) const {
     return angle * std::min(1.0, height / distance);
 }
 
-// The sender has no part in front of the receiver's plane. So have its parts for those of the
-// receiver.
 bool Refine::hidden(std::size_t sender, std::size_t receiver) const {
+    if (motion_ && motion_->moves(sender, receiver)) return motion_->hidden(sender, receiver);
     if (!tree_.is_flat(receiver)) return false;
     const glm::dvec3& normal = tree_.normals[receiver];
     const glm::dvec3 way = tree_.positions[sender] - tree_.positions[receiver];
@@ -59,11 +53,19 @@ bool Refine::hidden(std::size_t sender, std::size_t receiver) const {
     return height + tree_.radii[sender] * tilt <= rough * glm::length(way);
 }
 
-// Whether light may come through the sender to the receiver.
 bool Refine::passes(std::size_t sender, std::size_t receiver) const {
+    if (motion_ && motion_->moves(sender, receiver)) return motion_->passes(sender, receiver);
     if (!tree_.is_flat(sender)) return true;
     const glm::dvec3 way = tree_.positions[receiver] - tree_.positions[sender];
     return glm::dot(tree_.normals[sender], way) <= 0.0;
+}
+
+double Refine::radius(std::size_t i) const { return motion_ ? motion_->radius(i) : tree_.radii[i]; }
+
+bool Refine::far_apart(std::size_t a, std::size_t b) const {
+    if (motion_ && motion_->moves(a, b)) return motion_->far_apart(a, b);
+    return glm::distance(tree_.positions[a], tree_.positions[b]) * least_ahead >
+           tree_.radii[a] + tree_.radii[b];
 }
 
 bool Refine::operator()(ElementPair& pair, std::vector<ElementPair>& children) const {
@@ -81,13 +83,12 @@ bool Refine::operator()(ElementPair& pair, std::vector<ElementPair>& children) c
     pair.to_b = pair.to_b && !hidden(a, b);
     if (!pair.to_a && !pair.to_b) return false;
 
-    const bool apart = glm::distance(tree_.positions[a], tree_.positions[b]) * least_ahead >
-                           tree_.radii[a] + tree_.radii[b] ||
-                       (!(pair.to_b && passes(a, b)) && !(pair.to_a && passes(b, a)));
+    const bool apart =
+        far_apart(a, b) || (!(pair.to_b && passes(a, b)) && !(pair.to_a && passes(b, a)));
     const bool cut_a = !tree_.is_leaf(a) && (!apart || seen(a, b) > limit_);
     const bool cut_b = !tree_.is_leaf(b) && (!apart || seen(b, a) > limit_);
     if (!cut_a && !cut_b) return true;
-    if (cut_a && (!cut_b || tree_.radii[a] >= tree_.radii[b])) {
+    if (cut_a && (!cut_b || radius(a) >= radius(b))) {
         for (std::uint32_t c = a + 1; c < tree_.ends[a]; c = tree_.ends[c])
             children.push_back({c, b, pair.to_a, pair.to_b});
     } else {

@@ -289,8 +289,8 @@ void add_render(CLI::App& app) {
                        "--rings", "--per-pixel", "--probe-step", "--interreflections"});
         flags->antiradiance_only = given(*command, {"--bins", "--elements", "--iteration",
                                                     "--iterations", "--residual", "--least-gloss",
-                                                    "--bin-share"});
-        flags->not_antiradiance = given(*command, {"--vpls", "--environment-lights", "--fps"});
+                                                    "--bin-share", "--spread", "--poses"});
+        flags->not_antiradiance = given(*command, {"--vpls", "--environment-lights"});
         flags->not_transfer = given(*command, {"--vpls", "--no-direct", "--environment-lights"});
         flags->atlas.bake.emitters = flags->options.emitters;
         if (command->count("--shadow-size") == 0)

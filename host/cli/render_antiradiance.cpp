@@ -74,6 +74,9 @@ void run_antiradiance(RenderFlags flags) {
     options.elements.wished = static_cast<std::size_t>(flags.antiradiance.elements);
     options.emitters = flags.options.emitters;
     options.build = build_of(flags.device);
+    if (flags.fps)
+        options.poses = vertex_poses(scene, clip_of("render", scene, flags.animation),
+                                     flags.antiradiance.poses);
     AntiradianceSolver solver(programs, session.queue, scene, device_scene, options);
     AntiradianceView view(programs, session.queue, device_scene, solver, picture_options(flags));
     Motion motion(flags, scene, device_scene, session.queue);
@@ -85,6 +88,7 @@ void run_antiradiance(RenderFlags flags) {
     // The first picture warms up and is not timed.
     if (!solver.run([&](double done) { return bar(done); })) throw Interrupted();
     view.render(scene.cameras[static_cast<std::size_t>(flags.camera)]).wait();
+    const auto picture = [&] { return report::radiance_picture(session.queue, view.picture()); };
     for (int frame = 0; frame < flags.frames; ++frame) {
         const Stopwatch frame_watch;
         const Motion::Step step = motion.at(frame);
@@ -92,6 +96,7 @@ void run_antiradiance(RenderFlags flags) {
             solver.lights_changed();
             view.lights_changed();
         }
+        if (solver.moving_elements() > 0) solver.geometry_changed();
         if (!solver.run([](double) { return !interrupted(); })) throw Interrupted();
         view.render(step.camera);
         session.queue.finish();
@@ -100,9 +105,11 @@ void run_antiradiance(RenderFlags flags) {
         const std::vector<PassEvent>& shown = view.picture().events();
         passes.insert(passes.end(), shown.begin(), shown.end());
         record.passes.push_back(report::pass_times(passes));
+        if (flags.fps) save_picture(picture(), numbered(flags.picture, frame));
         if (interrupted()) throw Interrupted();
     }
-    save_picture(report::radiance_picture(session.queue, view.picture()), flags.picture);
+    if (!flags.fps) save_picture(picture(), flags.picture);
+    motion.report();
 
     const AntiradianceStatus status = solver.status();
     const std::uint32_t in_picture = view.picture().non_finite();
@@ -111,6 +118,7 @@ void run_antiradiance(RenderFlags flags) {
     const AntiradianceSummary summary{solver.elements().count(),
                                       solver.elements().leaves,
                                       solver.link_count(),
+                                      solver.moving_links(),
                                       solver.options().bins,
                                       name_of(status.iteration),
                                       status.diverged,
@@ -120,10 +128,10 @@ void run_antiradiance(RenderFlags flags) {
                                       1e3 * solver.linking_seconds()};
     if (!quiet) {
         fmt::print(
-            "{}: {:.1f} ms a frame ({} frames, {} elements, {} links, {} steps, {}), {:.2f} s "
-            "to link\n",
+            "{}: {:.1f} ms a frame ({} frames, {} elements, {} links, {} of them moving, {} steps, "
+            "{}), {:.2f} s to link\n",
             names_of(flags.picture), report::spread(record.frame_ms).median, record.frame_ms.size(),
-            summary.elements, summary.links, summary.steps, summary.iteration,
+            summary.elements, summary.links, summary.moving_links, summary.steps, summary.iteration,
             1e-3 * summary.linking_ms);
     }
     if (flags.stats.empty()) return;
@@ -146,6 +154,11 @@ void add_antiradiance_flags(CLI::App& command, AntiradianceFlags& flags) {
                     "antiradiance: Parts that surfaces are cut to, about")
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 24));
+    command
+        .add_option("--poses", flags.poses,
+                    "antiradiance: Poses of the animation that links are made for, with --fps")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
     command
         .add_option("--iteration", flags.iteration,
                     "antiradiance: How reflections and light that is let through alternate; auto: "

@@ -36,6 +36,7 @@ struct AntiradianceFlags {
     int elements = static_cast<int>(ElementOptions().wished);
     std::string iteration = "auto";
     std::string spread = "precise";
+    int poses = 16;
 };
 
 struct RenderFlags {

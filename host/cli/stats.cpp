@@ -79,7 +79,8 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
     if (record.antiradiance) {
         const AntiradianceSummary& a = *record.antiradiance;
         out["antiradiance"] = {{"elements", a.elements},   {"leaves", a.leaves},
-                               {"links", a.links},         {"bins", a.bins},
+                               {"links", a.links},         {"moving_links", a.moving_links},
+                               {"bins", a.bins},
                                {"iteration", a.iteration}, {"diverged", a.diverged},
                                {"converged", a.converged}, {"steps", a.steps},
                                {"residual", a.residual},   {"linking_ms", a.linking_ms}};

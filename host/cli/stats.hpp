@@ -37,6 +37,7 @@ struct AntiradianceSummary {
     std::size_t elements = 0;
     std::size_t leaves = 0;
     std::size_t links = 0;
+    std::size_t moving_links = 0;  // of these
     int bins = 0;
     std::string iteration;
     bool diverged = false;  // the symmetric iteration did

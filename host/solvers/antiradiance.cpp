@@ -52,17 +52,26 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
       gbuffer(programs, full(options.build)),
       lights(programs, full(options.build)),
       parallel(programs, options.build),
-      record(queue, owner) {
+      record(queue, owner),
+      frame(of.frame()) {
     const auto begin = std::chrono::steady_clock::now();
-    tree = make_elements(file, options.elements);
+    tree = make_elements(file, options.elements, options.poses);
     if (tree.leaves == 0) throw Error("antiradiance: the scene has no surface");
     made = make_element_surface(tree, bins, file, scene);
     glossy = find_glossy_leaves(tree, made, file, options.least_gloss);
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
     table(DeviceLinks()).check(device, options.memory_budget, scene.bytes());  // before it takes time
-    const Links all_links = make_links(tree, bins, options.links);
+    std::vector<ElementTree> poses;
+    for (const std::vector<glm::dvec3>& pose : options.poses)
+        if (!tree.moving.empty()) poses.push_back(posed_elements(tree, file, pose));
+    options.poses = {};
+    const Links all_links = make_links(tree, bins, options.links, poses);
     const DeviceLinks between = device_links(tree, bins, all_links, scene.frame().scale,
                                              glossy.leaves, made.elements);
+    if (!poses.empty())
+        motion = std::make_unique<AntiradianceMotion>(programs, options.build, tree, poses, bins,
+                                                      file, scene, between);
+    moved = motion != nullptr;
     linking = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     link_total = between.senders.size();
     pair_total = all_links.pairs;
@@ -124,6 +133,7 @@ BufferTable AntiradianceSolver::State::table(const DeviceLinks& between) {
     t.add(sum, "counters", size, color);
     t.add(scratch, "counters", size, sum_scratch_bytes(leaf));
     add_gloss(t);
+    if (motion) motion->add_to(t);
     return t;
 }
 
@@ -134,6 +144,7 @@ void AntiradianceSolver::State::build() const {
     gbuffer.build({"surface"});
     lights.build({"direct"});
     parallel.build({"sum_tiles", "sum_merge"});
+    if (motion) motion->build();
     build_draw(gbuffer, scene, emitters.set().views.size());
 }
 
@@ -158,6 +169,11 @@ void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& betw
     put(leaf_list, glossy.others);
     put(inner_list, made.inner);
     write_gloss();
+    if (motion) motion->write(record, surface.patches);
+    place_points();
+}
+
+void AntiradianceSolver::State::place_points() {
     const auto count = static_cast<std::uint32_t>(made.samples.size());
     record("gbuffer.surface", count, [&](const WaitList& wait) {
         return gbuffer.surface(queue, scene, {count, points.stride, 0, 0}, samples, points, {},
@@ -167,6 +183,14 @@ void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& betw
         record("antiradiance.turn", count, [&](const WaitList& wait) {
             return passes.turn(queue, point_params, points.planes, wait);
         });
+}
+
+void AntiradianceSolver::State::follow_geometry() {
+    motion->follow(record, scene, links, directions);
+    const auto turns = [&](const GlossyLeaf& leaf) { return tree.moves(leaf.element); };
+    if (std::any_of(glossy.leaves.begin(), glossy.leaves.end(), turns)) make_lobes();
+    place_points();
+    moved = false;
 }
 
 AntiradianceSolver::AntiradianceSolver(const Programs& programs, const cl::CommandQueue& queue,
@@ -182,6 +206,17 @@ void AntiradianceSolver::lights_changed() {
         throw Error("antiradiance: a light needs more views than before; make another solver");
     s.record.forget_failed();
     s.emitters.write(s.record);
+}
+
+void AntiradianceSolver::geometry_changed(const WaitList& wait) {
+    State& s = *state_;
+    if (!s.motion)
+        throw Error("antiradiance: geometry_changed() needs a solver made with poses that move");
+    const SceneFrame& now = s.scene.frame();
+    if (now.origin != s.frame.origin || now.scale != s.frame.scale)
+        throw Error("antiradiance: the scene has another local frame; make another solver");
+    s.moved = true;
+    s.moves.insert(s.moves.end(), wait.begin(), wait.end());
 }
 
 bool AntiradianceSolver::run(const Progress& progress) { return state_->run(progress); }
@@ -200,6 +235,12 @@ const ElementTree& AntiradianceSolver::elements() const { return state_->tree; }
 const DirectionBins& AntiradianceSolver::bins() const { return state_->bins; }
 std::size_t AntiradianceSolver::link_count() const { return state_->link_total; }
 std::size_t AntiradianceSolver::link_pairs() const { return state_->pair_total; }
+std::size_t AntiradianceSolver::moving_elements() const {
+    return state_->motion ? state_->motion->element_count() : 0;
+}
+std::size_t AntiradianceSolver::moving_links() const {
+    return state_->motion ? state_->motion->link_count() : 0;
+}
 double AntiradianceSolver::linking_seconds() const { return state_->linking; }
 std::size_t AntiradianceSolver::bytes() const { return state_->bytes; }
 std::size_t AntiradianceSolver::table_bytes() const {

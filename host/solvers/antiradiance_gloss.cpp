@@ -41,6 +41,11 @@ void AntiradianceSolver::State::write_gloss() {
     put(gloss.vertex_leaves, glossy.vertex_leaves);
     // Past the last bin a row is never written.
     record.fill(gloss.arriving, 0);
+    make_lobes();
+}
+
+// As the normals of leaves are.
+void AntiradianceSolver::State::make_lobes() {
     record("antiradiance.lobes", gloss.count,
            [&](const WaitList& wait) { return gloss_passes->lobes(queue, links, gloss, wait); });
 }

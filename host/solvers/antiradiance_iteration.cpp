@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solvers/antiradiance_state.hpp"
 
@@ -145,9 +146,10 @@ void AntiradianceSolver::State::asymmetric(const Progress& progress) {
 }
 
 bool AntiradianceSolver::State::run(const Progress& progress) {
-    record.begin({}, progress);
+    record.begin(std::exchange(moves, {}), progress);
     found = {};
     steps_done = 0;
+    if (moved) follow_geometry();
     light_leaves();
     const bool either = options.iteration == Iteration::automatic;
     if (options.iteration != Iteration::asymmetric) found.diverged = !symmetric(progress);

@@ -12,6 +12,7 @@
 #include "antiradiance/device_links.hpp"
 #include "antiradiance/element_surface.hpp"
 #include "antiradiance/glossy_leaves.hpp"
+#include "solvers/antiradiance_motion.hpp"
 
 namespace clgi {
 
@@ -31,10 +32,15 @@ struct AntiradianceSolver::State {
     // Of glossy leaves; nothing where there are none.
     void add_gloss(BufferTable& table);
     void write_gloss();
+    void make_lobes();
     void light_gloss();
     void step_gloss(std::uint32_t flags);
     void keep_gloss();
 
+    // Sample points of leaves where the scene's vertices are.
+    void place_points();
+    // The same for elements and links.
+    void follow_geometry();
     void light_leaves();
     void start();
     void step(std::uint32_t flags);
@@ -74,6 +80,10 @@ struct AntiradianceSolver::State {
     GBuffer points;
     cl::Buffer samples, irradiance, directions, leaf_list, inner_list, sum, scratch, bad_points;
     AntiradianceStatus found;
+    SceneFrame frame;                            // that elements and links were made for
+    std::unique_ptr<AntiradianceMotion> motion;  // null: nothing moves
+    bool moved = false;                          // since the last run
+    WaitList moves;                              // that the next run waits for
     std::size_t link_total = 0, pair_total = 0, bytes = 0;
     int steps_done = 0;          // of this run
     double first_arrived = 0.0;  // lumens, in the first step

@@ -27,6 +27,7 @@
 #include <clgi/kit/recorder.hpp>
 #include <clgi/links.hpp>
 #include <clgi/mask_weights.hpp>
+#include <clgi/moving_elements.hpp>
 #include <clgi/passes/antiradiance.hpp>
 #include <clgi/passes/atlas.hpp>
 #include <clgi/passes/gbuffer.hpp>
@@ -34,6 +35,7 @@
 #include <clgi/passes/import.hpp>
 #include <clgi/passes/lights.hpp>
 #include <clgi/passes/masks.hpp>
+#include <clgi/passes/moving_elements.hpp>
 #include <clgi/passes/parallel.hpp>
 #include <clgi/passes/receivers.hpp>
 #include <clgi/passes/scene.hpp>

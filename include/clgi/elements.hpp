@@ -14,7 +14,7 @@
 // Light passes an open sheet unless both of its sides are there to block it. So a triangle that is
 // double-sided, or of a piece of the mesh that is not closed, has a second patch that faces
 // backwards, wound against the first. Where there are backs, the root has two children: all fronts
-// and all backs.
+// and all backs. Where some triangles move, the still ones have a cluster of their own in each.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -27,6 +27,10 @@
 #include <vector>
 
 namespace clgi {
+
+// Where the vertices of a scene are at times of a motion, in their order: [poses][vertices] metres.
+// See vertex_poses() of clgi/moving_elements.hpp.
+using VertexPoses = std::vector<std::vector<glm::dvec3>>;
 
 struct ElementOptions {
     double max_area = 0.0;  // m^2 of a leaf; 0: what gives about the wished number of leaves
@@ -48,8 +52,8 @@ struct VertexThird {
 
 struct ElementTree {
     std::vector<glm::dvec3> positions;  // metres: the centroid, of clusters weighted by area
-    // Unit, of leaves, patches and clusters whose triangles face one way in one plane, to a thousandth
-    // of a radian and of the radius; zero for other clusters.
+    // Unit, of leaves, patches and still clusters whose triangles face one way in one plane, to a
+    // thousandth of a radian and of the radius; zero for other clusters.
     std::vector<glm::dvec3> normals;
     std::vector<double> areas;  // m^2
     std::vector<double> radii;  // metres, of the sphere around the position that holds the subtree
@@ -63,6 +67,7 @@ struct ElementTree {
     std::vector<std::uint8_t> backs;          // 1: a leaf or patch of the back of its triangle
     std::vector<std::uint32_t> first_thirds;  // [elements + 1] in thirds; empty: none has any
     std::vector<VertexThird> thirds;          // of leaves at vertices
+    std::vector<std::uint8_t> moving;      // 1: a vertex of the subtree moves; empty: none does
 
     double max_area = 0.0;  // m^2 that triangles were cut to
     std::size_t leaves = 0;
@@ -76,10 +81,15 @@ struct ElementTree {
         return !first_thirds.empty() && first_thirds[i] != first_thirds[i + 1];
     }
     bool is_flat(std::size_t i) const { return normals[i] != glm::dvec3(0.0); }
+    bool moves(std::size_t i) const { return !moving.empty() && moving[i] != 0; }
 };
 
+// The elements of the scene as its arrays hold it. With poses, triangles that move are apart from
+// those that stand still, and so are those that part from each other in some pose.
 // Throws InputError for vertices and materials that do not exist and for positions that are not
-// finite, Error for an option out of range and for more than 2^26 leaves.
-CLGI_API ElementTree make_elements(const Scene& scene, const ElementOptions& options = {});
+// finite, Error for an option out of range, for poses of another number of vertices and for more
+// than 2^26 leaves.
+CLGI_API ElementTree make_elements(const Scene& scene, const ElementOptions& options = {},
+                                   const VertexPoses& poses = {});
 
 }  // namespace clgi

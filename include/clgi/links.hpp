@@ -42,12 +42,22 @@ struct LinkOptions {
     int threads = 0;  // up to 1024; 0: all
 };
 
-// By receiver, then by sender, then by bin.
+// A link of which an end moves: its bin and form factor change with it.
+struct LinkOfMotion {
+    std::uint32_t link;  // in the arrays of Links
+    std::uint32_t receiver;
+    std::uint32_t part;  // of the sender: 0: all of it; else of its quarters and their quarters,
+                         // see clgi/shared/moving_elements.h
+};
+
+// By receiver, then by sender, then by bin; links of which an end moves by part of the sender.
 struct Links {
     std::vector<std::uint32_t> first{0};  // [elements + 1] of the receiver, in the arrays below
     std::vector<std::uint32_t> senders;
     std::vector<std::uint16_t> bins;
     std::vector<float> form_factors;  // 1/m^2/sr
+
+    std::vector<LinkOfMotion> moving;  // in the order of links
 
     std::size_t pairs = 0;      // of elements, each for one direction or both: the paper's links
     std::size_t unrefined = 0;  // pairs, counted per receiver, whose sender is larger than a bin
@@ -56,9 +66,20 @@ struct Links {
     std::size_t bytes() const { return 4 * first.size() + (4 + 2 + 4) * senders.size(); }
 };
 
-// The same links for any number of threads. Throws Error for options out of range and for more
-// than 2^32 - 1 links, InputError for elements so small that floats cannot hold a form factor.
+// The same links for any number of threads.
+//
+// poses: of what moves, the tree at times of its motion, in their order (posed_elements() of
+// clgi/moving_elements.hpp); empty: nothing moves. Two elements of which one moves are refined as
+// the worst of the poses wants it, where both go straight from each pose to the next. Between poses
+// a surface that turns may show parts that no pose shows: more poses make that less. Where a
+// sender's triangle exceeds bin_share of a bin in some pose it is cut into 4 or 16 parts with a
+// link each, which may give nothing as long as the elements do not face each other. In the links
+// made here they are as the tree has them.
+//
+// Throws Error for options out of range, for poses of another number of elements and for more than
+// 2^32 - 1 links, InputError for elements so small that floats cannot hold a form factor.
 CLGI_API Links make_links(const ElementTree& tree, const DirectionBins& bins,
-                          const LinkOptions& options = {});
+                          const LinkOptions& options = {},
+                          const std::vector<ElementTree>& poses = {});
 
 }  // namespace clgi

@@ -10,6 +10,7 @@
 #include <clgi/kit/buffer_table.hpp>
 #include <clgi/kit/recorder.hpp>
 #include <clgi/links.hpp>
+#include <clgi/moving_elements.hpp>
 #include <clgi/passes/antiradiance_gloss.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
@@ -29,6 +30,10 @@ struct AntiradianceOptions {
     int bins = 128;  // of directions, a multiple of 4, 32 to 4096
     ElementOptions elements;
     LinkOptions links;
+    // What the scene's vertices do, if they move: links are made for all of these poses, and
+    // geometry_changed() brings them to where the vertices are. See clgi/moving_elements.hpp. The
+    // solver keeps no copy: options() has none.
+    VertexPoses poses;
     // Shadow maps and samples of the lights; vpls and environment_lights are not used: the
     // environment arrives in bins.
     EmitterOptions emitters;
@@ -60,7 +65,15 @@ struct AntiradianceStatus {
 };
 
 // Owns its buffers, works on the given queue (in order or not). The scene must outlive the solver
-// and stay as it was uploaded. One thread at a time.
+// and stay as it was uploaded, but for what options.poses move. One thread at a time.
+//
+// Geometry that moves keeps its elements and links; where the elements are, and bins and form
+// factors of links of which an end moves, are computed anew on the device. Everything else costs
+// what it costs for a still scene. Between and beside the poses that were given light is as right
+// as links allow that were made for those: links that are missing are those between elements that
+// never faced each other, and near each other large elements exchange light. Leaves keep their
+// number: where a triangle grows so do they. Triangles that have no normal in the scene's own
+// arrays are no elements in any pose.
 //
 // Surfaces with lobes exchange gloss as well, in bins. What emissive surfaces send comes through their sample points,
 // as direct light. Surfaces with an alpha mask block as a whole.
@@ -77,6 +90,12 @@ public:
 
     // Reads the scene's lights again, after DeviceScene::set_light, for the next run().
     void lights_changed();
+
+    // The scene's vertices moved (SceneAnimator, SceneMover): the next run() has elements and links
+    // where they are. It begins after `wait`, the event of the move. Throws Error for a solver that
+    // was made without poses, or with those of vertices that all stand still, and if the move gave
+    // the scene another local frame.
+    void geometry_changed(const WaitList& wait = {});
 
     // Direct light into the leaves, then steps until they are done or the residual is small; waits
     // for each, and for all of it. Pictures of the light before must have ended. False if progress
@@ -97,6 +116,8 @@ public:
     const DirectionBins& bins() const;
     std::size_t link_count() const;  // for one direction each
     std::size_t link_pairs() const;  // Links::pairs
+    std::size_t moving_links() const;  // those of which an end moves
+    std::size_t moving_elements() const;
     double linking_seconds() const;  // that elements and links took
     std::size_t bytes() const;
     std::size_t table_bytes() const;  // of them, intensities and incident light
