@@ -195,6 +195,7 @@ public:
         for (const HandLink& link : of.links)
             for (std::uint32_t i = link.sender; i < of.elements[link.sender].end; ++i)
                 if (!(of.cosine(link) > 0.0f)) elements[i].sends = 0;
+        for (const HandLobe& lobe : of.lobes) elements[lobe.element].sends = 0;  // to be looked at
         for (std::uint32_t i = 0; i < count; ++i)
             if (elements[i].sends == 0) {
                 elements[i].sends = static_cast<std::uint32_t>(with_rows.size());
@@ -284,6 +285,12 @@ public:
         for (const std::uint64_t four : download<std::uint64_t>(rows_.exitant, count))
             out.push_back(glm::unpackHalf4x16(four));
         return out;
+    }
+
+    // Of an element that has one.
+    std::size_t row_of(std::uint32_t element) const {
+        const auto found = std::find(with_rows.begin(), with_rows.end(), element);
+        return static_cast<std::size_t>(found - with_rows.begin());
     }
 
     // The same of what the definition gives for all elements.

@@ -28,6 +28,7 @@ struct DachsbacherScene {
     std::string name;  // "office", "character", "oriental", "glossy-box", "glossy-bust"
     double max_area;   // m^2 of a leaf
     double bin_share;  // LinkOptions::bin_share
+    bool vertices;     // ElementOptions::vertices
     int steps;
     DachsbacherPaper paper;
     Scene scene;  // as its clip begins, with the box of its motion

@@ -38,7 +38,11 @@ DachsbacherRun::DachsbacherRun(const DachsbacherSetup& setup, const Programs& pr
               scene.scene),
       solver_(programs, setup.queue, scene.scene, device_,
               with_build(scene.options(), setup.build)),
-      view_(programs, setup.queue, device_, solver_, picture_options(width, height, true)) {}
+      view_(programs, setup.queue, device_, solver_, picture_options(width, height, true)) {
+    if (solver_.moving_elements() == 0) return;
+    animator_.emplace(setup.queue, scene.scene, device_, setup.build);
+    duration_ = scene.scene.animation->clips.at(0).duration;
+}
 
 PictureOptions DachsbacherRun::picture_options(int across, int down, bool direct) const {
     PictureOptions out;
@@ -52,6 +56,7 @@ PictureOptions DachsbacherRun::picture_options(int across, int down, bool direct
 void DachsbacherRun::move(double share) {
     const double angle = most_turn * std::sin(2.0 * glm::pi<double>() * share);
     const glm::dquat turn = glm::angleAxis(angle, glm::dvec3(0.0, 1.0, 0.0));
+    if (animator_) solver_.geometry_changed({animator_->animate(0, share * duration_).done});
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         Light light = lights_[i];
         light.direction = glm::normalize(glm::vec3(turn * glm::dvec3(light.direction)));

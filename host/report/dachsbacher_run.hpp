@@ -3,7 +3,10 @@
 #pragma once
 
 #include <clgi/io/image.hpp>
+#include <clgi/scene_animator.hpp>
 #include <clgi/solvers/antiradiance_view.hpp>
+
+#include <optional>
 
 #include "report/bench_dachsbacher.hpp"
 
@@ -29,7 +32,7 @@ public:
     const AntiradianceSolver& solver() const { return solver_; }
 
 private:
-    // What changes from frame to frame: lights. Geometry that moves is posed here as well.
+    // What changes from frame to frame: lights, and geometry where the scene has a clip.
     void move(double share);
     PictureOptions picture_options(int width, int height, bool direct) const;
 
@@ -40,6 +43,8 @@ private:
     DeviceScene device_;
     AntiradianceSolver solver_;
     AntiradianceView view_;
+    std::optional<SceneAnimator> animator_;  // where geometry moves
+    double duration_ = 0.0;                  // seconds, of its clip
 };
 
 }  // namespace clgi::report

@@ -10,7 +10,7 @@
 namespace clgi::report {
 namespace {
 
-constexpr int paper_bins = 128;
+constexpr int paper_bins = 128, motion_poses = 16;
 
 Scene made(const std::string& name) {
     if (name == "office") return office();
@@ -32,30 +32,35 @@ const DachsbacherScene table[] = {
     {"office",
      0.07,
      4.0,
+     false,
      4,
      {5.6e3, 18.2e3, 632e3, 10.1, 9.0, 8.7, 7.1, 63.4, 14.0, 71.3, 29.5},
      {}},
     {"character",
      0.1,
      4.0,
+     false,
      4,
      {8.1e3, 19.7e3, 661e3, 8.3, 7.1, 13.1, 8.2, 72.0, 17.0, 77.0, 31.1},
      {}},
     {"oriental",
      1.0,
      4.0,
+     false,
      4,
      {11.9e3, 15.6e3, 776e3, 7.5, 6.8, 13.0, 10.8, 81.4, 18.9, 60.9, 36.0},
      {}},
     {"glossy-box",
      1.0,
      0.99,
+     false,
      3,
      {3.5e3, 4.6e3, 177e3, 14.9, 11.9, 2.4, 43.4, 2.4, 2.8, 17.8, 3.8},
      {}},
     {"glossy-bust",
      1.0,
-     1.83,
+     1.1,
+     true,
      3,
      {13.4e3, 11.5e3, 412e3, 6.4, 5.6, 13.0, 100.9, 5.6, 6.6, 44.9, 8.8},
      {}}};
@@ -66,9 +71,11 @@ AntiradianceOptions DachsbacherScene::options() const {
     AntiradianceOptions out;
     out.bins = paper_bins;
     out.elements.max_area = max_area;
+    out.elements.vertices = vertices;
     out.links.bin_share = bin_share;
     out.iteration = Iteration::symmetric;
     out.steps = steps;
+    if (scene.animation) out.poses = vertex_poses(scene, 0, motion_poses);
     return out;
 }
 

@@ -101,7 +101,10 @@ kernel void antiradiance_gloss(
             light.channel[1][k] = flux.y;
             light.channel[2][k] = flux.z;
         }
-        convolve(&front, lobe_exponent(exponent), &light, &made);
+        if (params.step & LOCAL_RECEIVE)
+            convolve(&front, lobe_exponent(exponent), &light, &made);
+        else
+            made = light;  // none of it, or what is no number
         global const float* source = gloss_sources + (ulong)at * 3 * ROW_BINS;
         for (uint k = 0; k < HALF_BINS; ++k) {
             uint bin = bin_above(&front, k);
