@@ -216,7 +216,7 @@ TEST_P(AntiradianceGloss, OfRandomTreesIsThatOfTheDefinition) {
         LOCAL_RECEIVE | LOCAL_REFLECT,    all_of_it, LOCAL_RECEIVE};
     for (const Storage storage : {Storage::full, Storage::half})
         for (const unsigned seed : {1u, 2u, 3u}) {
-            const HandElements scene = glossy_elements(seed, seed == 3 ? 34 : 128);
+            const HandElements scene = glossy_elements(seed, seed == 3 ? 36 : 128);
             ASSERT_GT(scene.lobes.size(), 5u);
             test::LightOnDevice found(
                 scene, {.math = GetParam(), .storage = storage, .local_size = 4 * seed});
