@@ -1,6 +1,8 @@
 // Frames in the light of an atlas: baked once, lit anew for every frame. [Schaerfig16, section 6.2]
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/bake_layout.hpp>
+#include <clgi/error.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
 #include <optional>
@@ -36,6 +38,20 @@ std::vector<AtlasPicture> settings_of(bool quick) {
         base, "atlas-size", quick ? std::vector<int>{32, 64} : std::vector<int>{64, 128, 256, 512},
         [](AtlasPicture& to, int n) { to.size = n; }, add);
     return out;
+}
+
+// Scenes of many small charts need larger pages than others.
+bool fits(const Scene& scene, int size) {
+    VplOptions vpls;
+    vpls.count = 16;  // any number: charts do not depend on it
+    AtlasOptions atlas;
+    atlas.size = size;
+    try {
+        make_bake_layout(scene, vpls, atlas);
+    } catch (const Error&) {
+        return false;
+    }
+    return true;
 }
 
 Measured measure(const PictureTask& task, const AtlasPicture& one, SweepPoint* result,
@@ -87,7 +103,12 @@ Measured measure(const PictureTask& task, const AtlasPicture& one, SweepPoint* r
 }  // namespace
 
 PictureMethod light_atlas_pictures(const PictureTask& task) {
-    const std::vector<AtlasPicture> settings = settings_of(task.setup.quick);
+    std::vector<AtlasPicture> settings = settings_of(task.setup.quick);
+    settings.erase(std::remove_if(settings.begin(), settings.end(),
+                                  [&](const AtlasPicture& one) {
+                                      return !fits(task.setup.scene, one.size);
+                                  }),
+                   settings.end());
     PictureMethod out;
     out.knobs = {"vpls", "atlas-size"};
     out.settings = names_of(settings);
