@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "antiradiance/exchange.hpp"
 
+#include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <string>
@@ -123,7 +124,7 @@ double Exchange::aim(std::uint32_t sender, std::uint32_t receiver) {
     sends_ = {height > 0.0 ? tree_.normals[sender] : -tree_.normals[sender], least_sent};
     angle = tree_.is_patch(sender) ? solid_angle(tree_.corners[sender], eye_)
             : near_                ? cut_thirds(sender, height > 0.0 ? 1.0 : -1.0)
-                                   : angle * std::abs(height) / distance;
+                                   : std::min(angle * std::abs(height) / distance, 2.0 * pi);
     // In the sender's plane rounding would choose a side, within the sender for 2 pi.
     return std::abs(height) > rounding * tree_.radii[sender] ? angle : 0.0;
 }
@@ -180,7 +181,7 @@ void Exchange::slots(std::uint32_t sender, std::uint32_t receiver, double angle,
                      std::vector<Link>& out) {
     if (!(angle > 0.0)) return;
     int cuts = 0;
-    if (tree_.is_patch(sender) && spread_ == Spread::precise)
+    if (tree_.is_patch(sender) && spread_ != Spread::none)
         while (cuts < most_part_cuts && angle > std::ldexp(limit_, 2 * cuts)) ++cuts;
     for (std::uint32_t part = first_part(cuts); part < first_part(cuts + 1); ++part)
         out.push_back(slot(sender, receiver, part));

@@ -85,7 +85,11 @@ void run_antiradiance(RenderFlags flags) {
 
     catch_interrupts();
     const auto bar = progress_bar("render", quiet);
-    // The first picture warms up and is not timed.
+    // The first picture warms up and is not timed; links are made for poses, so it is in one.
+    if (solver.moving_elements() > 0) {
+        if (motion.at(0).lights) solver.lights_changed();
+        solver.geometry_changed();
+    }
     if (!solver.run([&](double done) { return bar(done); })) throw Interrupted();
     view.render(scene.cameras[static_cast<std::size_t>(flags.camera)]).wait();
     const auto picture = [&] { return report::radiance_picture(session.queue, view.picture()); };
@@ -158,7 +162,7 @@ void add_antiradiance_flags(CLI::App& command, AntiradianceFlags& flags) {
         .add_option("--poses", flags.poses,
                     "antiradiance: Poses of the animation that links are made for, with --fps")
         ->type_name("N")
-        ->check(CLI::Range(1, 1000));
+        ->check(CLI::Range(3, 200));
     command
         .add_option("--iteration", flags.iteration,
                     "antiradiance: How reflections and light that is let through alternate; auto: "

@@ -48,6 +48,10 @@ bool fits(const Scene& scene, int size) {
     atlas.size = size;
     try {
         make_bake_layout(scene, vpls, atlas);
+    } catch (const InputError&) {
+        throw;
+    } catch (const DeviceError&) {
+        throw;
     } catch (const Error&) {
         return false;
     }

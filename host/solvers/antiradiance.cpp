@@ -60,7 +60,7 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
     made = make_element_surface(tree, bins, file, scene);
     glossy = find_glossy_leaves(tree, made, file, options.least_gloss);
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
-    table(DeviceLinks()).check(device, options.memory_budget, scene.bytes());  // before it takes time
+    table(DeviceLinks()).check(device, options.memory_budget, scene.bytes());  // as far as is known before it takes time
     std::vector<ElementTree> poses;
     for (const std::vector<glm::dvec3>& pose : options.poses)
         if (!tree.moving.empty()) poses.push_back(posed_elements(tree, file, pose));
@@ -190,7 +190,6 @@ void AntiradianceSolver::State::follow_geometry() {
     const auto turns = [&](const GlossyLeaf& leaf) { return tree.moves(leaf.element); };
     if (std::any_of(glossy.leaves.begin(), glossy.leaves.end(), turns)) make_lobes();
     place_points();
-    moved = false;
 }
 
 AntiradianceSolver::AntiradianceSolver(const Programs& programs, const cl::CommandQueue& queue,

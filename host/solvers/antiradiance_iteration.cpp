@@ -161,6 +161,7 @@ bool AntiradianceSolver::State::run(const Progress& progress) {
            [&](const WaitList& wait) { return passes.vertices(queue, surface, leaves, wait); });
     keep_gloss();
     record.wait();
+    moved = moved && record.cancelled();  // after a failure all of it is done again
     record.report(1.0);
     return !record.cancelled();
 }

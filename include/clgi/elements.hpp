@@ -39,7 +39,8 @@ struct ElementOptions {
     // times the area that a wished leaf has on average, however many small ones there are.
     std::size_t wished = 8192;
     bool backs = true;     // of open sheets
-    bool vertices = true;  // leaves at the vertices of fine meshes, where enough leaves remain
+    // Leaves at the vertices of fine meshes, where enough leaves remain and nothing moves.
+    bool vertices = true;
 };
 
 // The part of a triangle at one of its corners: between the corner, the middles of the edges beside

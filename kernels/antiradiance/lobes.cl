@@ -44,7 +44,7 @@ kernel void antiradiance_lobes(
     global const float* of = albedos + leaf.material * (ALBEDO_STEPS + 1);
     Front front;
     find_front(normal, bins, &front);
-    float scale = 1.0f / sqrt(dot(normal, normal));
+    float scale = 1.0f / sqrt(fmax(dot(normal, normal), 1e-30f));
     float wanted[FRONT_BINS], out[FRONT_BINS], sums[FRONT_BINS];
     for (uint k = 0; k < HALF_BINS; ++k) {
         wanted[k] = lobe_albedo(of, front.cosine[k] * scale);

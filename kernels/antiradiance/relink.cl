@@ -141,7 +141,8 @@ CLGI_INLINE int aim_at(ElementPlace from, ElementPlace to, uint part, PatchCorne
         if (!(fabs(height) > LEAST_HEIGHT)) return 0;
         out->before = height;
         out->sends = height > 0.0f ? from.normal.xyz : -from.normal.xyz;
-        float angle = from.area * fabs(height) / (square * sqrt(square));
+        // What came nearer than in all poses is no larger than half of the sphere.
+        float angle = fmin(from.area * fabs(height) / (square * sqrt(square)), 2.0f * CLGI_PI);
         if (is_patch)
             start = part_of(patch, triangle_of(triangles[from.triangle], positions), part,
                             from.area, height, to.position.xyz, &angle);

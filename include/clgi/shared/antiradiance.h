@@ -7,7 +7,8 @@
 //
 // What elements in one plane send before them is their power times cosines, which links read without
 // a row. Rows of exitant intensity are there for elements that let light through to others behind
-// them, for clusters of different normals, and for all below those.
+// them, for clusters of different normals, for glossy leaves, for what moves or is linked to what
+// moves, and for all below those.
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_ANTIRADIANCE_H
 #define CLGI_SHARED_ANTIRADIANCE_H
@@ -21,7 +22,7 @@ CLGI_SHARED_BEGIN
 // An element of the tree, in depth-first order: its subtree is itself and all up to `end`.
 typedef struct {
     float4 normal;  // of what lies in one plane: unit normal times DirectionBins::hemisphere_scale,
-                    // else 0; w: m^2
+                    // else 0; w: m^2. Where it moves, that of leaves alone follows
     uint parent;    // ELEMENT_NONE: the root
     uint end;
     uint row;       // among the leaves, or among the inner elements
