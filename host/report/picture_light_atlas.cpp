@@ -41,18 +41,14 @@ std::vector<AtlasPicture> settings_of(bool quick) {
 }
 
 // Scenes of many small charts need larger pages than others.
-bool fits(const Scene& scene, int size) {
+bool fits(const Scene& scene, const AtlasPicture& one) {
     VplOptions vpls;
-    vpls.count = 16;  // any number: charts do not depend on it
+    vpls.count = one.vpls;
     AtlasOptions atlas;
-    atlas.size = size;
+    atlas.size = one.size;
     try {
         make_bake_layout(scene, vpls, atlas);
-    } catch (const InputError&) {
-        throw;
-    } catch (const DeviceError&) {
-        throw;
-    } catch (const Error&) {
+    } catch (const InputError&) {  // charts that do not fit
         return false;
     }
     return true;
@@ -110,7 +106,7 @@ PictureMethod light_atlas_pictures(const PictureTask& task) {
     std::vector<AtlasPicture> settings = settings_of(task.setup.quick);
     settings.erase(std::remove_if(settings.begin(), settings.end(),
                                   [&](const AtlasPicture& one) {
-                                      return !fits(task.setup.scene, one.size);
+                                      return !fits(task.setup.scene, one);
                                   }),
                    settings.end());
     PictureMethod out;
