@@ -304,6 +304,19 @@ TEST(AtlasCharts, FitTheSmallestPages) {
     EXPECT_EQ(sound_atlas(six, test::regions(six, 2), made_charts(4, 1, 6)).charts.size(), 6u);
 }
 
+TEST(AtlasCharts, FindThePageThatHoldsThem) {
+    const Scene six = cube();
+    AtlasOptions options = made_charts(1);
+    options.largest_size = 8;  // charts of a texel with two around it need 11 x 11 at least
+    EXPECT_THROW(make_atlas(six, test::regions(six, 2), options), InputError);
+    options.largest_size = 16;
+    const AtlasLayout atlas = sound_atlas(six, test::regions(six, 2), options);
+    EXPECT_EQ(atlas.size, 16);
+    EXPECT_THROW(make_atlas(six, test::regions(six, 2), made_charts(8)), InputError);
+    options.size = 32;  // what fits stays as it is
+    EXPECT_EQ(make_atlas(six, test::regions(six, 2), options).size, 32);
+}
+
 TEST(AtlasCharts, FillTheirPages) {
     const Scene scene = corridor();
     // Coplanar triangles that follow one another.
@@ -336,6 +349,8 @@ TEST(AtlasOptionsRange, IsChecked) {
     };
     wrong([](AtlasOptions& o) { o.size = 0; });
     wrong([](AtlasOptions& o) { o.size = 8193; });
+    wrong([](AtlasOptions& o) { o.largest_size = -1; });
+    wrong([](AtlasOptions& o) { o.largest_size = 8193; });
     wrong([](AtlasOptions& o) { o.padding = 0; });
     wrong([](AtlasOptions& o) { o.padding = 65; });
     wrong([](AtlasOptions& o) { o.most_pages = 0; });

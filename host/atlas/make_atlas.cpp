@@ -17,6 +17,7 @@ void need_range(const char* what, int got, int least, int most) {
 void check(const Scene& scene, const std::vector<std::uint32_t>& region_of,
            const AtlasOptions& options) {
     need_range("size", options.size, 1, 8192);
+    need_range("largest_size", options.largest_size, 0, 8192);
     need_range("padding", options.padding, 1, 64);
     need_range("most_pages", options.most_pages, 1, 64);
     const std::uint64_t texels = std::uint64_t(options.size) * std::uint64_t(options.size) *
@@ -56,6 +57,19 @@ LightmapUvs choose_uvs(const Scene& scene, const AtlasOptions& options, AtlasLay
     return found;
 }
 
+// On the smallest pages from the options' size on that hold all charts; sets that size.
+AtlasPlacement place_on_pages(const Scene& scene, const std::vector<std::uint32_t>& region_of,
+                              const Adjacency* mesh, AtlasOptions options, int& size) {
+    for (;; options.size *= 2) {
+        try {
+            size = options.size;
+            return place_by_regions(scene, region_of, mesh, options);
+        } catch (const InputError&) {  // that they do not fit
+            if (2 * options.size > options.largest_size) throw;
+        }
+    }
+}
+
 }  // namespace
 
 glm::dvec3 doubled_area_of(const Scene& scene, std::uint32_t triangle) {
@@ -80,7 +94,7 @@ AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& reg
     if (out.uv_set < 0 && region_of.empty())
         throw Error("atlas: region_of is empty, a number for each triangle needed for charts");
     const AtlasPlacement placed = out.uv_set >= 0 ? place_by_uvs(scene, out.uv_set, options.size)
-                                                  : place_by_regions(scene, region_of, mesh, options);
+                                                  : place_on_pages(scene, region_of, mesh, options, out.size);
     out.pages = placed.pages;
     out.texels_per_metre = placed.texels_per_metre;
     list_texels(scene, placed, out);

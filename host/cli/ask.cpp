@@ -18,13 +18,14 @@ void add_ask_flags(CLI::App& command, AskFlags& flags) {
     CLI::Option* error =
         command
             .add_option("--target-error", flags.target_error,
-                        "Find the settings for this error against the converged picture: 2% or "
-                        "0.02")
+                        "Find the settings for this error: 2% or 0.02; auto: against all light, "
+                        "second-order: against its converged picture")
             ->type_name("E")
             ->default_str("none");
     CLI::Option* time = command
                             .add_option("--time-budget", flags.time_budget,
-                                        "Find the settings for this frame time: 33ms or 0.5s")
+                                        "Find the settings for this time: 33ms or 0.5s; auto: of a picture with "
+                            "all before it, second-order: of a frame")
                             ->type_name("T")
                             ->default_str("none");
     for (const char* setting : {"--vpls", "--negative-vpls", "--low-res", "--low-res-step"})

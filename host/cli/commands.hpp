@@ -8,6 +8,7 @@ namespace clgi::cli {
 
 void add_devices(CLI::App& app);
 void add_scene(CLI::App& app);
+void add_plan(CLI::App& app);
 void add_render(CLI::App& app);
 void add_bake(CLI::App& app);
 void add_transfer(CLI::App& app);

@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
         clgi::cli::set_help(app);
         clgi::cli::add_devices(app);
         clgi::cli::add_scene(app);
+        clgi::cli::add_plan(app);
         clgi::cli::add_render(app);
         clgi::cli::add_bake(app);
         clgi::cli::add_transfer(app);

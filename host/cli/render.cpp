@@ -58,15 +58,16 @@ void run_second_order(RenderFlags flags) {
     flags.options.indirect = flags.method != "direct";
     flags.options.build = build_of(flags.device);
 
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
+    Scene scene = scene_of(flags);
     check_camera("render", flags.camera, scene);
     prepare_motion(flags, scene);
     const Camera camera = scene.cameras[flags.camera];
     std::optional<GlFrames> gl;
     if (flags.gbuffer == "gl") gl.emplace();
-    const Session session = open_session(flags.device, [&](const cl::Device& device) {
-        return gl ? gl->properties(device) : std::vector<cl_context_properties>();
-    });
+    const Session session =
+        gl ? open_session(flags.device,
+                          [&](const cl::Device& device) { return gl->properties(device); })
+           : session_of(flags);
 
     const auto build_start = std::chrono::steady_clock::now();
     DeviceScene device_scene(session.context, session.device, scene);
@@ -172,33 +173,44 @@ void run_second_order(RenderFlags flags) {
         record.device = session.device;
         record.build = flags.options.build;
         record.gbuffer = flags.gbuffer;
-        record.method = flags.method == "auto" ? "second-order" : flags.method;
+        record.method = flags.method;
         record.triangles = scene.triangles.size();
         record.lights = solver.emitters().emitters.size();
         record.effects = effects_of(device_scene, solver);
         record.bytes = device_scene.bytes() + solver.bytes() + motion.bytes();
         record.warnings = scene.warnings;
+        record.planned = flags.planned;
         save_stats(record, flags.stats);
     }
 }
 
-void run_render(RenderFlags flags) {
+void refuse(bool wrong, const std::vector<std::string>& given, const std::string& why) {
+    if (wrong && !given.empty()) throw Error("render: " + given.front() + " goes " + why);
+}
+
+void check_flags(const RenderFlags& flags) {
     const bool atlas = flags.method == "atlas", transfer = flags.method == "transfer";
-    const bool antiradiance = flags.method == "antiradiance";
-    const auto refuse = [](bool wrong, const std::vector<std::string>& given,
-                           const std::string& why) {
-        if (wrong && !given.empty()) throw Error("render: " + given.front() + " goes " + why);
-    };
-    refuse(atlas || transfer || antiradiance, flags.second_order_only,
-           "not with --method " + flags.method);
+    const bool antiradiance = flags.method == "antiradiance", plans = flags.method == "auto";
+    const bool second_order = !atlas && !transfer && !antiradiance;
+    refuse(!second_order, flags.second_order_only, "not with --method " + flags.method);
+    refuse(!second_order, flags.asked, "not with --method " + flags.method);
+    refuse(!plans, flags.auto_only, "only with --method auto");
     refuse(!atlas, flags.atlas_only, "only with --method atlas");
     refuse(!transfer, flags.transfer_only, "only with --method transfer");
     refuse(!antiradiance, flags.antiradiance_only, "only with --method antiradiance");
     refuse(transfer, flags.not_transfer, "not with --method transfer");
     refuse(antiradiance, flags.not_antiradiance, "not with --method antiradiance");
-    if (atlas) return run_atlas(std::move(flags));
-    if (transfer) return run_transfer(std::move(flags));
-    if (antiradiance) return run_antiradiance(std::move(flags));
+}
+
+void run_render(RenderFlags flags) {
+    // Flags of second-order illumination choose it, and so does a G-buffer by OpenGL.
+    if (flags.method == "auto" && (!flags.second_order_asked.empty() || flags.gbuffer != "cl"))
+        flags.method = "second-order";
+    check_flags(flags);
+    if (flags.method == "auto") plan_render(flags);
+    if (flags.method == "atlas") return run_atlas(std::move(flags));
+    if (flags.method == "transfer") return run_transfer(std::move(flags));
+    if (flags.method == "antiradiance") return run_antiradiance(std::move(flags));
     run_second_order(std::move(flags));
 }
 
@@ -215,7 +227,8 @@ void add_render(CLI::App& app) {
     command
         ->add_option(
             "--method", flags->method,
-            "auto is second-order; atlas: many bounces, baked first; transfer: light of the "
+            "auto: what the scene calls for (clgi plan), second-order where flags of it are given; "
+            "atlas: many bounces, baked first; transfer: light of the "
             "environment with its shadows; antiradiance: many bounces, no visibility; "
             "direct: no indirect light")
         ->type_name("METHOD")
@@ -254,6 +267,7 @@ void add_render(CLI::App& app) {
         ->type_name("WHAT")
         ->check(CLI::IsMember({"cl", "gl"}));
     add_ask_flags(*command, flags->ask);
+    add_plan_flags(*command, flags->plan);
     command->add_flag("--no-direct", flags->no_direct,
                       "Leave out direct light, emission and the environment");
     add_animation_flags(*command, flags->animation);
@@ -280,8 +294,12 @@ void add_render(CLI::App& app) {
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {
         flags->second_order_only =
-            given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates",
-                             "--target-error", "--time-budget"});
+            given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates"});
+        flags->second_order_asked = flags->second_order_only;
+        for (const std::string& flag : given(*command, {"--vpls"}))
+            flags->second_order_asked.push_back(flag);
+        flags->asked = given(*command, {"--target-error", "--time-budget"});
+        flags->auto_only = given(*command, {"--tolerance", "--with", "--without"});
         flags->atlas_only = given(*command, {"--bounces", "--atlas-size", "--hemicube-size",
                                              "--refine", "--least-change"});
         flags->transfer_only = given(

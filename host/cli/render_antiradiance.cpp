@@ -58,12 +58,12 @@ void warn_of(const AntiradianceStatus& status, const AntiradianceOptions& option
 void run_antiradiance(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     const bool quiet = flags.device.quiet;
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet);
+    Scene scene = scene_of(flags);
     if (flags.gbuffer != "cl")
         throw Error("render: --gbuffer gl goes not with --method antiradiance");
     check_camera("render", flags.camera, scene);
     prepare_motion(flags, scene);
-    const Session session = open_session(flags.device);
+    const Session session = session_of(flags);
 
     const Stopwatch build;
     DeviceScene device_scene(session.context, session.device, scene);
@@ -145,6 +145,7 @@ void run_antiradiance(RenderFlags flags) {
     record.effects = effects_of(device_scene, view.picture());
     if (solver.gloss().count > 0) record.effects.push_back("glossy-indirect");
     record.antiradiance = summary;
+    record.planned = flags.planned;
     save_stats(record, flags.stats);
 }
 

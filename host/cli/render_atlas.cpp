@@ -40,10 +40,10 @@ void run_atlas(RenderFlags flags) {
     AtlasFlags& atlas_flags = flags.atlas;
     const bool quiet = flags.device.quiet;
     const double least_change = parse_percent("render", "--least-change", atlas_flags.least_change);
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet, true);
+    Scene scene = scene_of(flags, true);
     check(flags, scene);
     prepare_motion(flags, scene);
-    const Session session = open_session(flags.device);
+    const Session session = session_of(flags);
     need_room("render", session.device, atlas_flags.vpls);
 
     const BakeLayout layout = lay_out(scene, atlas_flags.vpls, atlas_flags.layout, quiet);
@@ -103,6 +103,7 @@ void run_atlas(RenderFlags flags) {
     record.method = "atlas";
     record.effects = effects_of(device_scene, view.picture());
     record.bake = bake;
+    record.planned = flags.planned;
     save_stats(record, flags.stats);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/clgi.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "cli/ask.hpp"
 #include "cli/environment.hpp"
 #include "cli/picture.hpp"
+#include "cli/plan_wish.hpp"
 #include "cli/session.hpp"
 #include "cli/vector_flags.hpp"
 
@@ -39,6 +41,14 @@ struct AntiradianceFlags {
     int poses = 16;
 };
 
+// What --method auto has loaded and planned before a method runs.
+struct Planned {
+    Plan plan;
+    Scene scene;  // planned_scene(), moved out by the method
+    Session session;
+    double milliseconds = 0.0;  // that facts, probe and plan took
+};
+
 struct RenderFlags {
     DeviceFlags device;
     PictureFlags picture;
@@ -62,10 +72,22 @@ struct RenderFlags {
     AtlasFlags atlas;
     TransferFlags transfer;
     AntiradianceFlags antiradiance;
+    PlanFlags plan;
+    std::shared_ptr<Planned> planned;  // --method auto alone
     // Flags given that go with one kind of method alone, and those that do not go with some.
     std::vector<std::string> second_order_only, atlas_only, transfer_only, antiradiance_only,
-        not_transfer, not_antiradiance;
+        not_transfer, not_antiradiance, auto_only;
+    std::vector<std::string> second_order_asked;  // those given that choose it under auto
+    std::vector<std::string> asked;               // --target-error and --time-budget
 };
+
+// The scene and the device that a method works on: those of the plan, or opened here.
+// lightmaps: as open_scene takes it.
+Scene scene_of(const RenderFlags& flags, bool lightmaps = false);
+Session session_of(const RenderFlags& flags);
+
+// Plans, and sets the flags to the method and the settings of the plan.
+void plan_render(RenderFlags& flags);
 
 // Bakes an atlas and shows the scene with it.
 void run_atlas(RenderFlags flags);

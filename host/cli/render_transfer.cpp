@@ -44,11 +44,11 @@ void run_transfer(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     const bool quiet = flags.device.quiet;
     const DynamicTransferViewOptions options = view_options(flags);
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet);
+    Scene scene = scene_of(flags);
     if (flags.gbuffer != "cl") throw Error("render: --gbuffer gl goes not with --method transfer");
     check_camera("render", flags.camera, scene);
     prepare_motion(flags, scene);
-    const Session session = open_session(flags.device);
+    const Session session = session_of(flags);
 
     const Stopwatch build;
     DeviceScene device_scene(session.context, session.device, scene);
@@ -119,6 +119,7 @@ void run_transfer(RenderFlags flags) {
     record.method = "transfer";
     record.effects = effects_of(device_scene, solver, view.picture());
     record.transfer = summary;
+    record.planned = flags.planned;
     save_stats(record, flags.stats);
 }
 

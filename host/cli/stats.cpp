@@ -5,6 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/plan_text.hpp"
+#include "cli/render_flags.hpp"
 #include "cli/version.hpp"
 #include "io/atomic_file.hpp"
 
@@ -84,6 +86,10 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                                {"iteration", a.iteration}, {"diverged", a.diverged},
                                {"converged", a.converged}, {"steps", a.steps},
                                {"residual", a.residual},   {"linking_ms", a.linking_ms}};
+    }
+    if (record.planned) {
+        out["plan"] = plan_json(record.planned->plan);
+        out["plan"]["ms"] = record.planned->milliseconds;
     }
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
     io::AtomicFile file(path);

@@ -5,6 +5,7 @@
 #include <clgi/device_scene.hpp>
 #include <clgi/solvers/second_order.hpp>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,8 @@ struct AntiradianceSummary {
     double linking_ms = 0.0;  // on the host
 };
 
+struct Planned;
+
 struct RenderRecord {
     cl::Device device;
     BuildOptions build;
@@ -67,6 +70,7 @@ struct RenderRecord {
     std::optional<BakeSummary> bake;
     std::optional<TransferSummary> transfer;
     std::optional<AntiradianceSummary> antiradiance;
+    std::shared_ptr<const Planned> planned;  // of --method auto
     std::vector<std::string> warnings;
 };
 

@@ -25,6 +25,8 @@ enum class AtlasUvs {
 
 struct AtlasOptions {
     int size = 512;  // texels, side of a page; 1 to 8192
+    // Where charts do not fit, pages are doubled in size up to this; 0: they are not. At most 8192.
+    int largest_size = 0;
     AtlasUvs uvs = AtlasUvs::automatic;
     int padding = 2;                // texels around a chart that are empty; 1 to 64. None is kept
                                     // free beyond the edge of a page, nor in a UV set

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "cli/plan_wish.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/error.hpp>
+
+#include "cli/percent.hpp"
+
+namespace clgi::cli {
+namespace {
+
+std::string all_names() {
+    std::string out;
+    for (std::size_t k = 0; k < effect_count; ++k)
+        out += std::string(k > 0 ? ", " : "") + name_of(static_cast<Effect>(k));
+    return out;
+}
+
+std::vector<Effect> effects_of(const std::string& command, const char* flag,
+                               const std::vector<std::string>& names) {
+    std::vector<Effect> out;
+    for (const std::string& name : names) {
+        if (name == "all") {
+            for (std::size_t k = 0; k < effect_count; ++k) out.push_back(static_cast<Effect>(k));
+            continue;
+        }
+        const std::optional<Effect> effect = effect_of(name);
+        if (!effect)
+            throw Error(fmt::format("{}: {} is '{}'; effects are {} and all", command, flag, name,
+                                    all_names()));
+        out.push_back(*effect);
+    }
+    return out;
+}
+
+}  // namespace
+
+void add_plan_flags(CLI::App& command, PlanFlags& flags) {
+    command
+        .add_option("--tolerance", flags.tolerance,
+                    "auto: Effects are left out that change the picture by at most this: 1% or 0.01")
+        ->type_name("E");
+    command
+        .add_option("--with", flags.with,
+                    "auto: Effects that are on whatever the scene calls for, with commas; all")
+        ->type_name("EFFECT")
+        ->delimiter(',')
+        ->default_str("none");
+    command.add_option("--without", flags.without, "auto: Effects that are off, with commas")
+        ->type_name("EFFECT")
+        ->delimiter(',')
+        ->default_str("none");
+}
+
+PlanWish wish_of(const std::string& command, const PlanFlags& flags) {
+    PlanWish out;
+    out.tolerance = parse_percent(command, "--tolerance", flags.tolerance);
+    out.with = effects_of(command, "--with", flags.with);
+    out.without = effects_of(command, "--without", flags.without);
+    return out;
+}
+
+}  // namespace clgi::cli

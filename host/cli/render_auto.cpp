@@ -1,0 +1,114 @@
+// clgi render --method auto: plans, and hands the settings to the method of the plan.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "cli/bake_room.hpp"
+#include "cli/duration.hpp"
+#include "cli/motion.hpp"
+#include "cli/percent.hpp"
+#include "cli/plan_text.hpp"
+#include "cli/render_flags.hpp"
+
+namespace clgi::cli {
+namespace {
+
+PlanWish wish_of(const RenderFlags& flags) {
+    PlanWish out = wish_of("render", flags.plan);
+    out.width = flags.options.width;
+    out.height = flags.options.height;
+    if (!flags.ask.target_error.empty())
+        out.error = parse_percent("render", "--target-error", flags.ask.target_error);
+    if (!flags.ask.time_budget.empty())
+        out.seconds = 1e-3 * parse_milliseconds("render", "--time-budget", flags.ask.time_budget);
+    out.animated = flags.fps.has_value();
+    out.build = build_of(flags.device);
+    return out;
+}
+
+// Emitters keep what flags say of them; the plan only says whether anything is in their light.
+void take_settings(RenderFlags& flags, const Plan& plan) {
+    flags.method = name_of(plan.method);
+    if (flags.no_direct && plan.method == Method::dynamic_transfer)
+        throw Error("render: --no-direct goes not with --method transfer, which the plan takes");
+    const bool shadows = plan.on(Effect::direct_shadows);
+    flags.options.emitters.shadows = shadows;
+    flags.atlas.bake.emitters.shadows = shadows;
+    switch (plan.method) {
+        case Method::direct: break;
+        case Method::second_order:
+            flags.options.emitters.shadows = true;  // VPLs are placed through the lights' views
+            flags.options.emitters.vpls = plan.second_order.emitters.vpls;
+            flags.options.negative_vpls = plan.second_order.negative_vpls;
+            break;
+        case Method::light_atlas:
+            flags.atlas.vpls = plan.vpls;
+            flags.atlas.layout = plan.layout;
+            flags.atlas.bake.bounces = plan.light_atlas.bounces;
+            break;
+        case Method::antiradiance: {
+            AntiradianceOptions& to = flags.antiradiance.solver;
+            to.bins = plan.antiradiance.bins;
+            to.steps = plan.antiradiance.steps;
+            to.least_gloss = plan.antiradiance.least_gloss;
+            to.occlusion = plan.antiradiance.occlusion;
+            flags.antiradiance.elements = static_cast<int>(plan.antiradiance.elements.wished);
+            break;
+        }
+        case Method::dynamic_transfer:
+            flags.transfer.solver.shadowed = plan.transfer.shadowed;
+            flags.transfer.solver.gloss = plan.transfer.gloss;
+            flags.transfer.solver.bounces = plan.transfer.bounces;
+            break;
+    }
+}
+
+std::string unmet(const Plan& plan) {
+    std::string out;
+    if (!plan.meets_time)
+        out = fmt::format("the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of "
+                          "--time-budget",
+                          plan.cost.total_ms(), 1e3 * *plan.wish.seconds);
+    if (!plan.meets_error)
+        out += fmt::format("{}no method is known to reach the error of {:.3g} % in such scenes",
+                           out.empty() ? "" : "; ", 100.0 * *plan.wish.error);
+    return out;
+}
+
+}  // namespace
+
+Scene scene_of(const RenderFlags& flags, bool lightmaps) {
+    if (flags.planned) return std::move(flags.planned->scene);
+    return open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet,
+                      lightmaps);
+}
+
+Session session_of(const RenderFlags& flags) {
+    return flags.planned ? flags.planned->session : open_session(flags.device);
+}
+
+void plan_render(RenderFlags& flags) {
+    check_picture("render", flags.picture, flags.options.width, flags.options.height);
+    const PlanWish wish = wish_of(flags);
+    flags.ask = AskFlags();
+    const bool quiet = flags.device.quiet;
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet, true);
+    check_camera("render", flags.camera, scene);
+    prepare_motion(flags, scene);
+    if (!flags.fps) flags.animation = AnimationFlags();  // the scene is in its pose
+
+    flags.planned = std::make_shared<Planned>();
+    Planned& planned = *flags.planned;
+    planned.session = open_session(flags.device);
+    const Stopwatch watch;
+    planned.plan = make_plan(planned.session.queue,
+                             Programs(planned.session.context, planned.session.device), scene,
+                             scene.cameras[static_cast<std::size_t>(flags.camera)], wish);
+    planned.milliseconds = 1e3 * watch.seconds();
+    planned.scene = planned_scene(scene, planned.plan);
+    take_settings(flags, planned.plan);
+    notice(quiet, "plan: " + plan_line(planned.plan));
+    const std::string warning = unmet(planned.plan);
+    if (!warning.empty()) notice(false, "warning: " + warning);
+}
+
+}  // namespace clgi::cli

@@ -1,0 +1,149 @@
+// Costs of methods, predicted from facts and settings: fits of times on two cores of a CPU with
+// packets of 16 (docs/effects.md), scaled by clock, units and lanes of the device.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <clgi/plan/plan.hpp>
+#include <cmath>
+
+#include "plan/method.hpp"
+#include "solvers/ranges.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double fitted_pairs = 5.0e9;  // pairs_per_second() of the device of the fits
+
+struct Amount {
+    double ms = 0.0;
+    double bytes = 0.0;
+};
+void operator+=(Amount& a, const Amount& b) {
+    a.ms += b.ms;
+    a.bytes += b.bytes;
+}
+
+double triangles(const Plan& plan) { return static_cast<double>(plan.facts.surfaces.triangles); }
+
+// Those that direct light comes from, and the views of their shadow maps.
+struct Lamps {
+    double emitters = 0.0, views = 0.0, pixels = 0.0;
+};
+Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment) {
+    const LightFacts& lights = plan.facts.lights;
+    Lamps out;
+    const auto add = [&](double count, double views, double side) {
+        out.emitters += count;
+        out.views += count * views;
+        out.pixels += count * views * side * side;
+    };
+    // A bake with size 0 takes 2048 pixels for few lights.
+    const double map = options.shadow_size > 0 ? options.shadow_size : 2048.0;
+    if (plan.on(Effect::point_light))
+        add(static_cast<double>(lights.points), 6.0, options.face_size);
+    if (plan.on(Effect::spot_light)) add(static_cast<double>(lights.spots), 1.0, map);
+    if (plan.on(Effect::directional_light))
+        add(static_cast<double>(lights.directional), 1.0, map);
+    if (plan.on(Effect::area_light) && lights.emissive_triangles > 0)
+        add(options.area_samples, 3.0, options.face_size);  // a whole face and four halves
+    if (environment) add(options.environment_lights, 1.0, map);
+    return out;
+}
+
+Amount shadow_maps(const Plan& plan, const Lamps& lamps, bool drawn) {
+    if (!drawn) return {};
+    return {lamps.views * (0.05 + 2e-5 * triangles(plan)) + 6e-7 * lamps.pixels,
+            4.0 * lamps.pixels};
+}
+
+// The camera's view, and direct light at each pixel.
+Amount picture(const Plan& plan, bool environment) {
+    const double pixels = static_cast<double>(plan.wish.width) * plan.wish.height;
+    const EmitterOptions& options = plan.picture.emitters;
+    const Lamps lamps = lamps_of(plan, options, environment);
+    Amount out{0.3 + 2.5e-5 * triangles(plan) + pixels * (1.0e-5 + 6e-6 * lamps.emitters),
+               pixels * 120.0};
+    if (plan.on(Effect::textures) || plan.on(Effect::cutouts)) out.ms += 1.5e-5 * pixels;
+    if (plan.on(Effect::gloss)) out.ms += 2e-6 * pixels * lamps.emitters;
+    out += shadow_maps(plan, lamps, options.shadows);
+    return out;
+}
+
+PlanCost second_order(const Plan& plan) {
+    const SecondOrderOptions& options = plan.second_order;
+    const double pixels = static_cast<double>(options.width) * options.height;
+    Amount frame = picture(plan, plan.on(Effect::environment_light));
+    if (options.indirect) {
+        const double lights = options.emitters.vpls + 2.0 * options.negative_vpls;
+        const double share = 1.0 / (options.low_resolution_step * options.low_resolution_step);
+        frame += {pixels * (1e-5 + 2e-7 * lights * (share + 0.05)), pixels * 40.0};
+    }
+    return {0.0, frame.ms, 1e-6 * frame.bytes};
+}
+
+PlanCost light_atlas(const Plan& plan) {
+    const double vpls = plan.vpls.count;
+    const double texels = 0.75 * plan.layout.size * plan.layout.size;
+    Amount once{40.0 + vpls * (0.15 + 5e-5 * triangles(plan)) + 8e-5 * vpls * vpls +
+                    1.3e-6 * vpls * texels + 2e-3 * triangles(plan),
+                2.0 * vpls * vpls + texels * (vpls / 8.0 + 150.0)};
+    const bool environment = plan.on(Effect::environment_light);
+    once += shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
+                        plan.light_atlas.emitters.shadows);
+    const Amount frame = picture(plan, environment);
+    return {once.ms, frame.ms, 1e-6 * (once.bytes + frame.bytes)};
+}
+
+PlanCost antiradiance(const Plan& plan) {
+    const AntiradianceOptions& options = plan.antiradiance;
+    const double wished = static_cast<double>(options.elements.wished);
+    const double leaves = std::max(wished, 0.6 * triangles(plan));
+    const double links = 2.2 * leaves * options.bins * std::pow(leaves / 1000.0, -0.2);
+    const double steps = options.steps > 0                        ? options.steps
+                         : plan.on(Effect::further_bounces) ? 20.0
+                                                                  : 2.0;
+    const Lamps lamps = lamps_of(plan, options.emitters, false);
+    Amount once{1.7e-4 * links + 2e-3 * leaves, 16.0 * links};
+    // Rows, of antiradiance and of intensities, where something may lie between.
+    const bool rows = plan.on(Effect::indirect_occlusion);
+    const double step = links * (rows ? 2.4e-6 : 1.6e-6);
+    once += {steps * step + 1e-4 * leaves * lamps.emitters,
+             leaves * options.bins * 12.0 * (rows ? 2.0 : 1.0)};
+    if (plan.on(Effect::gloss))
+        once += {steps * plan.facts.surfaces.glossy_area * leaves * options.bins * options.bins *
+                     1e-7,
+                 plan.facts.surfaces.glossy_area * leaves * options.bins * 24.0};
+    once += shadow_maps(plan, lamps, options.emitters.shadows);
+    const Amount frame = picture(plan, false);
+    return {once.ms, frame.ms, 1e-6 * (once.bytes + frame.bytes)};
+}
+
+PlanCost dynamic_transfer(const Plan& plan) {
+    const double receivers = 0.6 * triangles(plan);
+    const double terms = 25.0;
+    Amount once{2.0, receivers * 40.0};
+    if (plan.transfer.shadowed) {
+        const double masks = receivers * triangles(plan) * 2e-6 + receivers * 8e-3;
+        once += {masks * (1 + plan.transfer.bounces), receivers * (terms * 4.0 + 128.0)};
+    }
+    const Amount frame = picture(plan, false);
+    return {once.ms, frame.ms, 1e-6 * (once.bytes + frame.bytes)};
+}
+
+}  // namespace
+
+PlanCost cost_of(const cl::Device& device, const Plan& plan) {
+    PlanCost out;
+    switch (plan.method) {
+        case Method::direct:
+        case Method::second_order: out = second_order(plan); break;
+        case Method::light_atlas: out = light_atlas(plan); break;
+        case Method::antiradiance: out = antiradiance(plan); break;
+        case Method::dynamic_transfer: out = dynamic_transfer(plan); break;
+    }
+    const double slower = fitted_pairs / pairs_per_second(device);
+    out.once_ms *= slower;
+    out.frame_ms *= slower;
+    return out;
+}
+
+}  // namespace clgi

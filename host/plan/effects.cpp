@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/plan/effects.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plan/survival.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::array<const char*, effect_count> names = {
+    "point-light",      "spot-light",      "directional-light",  "area-light",
+    "environment-light", "direct-shadows", "environment-shadows", "first-bounce",
+    "further-bounces",  "indirect-occlusion", "gloss",           "textures",
+    "cutouts",          "moving-geometry", "moving-lights"};
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+// What a probe of a few thousand pixels, one bounce and no shadows of it tells may be so many times
+// too small (docs/effects.md).
+constexpr double probe_margin = 2.0;
+
+struct Decision {
+    bool on;
+    Ground ground;
+    double bound;
+    std::string why;
+};
+
+Decision absent(std::string why) { return {false, Ground::absent, 0.0, std::move(why)}; }
+Decision proven(std::string why) { return {false, Ground::proven, 0.0, std::move(why)}; }
+Decision needed(std::string why) { return {true, Ground::needed, unknown, std::move(why)}; }
+
+Decision has(bool present, const char* what) {
+    return present ? needed(std::string("the scene has ") + what)
+                   : absent(std::string("the scene has no ") + what);
+}
+
+bool lit_directly(const LightFacts& lights) {
+    return lights.points + lights.spots + lights.directional > 0 || lights.emissive_power > 0.0;
+}
+
+Decision direct_shadows(const SceneFacts& facts) {
+    if (!lit_directly(facts.lights)) return absent("no light but the environment");
+    if (facts.proof.lights_open)
+        return proven("the surfaces are convex: nothing lies between them and the lights");
+    return needed("something may lie between a light and a surface");
+}
+
+Decision environment_shadows(const SceneFacts& facts) {
+    if (!facts.lights.environment) return absent("no environment");
+    if (facts.proof.environment_open)
+        return proven("the surfaces are convex: nothing lies before any of them");
+    return needed("something may lie before a surface");
+}
+
+Decision first_bounce(const SceneFacts& facts, double tolerance,
+                      const std::optional<ProbeFacts>& probe) {
+    if (!lit_directly(facts.lights) && !facts.lights.environment) return absent("no light");
+    if (facts.surfaces.largest_albedo <= 0.0) return proven("no surface reflects light");
+    if (facts.proof.surfaces_apart) return proven("no surface faces another");
+    if (!probe) return needed("surfaces that reflect light face each other");
+    const double bound = probe_margin * probe->first_bounce / (1.0 - survival(facts));
+    Decision out = needed("surfaces that reflect light face each other");
+    out.bound = bound;
+    if (bound <= tolerance)
+        out = {false, Ground::measured, bound, "a probe finds less indirect light than that"};
+    return out;
+}
+
+Decision further_bounces(const SceneFacts& facts, double tolerance, const Decision& first,
+                         const std::optional<ProbeFacts>& probe) {
+    if (!first.on) return {false, first.ground, 0.0, first.why};
+    Decision out = needed("light that was reflected once is reflected again");
+    if (!probe) return out;
+    const double q = survival(facts);
+    out.bound = probe_margin * probe->first_bounce * q / (1.0 - q);
+    if (out.bound <= tolerance) {
+        out.on = false;
+        out.ground = Ground::measured;
+        out.why = "a probe finds little indirect light, and little of it is reflected again";
+    }
+    return out;
+}
+
+Decision indirect_occlusion(const SceneFacts& facts, const Decision& first) {
+    if (!first.on) return {false, first.ground, 0.0, first.why};
+    if (facts.proof.surfaces_open)
+        return proven("the surfaces are convex: nothing lies between two of them");
+    return needed("something may lie between two surfaces");
+}
+
+}  // namespace
+
+const char* name_of(Effect effect) { return names[static_cast<std::size_t>(effect)]; }
+
+std::optional<Effect> effect_of(const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<Effect>(found - names.begin());
+}
+
+const char* name_of(Ground ground) {
+    switch (ground) {
+        case Ground::absent: return "absent";
+        case Ground::proven: return "proven";
+        case Ground::measured: return "measured";
+        case Ground::needed: return "needed";
+        case Ground::wished: return "wished";
+    }
+    return "";
+}
+
+EffectChoices choose_effects(const SceneFacts& facts, double tolerance,
+                             const std::optional<ProbeFacts>& probe) {
+    EffectChoices out;
+    const auto put = [&](Effect effect, Decision decision) {
+        out[static_cast<std::size_t>(effect)] = {effect,         decision.on,
+                                                 decision.ground, decision.bound,
+                                                 std::move(decision.why), 0.0, 0.0};
+    };
+    const LightFacts& lights = facts.lights;
+    put(Effect::point_light, has(lights.points > 0, "point lights"));
+    put(Effect::spot_light, has(lights.spots > 0, "spots"));
+    put(Effect::directional_light, has(lights.directional > 0, "directional lights"));
+    put(Effect::area_light, has(lights.emissive_power > 0.0, "emissive surfaces"));
+    put(Effect::environment_light, has(lights.environment, "environment"));
+    put(Effect::direct_shadows, direct_shadows(facts));
+    put(Effect::environment_shadows, environment_shadows(facts));
+    const Decision first = first_bounce(facts, tolerance, probe);
+    put(Effect::first_bounce, first);
+    put(Effect::further_bounces, further_bounces(facts, tolerance, first, probe));
+    put(Effect::indirect_occlusion, indirect_occlusion(facts, first));
+    put(Effect::gloss, has(facts.surfaces.gloss > 0.0, "glossy surfaces"));
+    put(Effect::textures, has(facts.surfaces.textures, "textures of more than one colour"));
+    put(Effect::cutouts, has(facts.surfaces.cutouts, "alpha masks with holes"));
+    put(Effect::moving_geometry, has(facts.motion.geometry, "geometry that moves"));
+    put(Effect::moving_lights, has(lights.moving, "lights that move"));
+    return out;
+}
+
+}  // namespace clgi

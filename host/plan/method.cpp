@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "plan/method.hpp"
+
+#include <algorithm>
+#include <clgi/error.hpp>
+#include <limits>
+
+#include "plan/rungs.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double default_seconds = 1.0;        // of a picture
+constexpr double default_frame_seconds = 0.1;  // of one of an animation
+constexpr double mostly = 0.5;
+// Beyond so many triangles, links for all poses take minutes.
+constexpr std::size_t most_moving_triangles = 30000;
+
+struct Method_name {
+    Method method;
+    const char* name;
+};
+constexpr Method_name names[] = {{Method::direct, "direct"},
+                                 {Method::second_order, "second-order"},
+                                 {Method::light_atlas, "atlas"},
+                                 {Method::antiradiance, "antiradiance"},
+                                 {Method::dynamic_transfer, "transfer"}};
+
+bool lamps(const Plan& plan) {
+    return plan.on(Effect::point_light) || plan.on(Effect::spot_light) ||
+           plan.on(Effect::directional_light) || plan.on(Effect::area_light);
+}
+
+struct Choice {
+    std::vector<Method> methods;
+    std::string why;
+};
+
+// The methods that bring the effects of a plan.
+Choice methods_for(const Plan& plan) {
+    if (plan.wish.method) return {{*plan.wish.method}, "asked for"};
+    const bool sky = plan.on(Effect::environment_light);
+    if (!plan.on(Effect::first_bounce)) {
+        if (!sky) return {{Method::direct}, "there is no indirect light"};
+        return {{Method::dynamic_transfer}, "the light of the environment alone arrives indirectly"};
+    }
+    if (plan.wish.animated) {
+        if (sky && !lamps(plan) && plan.facts.openness > mostly)
+            return {{Method::dynamic_transfer}, "the environment lights what moves"};
+        if (plan.facts.surfaces.triangles <= most_moving_triangles)
+            return {{Method::antiradiance, Method::second_order}, "light follows what moves"};
+        return {{Method::second_order}, "nothing is made before, and there are many triangles"};
+    }
+    if (sky && !lamps(plan) && plan.facts.openness > mostly)
+        return {{Method::dynamic_transfer, Method::antiradiance},
+                "the environment is the light, and most of it is seen"};
+    return {{Method::antiradiance, Method::light_atlas}, "light goes on between surfaces"};
+}
+
+void set(Plan& plan, const Rung& rung) {
+    plan.method = rung.method;
+    plan.picture = PictureOptions();
+    plan.picture.width = plan.second_order.width = plan.wish.width;
+    plan.picture.height = plan.second_order.height = plan.wish.height;
+    switch (rung.method) {
+        case Method::direct: plan.second_order.indirect = false; break;
+        case Method::second_order: plan.second_order.emitters.vpls = rung.places; break;
+        case Method::light_atlas:
+            plan.vpls.count = static_cast<std::uint32_t>(rung.places);
+            plan.layout.size = rung.directions;
+            plan.layout.largest_size = 4096;
+            break;
+        case Method::antiradiance:
+            plan.antiradiance.bins = rung.directions;
+            plan.antiradiance.elements.wished = static_cast<std::size_t>(rung.places);
+            break;
+        case Method::dynamic_transfer: break;
+    }
+    apply_effects(plan);
+}
+
+struct Candidate {
+    Plan plan;
+    std::optional<double> error;
+};
+
+double unknown_last(const std::optional<double>& error) {
+    return error ? *error : std::numeric_limits<double>::max();
+}
+
+}  // namespace
+
+const char* name_of(Method method) {
+    for (const Method_name& one : names)
+        if (one.method == method) return one.name;
+    return "";
+}
+
+std::optional<Method> method_of(const std::string& name) {
+    for (const Method_name& one : names)
+        if (name == one.name) return one.method;
+    return std::nullopt;
+}
+
+void apply_effects(Plan& plan) {
+    const BuildOptions& build = plan.wish.build;
+    const bool shadows = plan.on(Effect::direct_shadows);
+    const auto emitters = [&](EmitterOptions& options) { options.shadows = shadows; };
+
+    emitters(plan.picture.emitters);
+    plan.picture.build = build;
+
+    SecondOrderOptions& second = plan.second_order;
+    second.indirect = plan.method != Method::direct && plan.on(Effect::first_bounce);
+    if (!plan.on(Effect::indirect_occlusion)) second.negative_vpls = 0;
+    // VPLs are placed through the views of lights.
+    second.emitters.shadows = shadows || second.indirect;
+    second.build = build;
+
+    emitters(plan.light_atlas.emitters);
+    if (!plan.on(Effect::further_bounces)) plan.light_atlas.bounces = 1;
+    plan.light_atlas.build = build;
+
+    emitters(plan.antiradiance.emitters);
+    if (!plan.on(Effect::gloss)) plan.antiradiance.least_gloss = 1.0;
+    plan.antiradiance.build = build;
+
+    DynamicTransferOptions& transfer = plan.transfer;
+    transfer.shadowed = plan.on(Effect::environment_shadows);
+    transfer.gloss = plan.on(Effect::gloss);
+    transfer.bounces = plan.on(Effect::first_bounce) && transfer.shadowed ? 1 : 0;
+    transfer.build = build;
+    plan.transfer_view.picture = plan.picture;
+}
+
+void choose_method(const cl::Device& device, Plan& plan) {
+    const Choice choice = methods_for(plan);
+    const SceneKind kind = kind_of(plan.facts);
+    std::vector<Candidate> candidates;
+    for (const Rung& rung : rungs()) {
+        if (std::find(choice.methods.begin(), choice.methods.end(), rung.method) ==
+            choice.methods.end())
+            continue;
+        Candidate one{plan, std::nullopt};
+        set(one.plan, rung);
+        one.plan.cost = cost_of(device, one.plan);
+        const double error = rung.error[static_cast<std::size_t>(kind)];
+        if (error > 0.0) one.error = error;
+        candidates.push_back(std::move(one));
+    }
+
+    const PlanWish& wish = plan.wish;
+    const double milliseconds =
+        1e3 * wish.seconds.value_or(wish.animated ? default_frame_seconds : default_seconds);
+    const auto time = [&](const Candidate& one) {
+        return wish.animated ? one.plan.cost.frame_ms : one.plan.cost.total_ms();
+    };
+    const auto quick = [&](const Candidate& one) { return time(one) <= milliseconds; };
+    const auto right = [&](const Candidate& one) { return one.error && *one.error <= *wish.error; };
+
+    // With an error the cheapest that reaches it, within the time if that can be; without one the
+    // most accurate within the time. What nothing reaches is come near to.
+    const auto better = [&](const Candidate& a, const Candidate& b) {
+        const bool hurried = wish.seconds || !wish.error;
+        if (hurried && quick(a) != quick(b)) return quick(a);
+        if (wish.error && right(a) != right(b)) return right(a);
+        if (hurried && !quick(a)) return time(a) < time(b);
+        if (wish.error && right(a)) return time(a) < time(b);
+        return unknown_last(a.error) < unknown_last(b.error);
+    };
+    const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), better);
+
+    plan = best.plan;
+    plan.why = choice.why;
+    plan.error = best.error;
+    if (best.error)
+        plan.error_ground = std::string("measured in ") + name_of(kind) + " scenes";
+    plan.meets_time = !wish.seconds || quick(best);
+    plan.meets_error = !wish.error || right(best);
+}
+
+}  // namespace clgi

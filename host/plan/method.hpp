@@ -1,0 +1,18 @@
+// Which method brings the effects of a plan, with which settings, at what cost.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/plan/plan.hpp>
+
+namespace clgi {
+
+// Sets the method, its settings, cost and error.
+void choose_method(const cl::Device& device, Plan& plan);
+
+// Brings the settings of the plan's method to its effects: what is off is switched off.
+void apply_effects(Plan& plan);
+
+// Of the plan's method with its settings and effects.
+PlanCost cost_of(const cl::Device& device, const Plan& plan);
+
+}  // namespace clgi

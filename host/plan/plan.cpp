@@ -1,0 +1,113 @@
+// From facts and a wish to a plan: effects, then the method and its settings, then what each costs.
+// SPDX-License-Identifier: MIT
+#include <clgi/plan/plan.hpp>
+
+#include <algorithm>
+#include <clgi/error.hpp>
+#include <cmath>
+
+#include "plan/method.hpp"
+#include "plan/probe.hpp"
+
+namespace clgi {
+namespace {
+
+void need(bool right, const std::string& what) {
+    if (!right) throw Error("plan: " + what);
+}
+
+void check(const PlanWish& wish) {
+    need(wish.width >= 1 && wish.width <= 16384 && wish.height >= 1 && wish.height <= 16384,
+         "width and height are " + std::to_string(wish.width) + " and " +
+             std::to_string(wish.height) + ", 1 to 16384 needed");
+    need(wish.tolerance >= 0.0 && std::isfinite(wish.tolerance),
+         "tolerance is negative or not finite");
+    need(!wish.seconds || (*wish.seconds > 0.0 && std::isfinite(*wish.seconds)),
+         "seconds is not above 0 or not finite");
+    need(!wish.error || (*wish.error > 0.0 && std::isfinite(*wish.error)),
+         "error is not above 0 or not finite");
+    for (const Effect effect : wish.with)
+        need(std::find(wish.without.begin(), wish.without.end(), effect) == wish.without.end(),
+             std::string(name_of(effect)) + " is both with and without");
+}
+
+void overrule(EffectChoices& effects, const PlanWish& wish) {
+    const auto set = [&](Effect effect, bool on) {
+        EffectChoice& choice = effects[static_cast<std::size_t>(effect)];
+        if (choice.on == on) return;
+        choice.on = on;
+        choice.ground = Ground::wished;
+        choice.why = std::string(on ? "asked for; without: " : "left out by wish; ") + choice.why;
+    };
+    for (const Effect effect : wish.without) set(effect, false);
+    const auto first = static_cast<std::size_t>(Effect::first_bounce);
+    // What is left of indirect light needs its first bounce.
+    if (!effects[first].on && effects[first].ground == Ground::wished)
+        for (const Effect effect : {Effect::further_bounces, Effect::indirect_occlusion})
+            set(effect, false);
+    for (const Effect effect : wish.with) set(effect, true);
+    for (const Effect effect : wish.with)
+        if (effect == Effect::further_bounces || effect == Effect::indirect_occlusion)
+            set(Effect::first_bounce, true);
+}
+
+// The tolerance is for all effects together: those of the least bounds are left out first.
+void share_tolerance(Plan& plan) {
+    std::vector<EffectChoice*> left_out;
+    for (EffectChoice& choice : plan.effects)
+        if (!choice.on && choice.ground == Ground::measured) left_out.push_back(&choice);
+    std::sort(left_out.begin(), left_out.end(),
+              [](const EffectChoice* a, const EffectChoice* b) { return a->bound < b->bound; });
+    // Further bounces and the first one: the bound of the first includes them.
+    for (EffectChoice* choice : left_out) plan.bound = std::max(plan.bound, choice->bound);
+}
+
+// What each effect that is on adds: the plan's cost less that of the plan without it.
+void price(const cl::Device& device, Plan& plan) {
+    for (EffectChoice& choice : plan.effects) {
+        if (!choice.on) continue;
+        Plan without = plan;
+        without.effects[static_cast<std::size_t>(choice.effect)].on = false;
+        apply_effects(without);
+        const PlanCost less = cost_of(device, without);
+        choice.milliseconds = std::max(0.0, plan.cost.total_ms() - less.total_ms());
+        choice.megabytes = std::max(0.0, plan.cost.megabytes - less.megabytes);
+    }
+}
+
+Plan planned(const cl::Device& device, const SceneFacts& facts, const PlanWish& wish,
+             const std::optional<ProbeFacts>& probed) {
+    Plan plan;
+    plan.wish = wish;
+    plan.facts = facts;
+    plan.probe = probed;
+    plan.effects = choose_effects(facts, wish.tolerance, probed);
+    overrule(plan.effects, wish);
+    share_tolerance(plan);
+    choose_method(device, plan);
+    price(device, plan);
+    return plan;
+}
+
+}  // namespace
+
+Plan make_plan(const cl::Device& device, const SceneFacts& facts, const PlanWish& wish) {
+    check(wish);
+    return planned(device, facts, wish, std::nullopt);
+}
+
+Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
+               const Camera& camera, const PlanWish& wish) {
+    check(wish);
+    const auto device = queue.getInfo<CL_QUEUE_DEVICE>();
+    const SceneFacts facts = scene_facts(scene);
+    std::optional<ProbeFacts> probed;
+    const auto first = static_cast<std::size_t>(Effect::first_bounce);
+    if (choose_effects(facts, wish.tolerance)[first].on && worth_probing(facts)) {
+        const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device, scene);
+        probed = probe(queue, programs, uploaded, camera, wish);
+    }
+    return planned(device, facts, wish, probed);
+}
+
+}  // namespace clgi

@@ -1,0 +1,119 @@
+// What a plan renders, as a scene: the light, gloss, textures, holes and motion whose effects are off
+// are not in it, so no kernel, buffer or pass for them is made.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <clgi/plan/plan.hpp>
+#include <cstring>
+
+#include "scene/texture_mean.hpp"
+
+namespace clgi {
+namespace {
+
+bool kept(const Light& light, const Plan& plan) {
+    if (light.intensity == glm::vec3(0.0f)) return false;
+    switch (light.kind) {
+        case Light::Kind::point: return plan.on(Effect::point_light);
+        case Light::Kind::spot: return plan.on(Effect::spot_light);
+        case Light::Kind::directional: return plan.on(Effect::directional_light);
+    }
+    return true;
+}
+
+// Lights keep their order; what the animation carries follows them.
+void drop_lights(Scene& scene, const Plan& plan) {
+    std::vector<std::uint32_t> place(scene.lights.size());
+    std::vector<Light> out;
+    std::vector<bool> stays(scene.lights.size());
+    for (std::size_t k = 0; k < scene.lights.size(); ++k) {
+        place[k] = static_cast<std::uint32_t>(out.size());
+        stays[k] = kept(scene.lights[k], plan);
+        if (stays[k]) out.push_back(scene.lights[k]);
+    }
+    scene.lights = std::move(out);
+    if (!scene.animation) return;
+    std::vector<Carried> carried;
+    for (Carried one : scene.animation->lights) {
+        if (!stays[one.index]) continue;
+        one.index = place[one.index];
+        carried.push_back(one);
+    }
+    scene.animation->lights = std::move(carried);
+}
+
+bool one_colour(const Texture& texture) {
+    if (texture.rgba.empty()) return false;
+    for (std::size_t k = 4; k < texture.rgba.size(); k += 4)
+        if (std::memcmp(&texture.rgba[k], texture.rgba.data(), 4) != 0) return false;
+    return true;
+}
+
+// Of a texture that a plan has no use for: its linear colour, of all texels.
+class MeanColours {
+public:
+    explicit MeanColours(const Scene& scene) : scene_(scene), plain_(scene.textures.size()) {
+        for (std::size_t k = 0; k < plain_.size(); ++k) plain_[k] = one_colour(scene.textures[k]);
+    }
+
+    bool plain(int texture) const { return plain_[static_cast<std::size_t>(texture)]; }
+
+    glm::vec3 of(int texture) const {
+        const Texture& from = scene_.textures[static_cast<std::size_t>(texture)];
+        const TextureMean mean(from);
+        if (plain(texture)) return glm::vec3(mean.at(glm::dvec2(0.5)));
+        const UvTriangle halves[2] = {{glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1)},
+                                      {glm::dvec2(0, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)}};
+        return glm::vec3(0.5 * (mean.over(halves[0]) + mean.over(halves[1])));
+    }
+
+    float alpha(int texture) const {
+        return static_cast<float>(
+            TextureMean(scene_.textures[static_cast<std::size_t>(texture)]).alpha(glm::dvec2(0.5)));
+    }
+
+private:
+    const Scene& scene_;
+    std::vector<bool> plain_;
+};
+
+void drop_textures(Material& material, const Plan& plan, const MeanColours& colours) {
+    const bool all = !plan.on(Effect::textures);
+    const auto dropped = [&](const TextureSlot& slot) {
+        return slot.texture >= 0 && (all || colours.plain(slot.texture));
+    };
+    if (dropped(material.emission_texture)) {
+        material.emission *= colours.of(material.emission_texture.texture);
+        material.emission_texture = TextureSlot();
+    }
+    if (!dropped(material.base_texture)) return;
+    const int texture = material.base_texture.texture;
+    const bool holes = material.alpha_mode == AlphaMode::mask;
+    if (holes && !colours.plain(texture)) return;  // its alpha cuts the holes
+    const glm::vec3 colour = colours.of(texture);
+    for (int c = 0; c < 3; ++c) material.base_color[c] *= colour[c];
+    if (holes) material.base_color.a *= colours.alpha(texture);
+    material.base_texture = TextureSlot();
+}
+
+}  // namespace
+
+Scene planned_scene(const Scene& scene, const Plan& plan) {
+    Scene out = scene;
+    drop_lights(out, plan);
+    if (!plan.on(Effect::environment_light)) out.environment.reset();
+    const MeanColours colours(scene);
+    for (Material& material : out.materials) {
+        if (!plan.on(Effect::area_light)) {
+            material.emission = glm::vec3(0.0f);
+            material.emission_texture = TextureSlot();
+        }
+        if (!plan.on(Effect::gloss)) material.roughness = 1.0f;  // Lambert with the base colour
+        if (!plan.on(Effect::cutouts)) material.alpha_mode = AlphaMode::opaque;
+        drop_textures(material, plan, colours);
+    }
+    const bool moves = plan.on(Effect::moving_geometry) || plan.on(Effect::moving_lights);
+    if (!moves && out.animation && out.animation->cameras.empty()) out.animation.reset();
+    return out;
+}
+
+}  // namespace clgi

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "plan/probe.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <clgi/solvers/second_order.hpp>
+#include <cmath>
+#include <limits>
+
+#include "plan/survival.hpp"
+#include "scene/luminance.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double little = 0.3;      // of light survives a bounce
+constexpr int longest_side = 160;   // pixels
+constexpr int lights = 256;         // VPLs
+
+std::vector<double> luminances(const cl::CommandQueue& queue, const SecondOrderSolver& solver,
+                               const cl::Event& done) {
+    const std::size_t pixels =
+        static_cast<std::size_t>(solver.options().width) * solver.options().height;
+    std::vector<float> planes(3 * static_cast<std::size_t>(solver.stride()));
+    const WaitList wait{done};
+    queue.enqueueReadBuffer(solver.radiance(), CL_TRUE, 0, planes.size() * sizeof(float),
+                            planes.data(), &wait);
+    std::vector<double> out(pixels);
+    for (std::size_t k = 0; k < pixels; ++k)
+        out[k] = luminance(glm::dvec3(planes[k], planes[k + solver.stride()],
+                                      planes[k + 2 * static_cast<std::size_t>(solver.stride())]));
+    return out;
+}
+
+}  // namespace
+
+bool worth_probing(const SceneFacts& facts) { return survival(facts) < little; }
+
+ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
+                 const Camera& camera, const PlanWish& wish) {
+    const auto start = std::chrono::steady_clock::now();
+    SecondOrderOptions options;
+    const double shrink =
+        std::min(1.0, static_cast<double>(longest_side) / std::max(wish.width, wish.height));
+    options.width = std::max(1, static_cast<int>(std::lround(wish.width * shrink)));
+    options.height = std::max(1, static_cast<int>(std::lround(wish.height * shrink)));
+    options.emitters.vpls = lights;
+    options.negative_vpls = 0;
+    options.low_resolution_step = 1;
+    options.build = wish.build;
+    SecondOrderSolver solver(programs, queue, scene, options);
+    const std::vector<double> lit = luminances(queue, solver, solver.render(camera));
+    options.indirect = false;
+    solver.reconfigure(options);
+    const std::vector<double> direct = luminances(queue, solver, solver.render(camera));
+
+    double squares = 0.0, sum = 0.0;
+    for (std::size_t k = 0; k < lit.size(); ++k) {
+        squares += (lit[k] - direct[k]) * (lit[k] - direct[k]);
+        sum += lit[k];
+    }
+    const double count = static_cast<double>(lit.size());
+    ProbeFacts out;
+    // A picture without light tells nothing about light that arrives over more bounces.
+    out.first_bounce =
+        sum > 0.0 ? std::sqrt(squares / count) / (sum / count)
+                  : std::numeric_limits<double>::infinity();
+    out.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return out;
+}
+
+}  // namespace clgi

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/bake_layout.hpp>
+#include <clgi/plan/renderer.hpp>
+#include <clgi/solvers/antiradiance_view.hpp>
+#include <clgi/solvers/light_atlas_view.hpp>
+
+namespace clgi {
+namespace {
+
+struct Atlas {
+    Atlas(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+          const DeviceScene& device, const Plan& plan)
+        : Atlas(programs, queue, make_bake_layout(scene, plan.vpls, plan.layout), device, plan) {}
+
+    Atlas(const Programs& programs, const cl::CommandQueue& queue, const BakeLayout& layout,
+          const DeviceScene& device, const Plan& plan)
+        : solver(programs, queue, device, layout.vpls, layout.atlas, plan.light_atlas),
+          view(programs, queue, device, layout.atlas, plan.picture) {}
+
+    LightAtlasSolver solver;
+    LightAtlasView view;
+};
+
+struct Elements {
+    Elements(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+             const DeviceScene& device, const Plan& plan)
+        : solver(programs, queue, scene, device, plan.antiradiance),
+          view(programs, queue, device, solver, plan.picture) {}
+
+    AntiradianceSolver solver;
+    AntiradianceView view;
+};
+
+struct Transfer {
+    Transfer(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+             const DeviceScene& device, const Plan& plan)
+        : solver(programs, queue, scene, device, plan.transfer),
+          view(programs, queue, device, solver, plan.transfer_view) {}
+
+    DynamicTransferSolver solver;
+    DynamicTransferView view;
+};
+
+}  // namespace
+
+// Of the method of the plan; the others are empty.
+struct PlannedRenderer::State {
+    Plan plan;
+    std::unique_ptr<SecondOrderSolver> second_order;
+    std::unique_ptr<Atlas> atlas;
+    std::unique_ptr<Elements> elements;
+    std::unique_ptr<Transfer> transfer;
+
+    const Picture& picture() const {
+        if (atlas) return atlas->view.picture();
+        if (elements) return elements->view.picture();
+        return transfer->view.picture();
+    }
+};
+
+PlannedRenderer::PlannedRenderer(const Programs& programs, const cl::CommandQueue& queue,
+                                 const Scene& scene, const DeviceScene& device_scene,
+                                 const Plan& plan)
+    : state_(std::make_unique<State>()) {
+    State& s = *state_;
+    s.plan = plan;
+    switch (plan.method) {
+        case Method::direct:
+        case Method::second_order:
+            s.second_order = std::make_unique<SecondOrderSolver>(programs, queue, device_scene,
+                                                                 plan.second_order);
+            break;
+        case Method::light_atlas:
+            s.atlas = std::make_unique<Atlas>(programs, queue, scene, device_scene, plan);
+            break;
+        case Method::antiradiance:
+            s.elements = std::make_unique<Elements>(programs, queue, scene, device_scene, plan);
+            break;
+        case Method::dynamic_transfer:
+            s.transfer = std::make_unique<Transfer>(programs, queue, scene, device_scene, plan);
+            break;
+    }
+}
+
+PlannedRenderer::~PlannedRenderer() = default;
+
+bool PlannedRenderer::prepare(const Progress& progress) {
+    State& s = *state_;
+    if (s.atlas) return s.atlas->solver.run(progress);
+    if (s.elements) return s.elements->solver.run(progress);
+    if (s.transfer) return s.transfer->solver.run(progress);
+    return !progress || progress(1.0);
+}
+
+void PlannedRenderer::lights_changed() {
+    State& s = *state_;
+    if (s.second_order) s.second_order->lights_changed();
+    if (s.atlas) {
+        s.atlas->solver.lights_changed();
+        s.atlas->view.lights_changed();
+    }
+    if (s.elements) {
+        s.elements->solver.lights_changed();
+        s.elements->view.lights_changed();
+    }
+    if (s.transfer) {
+        s.transfer->solver.lights_changed();
+        s.transfer->view.lights_changed();
+    }
+}
+
+cl::Event PlannedRenderer::render(const Camera& camera, const WaitList& wait) {
+    State& s = *state_;
+    if (s.second_order) return s.second_order->render(camera, wait);
+    if (s.atlas)
+        return s.atlas->view.render(camera, s.atlas->solver.irradiance_planes(),
+                                    s.atlas->solver.stride(), wait);
+    if (s.elements) return s.elements->view.render(camera, wait);
+    return s.transfer->view.render(camera, wait);
+}
+
+std::uint32_t PlannedRenderer::non_finite() const {
+    const State& s = *state_;
+    if (s.second_order) return s.second_order->status().non_finite;
+    std::uint32_t before = 0;
+    if (s.atlas) before = s.atlas->solver.status().non_finite;
+    if (s.elements) before = s.elements->solver.status().non_finite;
+    if (s.transfer) before = s.transfer->solver.status().non_finite;
+    return before + s.picture().non_finite();
+}
+
+std::vector<PassEvent> PlannedRenderer::events() const {
+    const State& s = *state_;
+    if (s.second_order) return s.second_order->events();
+    std::vector<PassEvent> out;
+    const auto add = [&](const std::vector<PassEvent>& events) {
+        out.insert(out.end(), events.begin(), events.end());
+    };
+    if (s.atlas) add(s.atlas->solver.events());
+    if (s.elements) add(s.elements->solver.events());
+    if (s.transfer) add(s.transfer->solver.events());
+    add(s.picture().events());
+    return out;
+}
+
+std::size_t PlannedRenderer::bytes() const {
+    const State& s = *state_;
+    if (s.second_order) return s.second_order->bytes();
+    if (s.atlas) return s.atlas->solver.bytes() + s.atlas->view.picture().bytes();
+    if (s.elements) return s.elements->solver.bytes() + s.elements->view.bytes();
+    return s.transfer->solver.bytes() + s.transfer->view.bytes();
+}
+
+std::uint32_t PlannedRenderer::stride() const {
+    return state_->second_order ? state_->second_order->stride() : state_->picture().stride();
+}
+
+const cl::Buffer& PlannedRenderer::radiance() const {
+    return state_->second_order ? state_->second_order->radiance() : state_->picture().radiance();
+}
+
+const Plan& PlannedRenderer::plan() const { return state_->plan; }
+
+}  // namespace clgi
