@@ -42,6 +42,7 @@
 #include <clgi/passes/transfer.hpp>
 #include <clgi/passes/vpl.hpp>
 #include <clgi/patches.hpp>
+#include <clgi/plan/facts.hpp>
 #include <clgi/procedural.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
