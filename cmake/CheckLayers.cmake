@@ -49,7 +49,7 @@ foreach(room IN ITEMS opencl parallel scene gbuffer lights image vpl atlas antir
 endforeach()
 set(public "${SOURCE_DIR}/include/clgi/*.hpp" "${SOURCE_DIR}/include/clgi/*.h")
 set(core ${library} "${SOURCE_DIR}/include/clgi/shared/*.h")
-foreach(folder IN ITEMS passes kit solvers)
+foreach(folder IN ITEMS passes kit solvers plan)
     list(APPEND core "${SOURCE_DIR}/include/clgi/${folder}/*.hpp")
 endforeach()
 file(GLOB top RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/include/clgi/*.hpp")
@@ -91,10 +91,14 @@ forbid("^(clgi/)?(passes|solvers|shared|gbuffer|lights|image|opencl|io|report|cl
 
 # Passes and what they stand on know no solver, by name or through the umbrella header.
 set(below ${core})
-list(FILTER below EXCLUDE REGEX "/solvers/|clgi/clgi\\.hpp$")
+list(FILTER below EXCLUDE REGEX "/(solvers|plan)/|clgi/clgi\\.hpp$")
 forbid("solvers/|^clgi/clgi\\.hpp" "passes know no solver" ${below})
 list(FILTER below EXCLUDE REGEX "/kit/|clgi/reference\\.hpp$")
 forbid("^(clgi/)?kit/" "passes know no kit" ${below})
+set(planless ${core})
+list(FILTER planless EXCLUDE REGEX "/plan/|clgi/clgi\\.hpp$")
+forbid("^(clgi/)?plan/" "nothing of the library knows the plan" ${planless} "${SOURCE_DIR}/host/io/*"
+       "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/host/gl/*" "${SOURCE_DIR}/host/mesh/*")
 
 # ---- rooms ------------------------------------------------------------------------------------
 set(upstream_parallel "")

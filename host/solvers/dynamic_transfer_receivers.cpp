@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "scene/texture_mean.hpp"
+#include "scene/base_color.hpp"
 #include "solvers/dynamic_transfer_state.hpp"
 
 namespace clgi {
@@ -53,22 +53,12 @@ void SceneReceivers::add_other_sides(BlockerLevels& levels) const {
 
 std::vector<float> SceneReceivers::reflectances(const Scene& scene, const DeviceScene& device,
                                                std::size_t stride) const {
-    std::vector<TextureMean> textures(scene.textures.size());
-    for (const Material& material : scene.materials) {
-        const int texture = material.base_texture.texture;
-        if (texture >= 0)
-            textures[static_cast<std::size_t>(texture)] =
-                TextureMean(scene.textures[static_cast<std::size_t>(texture)]);
-    }
+    const BaseColorMeans base_colors(scene);
     std::vector<glm::dvec3> sum(scene.positions.size(), glm::dvec3(0.0));
     std::vector<int> count(scene.positions.size(), 0);
     for (const SceneTriangle& triangle : scene.triangles) {
         const Material& material = scene.materials[triangle.material];
-        glm::dvec3 base(material.base_color);
-        const TextureSlot& slot = material.base_texture;
-        if (slot.texture >= 0)
-            base *= textures[static_cast<std::size_t>(slot.texture)].over(
-                slot_uvs(scene, triangle, slot));
+        const glm::dvec3 base = base_colors(triangle);
         for (const std::uint32_t corner : triangle.vertex) {
             const glm::dvec3 colour =
                 scene.colors.empty() ? glm::dvec3(1.0) : glm::dvec3(scene.colors[corner]);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "plan/local_triangles.hpp"
+
+#include <algorithm>
+
+#include "scene/local_frame.hpp"
+
+namespace clgi {
+
+std::vector<LocalTriangle> local_triangles(const Scene& scene) {
+    const SceneFrame frame = local_frame(bounds(scene));
+    std::vector<LocalTriangle> out;
+    out.reserve(scene.triangles.size());
+    for (const SceneTriangle& triangle : scene.triangles) {
+        LocalTriangle& local = out.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k)
+            local.corners[k] = glm::dvec3(frame.to_local(scene.positions[triangle.vertex[k]]));
+        local.double_sided = scene.materials[triangle.material].double_sided;
+        const auto& [a, b, c] = local.corners;
+        const glm::dvec3 across = glm::cross(b - a, c - a);
+        const double twice_area = glm::length(across);
+        const double longest =
+            std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+        local.area = 0.5 * twice_area;
+        local.height = longest > 0.0 ? twice_area / longest : 0.0;
+        if (!local.is_line()) local.normal = across / twice_area;
+    }
+    return out;
+}
+
+}  // namespace clgi

@@ -1,0 +1,32 @@
+// The parts that SceneFacts are made of. Every scene here is sound, as validate() says.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/plan/facts.hpp>
+#include <clgi/scene.hpp>
+#include <cstdint>
+#include <vector>
+
+namespace clgi {
+
+// What each triangle reflects of what meets it, per channel.
+struct TriangleAlbedo {
+    glm::dvec3 all = glm::dvec3(0.0);    // diffuse and gloss
+    glm::dvec3 gloss = glm::dvec3(0.0);  // of lobe and coat alone
+};
+std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene);
+
+// [triangles of the scene] albedos.
+SurfaceFacts surface_facts(const Scene& scene, const std::vector<TriangleAlbedo>& albedos);
+
+double triangle_area(const Scene& scene, const SceneTriangle& triangle);  // m^2, one side
+
+struct LightsFound {
+    LightFacts facts;
+    std::vector<std::uint32_t> emissive;  // triangles
+};
+LightsFound light_facts(const Scene& scene);
+
+MotionFacts motion_facts(const Scene& scene);
+
+}  // namespace clgi

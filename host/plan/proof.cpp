@@ -1,0 +1,140 @@
+// Two cases in which nothing lies between a light and a point that it lights. [derived]
+//
+//   inside    all planes support, and the light is strictly on the scene's side of each: what lies
+//             on those sides is convex and has triangles on its boundary alone
+//   before    no vertex lies strictly on the light's side of the lit triangle's plane
+//
+// Alpha masks are not read: a masked triangle counts as whole.
+// SPDX-License-Identifier: MIT
+#include "plan/proof.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "plan/supporting.hpp"
+#include "scene/local_frame.hpp"
+#include "scene/luminance.hpp"
+
+namespace clgi {
+namespace {
+
+// A light in the local frame. Of a directional light only the direction towards it counts, and it
+// lies before planes that face it, wherever they are.
+struct Source {
+    glm::dvec3 place;  // or the unit vector to the light
+    bool directional;
+    double rounding;  // of its distance from a plane
+
+    double before(const Plane& plane) const {
+        return directional ? glm::dot(plane.normal, place) : plane.distance(place);
+    }
+};
+
+std::vector<Source> sources_of(const Scene& scene) {
+    const SceneFrame frame = local_frame(bounds(scene));
+    std::vector<Source> out;
+    for (const Light& light : scene.lights) {
+        if (!(luminance(light.intensity) > 0.0f)) continue;
+        if (light.kind == Light::Kind::directional) {
+            out.push_back({-glm::normalize(glm::dvec3(light.direction)), true, same_place});
+            continue;
+        }
+        const glm::dvec3 place = (light.position - frame.origin) * frame.scale;
+        const double far = std::max({1.0, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+        out.push_back({place, false, same_place * far});
+    }
+    return out;
+}
+
+class Prover {
+public:
+    Prover(const Scene& scene, const std::vector<LocalTriangle>& triangles)
+        : sources_(sources_of(scene)), triangles_(triangles), planes_(triangles) {
+        order_.resize(triangles.size());
+        std::iota(order_.begin(), order_.end(), 0u);
+        // Large ones first: their planes are told best, and others lie in them.
+        std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return triangles[a].area > triangles[b].area;
+        });
+    }
+
+    OpennessProof prove(const std::vector<std::uint32_t>& emissive) {
+        OpennessProof out;
+        out.surfaces_open = surfaces_open();
+        out.surfaces_apart =
+            out.surfaces_open && std::all_of(order_.begin(), order_.end(), [&](std::uint32_t t) {
+                return triangles_[t].is_line() || sees_nothing(t);
+            });
+        // What has no surface before it has nothing between it and the environment either.
+        out.environment_open = out.surfaces_apart;
+        out.lights_open = lights_open(out.surfaces_open, emissive);
+        return out;
+    }
+
+private:
+    bool surfaces_open() {
+        for (const std::uint32_t t : order_)
+            if (!triangles_[t].is_line() && !planes_.place(t)) return false;
+        // Lines have no plane, but must not stand in the room.
+        for (const std::uint32_t t : order_)
+            if (triangles_[t].is_line() && !planes_.in_a_plane(triangles_[t])) return false;
+        return !planes_.overlap();
+    }
+
+    bool sees_nothing(std::uint32_t t) {
+        const auto& placed = planes_.place(t);
+        return placed && !placed->before && !(triangles_[t].double_sided && placed->behind);
+    }
+
+    bool lights_open(bool surfaces_open, const std::vector<std::uint32_t>& emissive) {
+        for (const Source& source : sources_)
+            if (!(surfaces_open && inside(source)) && !before_all(source)) return false;
+        if (surfaces_open) return true;  // between points of emissive surfaces and others as well
+        for (const std::uint32_t t : emissive)
+            if (!triangles_[t].is_line() && !sees_nothing(t)) return false;
+        return !planes_.overlap();
+    }
+
+    bool inside(const Source& source) const {
+        // Along a plane light from far away stays on its side; a place on it may be behind it.
+        const double least = source.directional ? -source.rounding : source.rounding;
+        for (const SupportingPlanes::Supporting& known : planes_.planes()) {
+            const double before = source.before(known.plane);
+            if (known.sides.above && !(before >= least)) return false;
+            if (known.sides.below && !(-before >= least)) return false;
+            if (!known.sides.above && !known.sides.below) return false;  // flat: no side is its
+        }
+        return true;
+    }
+
+    bool before_all(const Source& source) {
+        for (const std::uint32_t t : order_) {
+            const LocalTriangle& triangle = triangles_[t];
+            if (triangle.is_line()) continue;
+            const Plane plane{triangle.normal, glm::dot(triangle.normal, triangle.corners[0])};
+            const double before = source.before(plane);
+            const bool lit = before >= -source.rounding;
+            const bool lit_behind = triangle.double_sided && before <= source.rounding;
+            if (!lit && !lit_behind) continue;
+            const auto& placed = planes_.place(t);
+            if (!placed || (lit && placed->before) || (lit_behind && placed->behind)) return false;
+        }
+        return true;
+    }
+
+    std::vector<Source> sources_;
+    const std::vector<LocalTriangle>& triangles_;
+    SupportingPlanes planes_;
+    std::vector<std::uint32_t> order_;
+};
+
+}  // namespace
+
+OpennessProof prove_openness(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+                             const std::vector<std::uint32_t>& emissive) {
+    if (triangles.empty()) return {true, true, true, true};  // there is nothing at all
+    return Prover(scene, triangles).prove(emissive);
+}
+
+}  // namespace clgi

@@ -1,0 +1,19 @@
+// What is proven about a scene: between which points nothing lies.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/plan/facts.hpp>
+#include <clgi/scene.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "plan/local_triangles.hpp"
+
+namespace clgi {
+
+// triangles: those of the scene, which stands still. emissive: those of them that emit. `lights`
+// of the result is for lights that stand still.
+OpennessProof prove_openness(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+                             const std::vector<std::uint32_t>& emissive);
+
+}  // namespace clgi

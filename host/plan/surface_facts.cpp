@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <clgi/device_scene.hpp>
+#include <cmath>
+
+#include "plan/parts.hpp"
+#include "scene/base_color.hpp"
+#include "scene/luminance.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double least_gloss = 1e-4;  // as DeviceScene::has_lobes has it
+
+double double_of(std::uint8_t byte) { return byte / 255.0; }
+
+// Of the channels of a texture from `first` to `last`.
+bool is_one_colour(const Texture& texture, std::size_t first, std::size_t last) {
+    for (std::size_t i = 4; i < texture.rgba.size(); i += 4)
+        for (std::size_t c = first; c <= last; ++c)
+            if (texture.rgba[i + c] != texture.rgba[c]) return false;
+    return true;
+}
+
+// Which materials some triangle has, and the least vertex alpha of their triangles.
+struct MaterialUse {
+    bool used = false;
+    double least_alpha = 1.0;
+};
+
+std::vector<MaterialUse> uses_of(const Scene& scene) {
+    std::vector<MaterialUse> out(scene.materials.size());
+    for (const SceneTriangle& triangle : scene.triangles) {
+        MaterialUse& use = out[triangle.material];
+        use.used = true;
+        if (scene.colors.empty()) continue;
+        for (const std::uint32_t vertex : triangle.vertex)
+            use.least_alpha = std::min(use.least_alpha, double{scene.colors[vertex].a});
+    }
+    return out;
+}
+
+bool has_textures(const Scene& scene, const Material& material) {
+    const auto varies = [&](const TextureSlot& slot) {
+        return slot.texture >= 0 &&
+               !is_one_colour(scene.textures[static_cast<std::size_t>(slot.texture)], 0, 2);
+    };
+    return varies(material.base_texture) ||
+           (material.emission != glm::vec3(0.0f) && varies(material.emission_texture));
+}
+
+bool has_holes(const Scene& scene, const Material& material, const MaterialUse& use) {
+    if (material.alpha_mode != AlphaMode::mask) return false;
+    double least = double{material.base_color.a} * use.least_alpha;
+    if (material.base_texture.texture >= 0) {
+        const auto& rgba =
+            scene.textures[static_cast<std::size_t>(material.base_texture.texture)].rgba;
+        std::uint8_t lowest = 255;
+        for (std::size_t i = 3; i < rgba.size(); i += 4) lowest = std::min(lowest, rgba[i]);
+        least *= double_of(lowest);
+    }
+    return !(least >= double{material.alpha_cutoff});
+}
+
+double longest_edge(const Scene& scene, const SceneTriangle& triangle) {
+    double out = 0.0;
+    for (int k = 0; k < 3; ++k)
+        out = std::max(out, glm::distance(scene.positions[triangle.vertex[k]],
+                                          scene.positions[triangle.vertex[(k + 1) % 3]]));
+    return out;
+}
+
+// Areas and what they reflect, as sums; then as means and shares.
+void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, SurfaceFacts& out) {
+    double gloss = 0.0;
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        const double area = triangle_area(scene, scene.triangles[t]);
+        const TriangleAlbedo& albedo = albedos[t];
+        const Material& material = scene.materials[scene.triangles[t].material];
+        const Reflectance shares = reflectance(material.metallic, material.roughness);
+        out.area += area;
+        out.mean_albedo += area * albedo.all;
+        gloss += area * luminance(albedo.gloss);
+        if (double{shares.coat} + double{shares.lobe} > least_gloss) out.glossy_area += area;
+        if (material.double_sided) out.double_sided_area += area;
+        if (!(area > 0.0)) continue;
+        for (int c = 0; c < 3; ++c)
+            out.largest_albedo = std::max(out.largest_albedo, albedo.all[c]);
+    }
+    if (!(out.area > 0.0)) return;
+    const double reflected = luminance(out.mean_albedo);
+    if (reflected > 0.0) out.gloss = gloss / reflected;
+    out.mean_albedo /= out.area;
+    out.glossy_area /= out.area;
+    out.double_sided_area /= out.area;
+}
+
+}  // namespace
+
+double triangle_area(const Scene& scene, const SceneTriangle& triangle) {
+    const glm::dvec3& a = scene.positions[triangle.vertex[0]];
+    return 0.5 * glm::length(glm::cross(scene.positions[triangle.vertex[1]] - a,
+                                        scene.positions[triangle.vertex[2]] - a));
+}
+
+std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
+    const BaseColorMeans base_colors(scene);
+    std::vector<TriangleAlbedo> out;
+    out.reserve(scene.triangles.size());
+    for (const SceneTriangle& triangle : scene.triangles) {
+        const Material& material = scene.materials[triangle.material];
+        const Reflectance shares = reflectance(material.metallic, material.roughness);
+        glm::dvec3 base = base_colors(triangle);
+        if (!scene.colors.empty()) {
+            glm::dvec3 color(0.0);
+            for (const std::uint32_t vertex : triangle.vertex)
+                color += glm::dvec3(scene.colors[vertex]);
+            base *= color / 3.0;
+        }
+        const glm::dvec3 gloss = base * double{shares.lobe} + double{shares.coat};
+        out.push_back({base * double{shares.diffuse} + gloss, gloss});
+    }
+    return out;
+}
+
+SurfaceFacts surface_facts(const Scene& scene, const std::vector<TriangleAlbedo>& albedos) {
+    SurfaceFacts out;
+    out.triangles = scene.triangles.size();
+    add_areas(scene, albedos, out);
+    const std::vector<MaterialUse> uses = uses_of(scene);
+    for (std::size_t m = 0; m < uses.size(); ++m) {
+        if (!uses[m].used) continue;
+        out.textures = out.textures || has_textures(scene, scene.materials[m]);
+        out.cutouts = out.cutouts || has_holes(scene, scene.materials[m], uses[m]);
+    }
+    std::vector<double> edges;
+    for (const SceneTriangle& triangle : scene.triangles) {
+        if (triangle_area(scene, triangle) > 0.0)
+            edges.push_back(longest_edge(scene, triangle));
+        else
+            ++out.degenerate;
+    }
+    if (edges.empty()) return out;
+    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+    std::nth_element(edges.begin(), middle, edges.end());
+    out.median_edge = *middle;
+    const auto [least, most] = std::minmax_element(edges.begin(), edges.end());
+    out.smallest_edge = *least;
+    out.largest_edge = *most;
+    return out;
+}
+
+}  // namespace clgi
