@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/plan/plan.hpp>
-#include <cstring>
 
+#include "plan/one_colour.hpp"
 #include "scene/texture_mean.hpp"
 
 namespace clgi {
@@ -41,13 +41,6 @@ void drop_lights(Scene& scene, const Plan& plan) {
     scene.animation->lights = std::move(carried);
 }
 
-bool one_colour(const Texture& texture) {
-    if (texture.rgba.empty()) return false;
-    for (std::size_t k = 4; k < texture.rgba.size(); k += 4)
-        if (std::memcmp(&texture.rgba[k], texture.rgba.data(), 4) != 0) return false;
-    return true;
-}
-
 // Of a texture that a plan has no use for: its linear colour, of all texels.
 class MeanColours {
 public:
@@ -66,11 +59,6 @@ public:
         return glm::vec3(0.5 * (mean.over(halves[0]) + mean.over(halves[1])));
     }
 
-    float alpha(int texture) const {
-        return static_cast<float>(
-            TextureMean(scene_.textures[static_cast<std::size_t>(texture)]).alpha(glm::dvec2(0.5)));
-    }
-
 private:
     const Scene& scene_;
     std::vector<bool> plain_;
@@ -87,11 +75,9 @@ void drop_textures(Material& material, const Plan& plan, const MeanColours& colo
     }
     if (!dropped(material.base_texture)) return;
     const int texture = material.base_texture.texture;
-    const bool holes = material.alpha_mode == AlphaMode::mask;
-    if (holes && !colours.plain(texture)) return;  // its alpha cuts the holes
+    if (material.alpha_mode == AlphaMode::mask) return;  // its alpha cuts the holes
     const glm::vec3 colour = colours.of(texture);
     for (int c = 0; c < 3; ++c) material.base_color[c] *= colour[c];
-    if (holes) material.base_color.a *= colours.alpha(texture);
     material.base_texture = TextureSlot();
 }
 

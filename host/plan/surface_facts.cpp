@@ -3,6 +3,7 @@
 #include <clgi/device_scene.hpp>
 #include <cmath>
 
+#include "plan/one_colour.hpp"
 #include "plan/parts.hpp"
 #include "scene/base_color.hpp"
 #include "scene/luminance.hpp"
@@ -13,14 +14,6 @@ namespace {
 constexpr double least_gloss = 1e-4;  // as DeviceScene::has_lobes has it
 
 double double_of(std::uint8_t byte) { return byte / 255.0; }
-
-// Of the channels of a texture from `first` to `last`.
-bool is_one_colour(const Texture& texture, std::size_t first, std::size_t last) {
-    for (std::size_t i = 4; i < texture.rgba.size(); i += 4)
-        for (std::size_t c = first; c <= last; ++c)
-            if (texture.rgba[i + c] != texture.rgba[c]) return false;
-    return true;
-}
 
 // Which materials some triangle has, and the least vertex alpha of their triangles.
 struct MaterialUse {
@@ -43,7 +36,7 @@ std::vector<MaterialUse> uses_of(const Scene& scene) {
 bool has_textures(const Scene& scene, const Material& material) {
     const auto varies = [&](const TextureSlot& slot) {
         return slot.texture >= 0 &&
-               !is_one_colour(scene.textures[static_cast<std::size_t>(slot.texture)], 0, 2);
+               !one_colour(scene.textures[static_cast<std::size_t>(slot.texture)]);
     };
     return varies(material.base_texture) ||
            (material.emission != glm::vec3(0.0f) && varies(material.emission_texture));
