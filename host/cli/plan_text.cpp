@@ -22,7 +22,8 @@ ordered_json number(double value) {
 
 std::string settings_text(const Plan& plan) {
     switch (plan.method) {
-        case Method::direct: return "no indirect light";
+        case Method::direct:
+            return "no indirect light";
         case Method::second_order:
             return fmt::format("{} VPLs, {} negative", plan.second_order.emitters.vpls,
                                plan.second_order.negative_vpls);
@@ -40,7 +41,8 @@ std::string settings_text(const Plan& plan) {
 
 ordered_json settings_json(const Plan& plan) {
     switch (plan.method) {
-        case Method::direct: return ordered_json::object();
+        case Method::direct:
+            return ordered_json::object();
         case Method::second_order:
             return {{"vpls", plan.second_order.emitters.vpls},
                     {"negative_vpls", plan.second_order.negative_vpls}};
@@ -115,10 +117,11 @@ ordered_json facts_json(const SceneFacts& facts) {
 }  // namespace
 
 std::string plan_line(const Plan& plan) {
-    std::string out = fmt::format("{} ({}): {}; predicted {:.3g} ms before the first picture, "
-                                  "{:.3g} ms a picture, {:.0f} MB",
-                                  name_of(plan.method), settings_text(plan), plan.why,
-                                  plan.cost.once_ms, plan.cost.frame_ms, plan.cost.megabytes);
+    std::string out = fmt::format(
+        "{} ({}): {}; predicted {:.3g} ms before the first picture, "
+        "{:.3g} ms a picture, {:.0f} MB",
+        name_of(plan.method), settings_text(plan), plan.why, plan.cost.once_ms, plan.cost.frame_ms,
+        plan.cost.megabytes);
     if (plan.error)
         out += fmt::format("; error about {:.2g} % ({})", 100.0 * *plan.error, plan.error_ground);
     return out;

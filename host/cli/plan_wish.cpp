@@ -39,8 +39,9 @@ std::vector<Effect> effects_of(const std::string& command, const char* flag,
 
 void add_plan_flags(CLI::App& command, PlanFlags& flags) {
     command
-        .add_option("--tolerance", flags.tolerance,
-                    "auto: Effects are left out that change the picture by at most this: 1% or 0.01")
+        .add_option(
+            "--tolerance", flags.tolerance,
+            "auto: Effects are left out that change the picture by at most this: 1% or 0.01")
         ->type_name("E");
     command
         .add_option("--with", flags.with,

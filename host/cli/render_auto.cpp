@@ -34,7 +34,8 @@ void take_settings(RenderFlags& flags, const Plan& plan) {
     flags.options.emitters.shadows = shadows;
     flags.atlas.bake.emitters.shadows = shadows;
     switch (plan.method) {
-        case Method::direct: break;
+        case Method::direct:
+            break;
         case Method::second_order:
             flags.options.emitters.shadows = true;  // VPLs are placed through the lights' views
             flags.options.emitters.vpls = plan.second_order.emitters.vpls;
@@ -65,9 +66,10 @@ void take_settings(RenderFlags& flags, const Plan& plan) {
 std::string unmet(const Plan& plan) {
     std::string out;
     if (!plan.meets_time)
-        out = fmt::format("the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of "
-                          "--time-budget",
-                          plan.cost.total_ms(), 1e3 * *plan.wish.seconds);
+        out = fmt::format(
+            "the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of "
+            "--time-budget",
+            plan.cost.total_ms(), 1e3 * *plan.wish.seconds);
     if (!plan.meets_error)
         out += fmt::format("{}no method is known to reach the error of {:.3g} % in such scenes",
                            out.empty() ? "" : "; ", 100.0 * *plan.wish.error);
@@ -100,9 +102,9 @@ void plan_render(RenderFlags& flags) {
     Planned& planned = *flags.planned;
     planned.session = open_session(flags.device);
     const Stopwatch watch;
-    planned.plan = make_plan(planned.session.queue,
-                             Programs(planned.session.context, planned.session.device), scene,
-                             scene.cameras[static_cast<std::size_t>(flags.camera)], wish);
+    planned.plan =
+        make_plan(planned.session.queue, Programs(planned.session.context, planned.session.device),
+                  scene, scene.cameras[static_cast<std::size_t>(flags.camera)], wish);
     planned.milliseconds = 1e3 * watch.seconds();
     planned.scene = planned_scene(scene, planned.plan);
     take_settings(flags, planned.plan);

@@ -41,8 +41,7 @@ Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment
     if (plan.on(Effect::point_light))
         add(static_cast<double>(lights.points), 6.0, options.face_size);
     if (plan.on(Effect::spot_light)) add(static_cast<double>(lights.spots), 1.0, map);
-    if (plan.on(Effect::directional_light))
-        add(static_cast<double>(lights.directional), 1.0, map);
+    if (plan.on(Effect::directional_light)) add(static_cast<double>(lights.directional), 1.0, map);
     if (plan.on(Effect::area_light) && lights.emissive_triangles > 0)
         add(options.area_samples, 3.0, options.face_size);  // a whole face and four halves
     if (environment) add(options.environment_lights, 1.0, map);
@@ -98,9 +97,9 @@ PlanCost antiradiance(const Plan& plan) {
     const double wished = static_cast<double>(options.elements.wished);
     const double leaves = std::max(wished, 0.6 * triangles(plan));
     const double links = 2.2 * leaves * options.bins * std::pow(leaves / 1000.0, -0.2);
-    const double steps = options.steps > 0                        ? options.steps
+    const double steps = options.steps > 0                  ? options.steps
                          : plan.on(Effect::further_bounces) ? 20.0
-                                                                  : 2.0;
+                                                            : 2.0;
     const Lamps lamps = lamps_of(plan, options.emitters, false);
     Amount once{1.7e-4 * links + 2e-3 * leaves, 16.0 * links};
     // Rows, of antiradiance and of intensities, where something may lie between.
@@ -109,9 +108,9 @@ PlanCost antiradiance(const Plan& plan) {
     once += {steps * step + 1e-4 * leaves * lamps.emitters,
              leaves * options.bins * 12.0 * (rows ? 2.0 : 1.0)};
     if (plan.on(Effect::gloss))
-        once += {steps * plan.facts.surfaces.glossy_area * leaves * options.bins * options.bins *
-                     1e-7,
-                 plan.facts.surfaces.glossy_area * leaves * options.bins * 24.0};
+        once +=
+            {steps * plan.facts.surfaces.glossy_area * leaves * options.bins * options.bins * 1e-7,
+             plan.facts.surfaces.glossy_area * leaves * options.bins * 24.0};
     once += shadow_maps(plan, lamps, options.emitters.shadows);
     const Amount frame = picture(plan, false);
     return {once.ms, frame.ms, 1e-6 * (once.bytes + frame.bytes)};
@@ -135,10 +134,18 @@ PlanCost cost_of(const cl::Device& device, const Plan& plan) {
     PlanCost out;
     switch (plan.method) {
         case Method::direct:
-        case Method::second_order: out = second_order(plan); break;
-        case Method::light_atlas: out = light_atlas(plan); break;
-        case Method::antiradiance: out = antiradiance(plan); break;
-        case Method::dynamic_transfer: out = dynamic_transfer(plan); break;
+        case Method::second_order:
+            out = second_order(plan);
+            break;
+        case Method::light_atlas:
+            out = light_atlas(plan);
+            break;
+        case Method::antiradiance:
+            out = antiradiance(plan);
+            break;
+        case Method::dynamic_transfer:
+            out = dynamic_transfer(plan);
+            break;
     }
     const double slower = fitted_pairs / pairs_per_second(device);
     out.once_ms *= slower;

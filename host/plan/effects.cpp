@@ -10,11 +10,21 @@
 namespace clgi {
 namespace {
 
-constexpr std::array<const char*, effect_count> names = {
-    "point-light",      "spot-light",      "directional-light",  "area-light",
-    "environment-light", "direct-shadows", "environment-shadows", "first-bounce",
-    "further-bounces",  "indirect-occlusion", "gloss",           "textures",
-    "cutouts",          "moving-geometry", "moving-lights"};
+constexpr std::array<const char*, effect_count> names = {"point-light",
+                                                         "spot-light",
+                                                         "directional-light",
+                                                         "area-light",
+                                                         "environment-light",
+                                                         "direct-shadows",
+                                                         "environment-shadows",
+                                                         "first-bounce",
+                                                         "further-bounces",
+                                                         "indirect-occlusion",
+                                                         "gloss",
+                                                         "textures",
+                                                         "cutouts",
+                                                         "moving-geometry",
+                                                         "moving-lights"};
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
@@ -104,11 +114,16 @@ std::optional<Effect> effect_of(const std::string& name) {
 
 const char* name_of(Ground ground) {
     switch (ground) {
-        case Ground::absent: return "absent";
-        case Ground::proven: return "proven";
-        case Ground::measured: return "measured";
-        case Ground::needed: return "needed";
-        case Ground::wished: return "wished";
+        case Ground::absent:
+            return "absent";
+        case Ground::proven:
+            return "proven";
+        case Ground::measured:
+            return "measured";
+        case Ground::needed:
+            return "needed";
+        case Ground::wished:
+            return "wished";
     }
     return "";
 }
@@ -117,9 +132,9 @@ EffectChoices choose_effects(const SceneFacts& facts, double tolerance,
                              const std::optional<ProbeFacts>& probe) {
     EffectChoices out;
     const auto put = [&](Effect effect, Decision decision) {
-        out[static_cast<std::size_t>(effect)] = {effect,         decision.on,
-                                                 decision.ground, decision.bound,
-                                                 std::move(decision.why), 0.0, 0.0};
+        out[static_cast<std::size_t>(effect)] = {
+            effect, decision.on, decision.ground, decision.bound, std::move(decision.why),
+            0.0,    0.0};
     };
     const LightFacts& lights = facts.lights;
     put(Effect::point_light, has(lights.points > 0, "point lights"));

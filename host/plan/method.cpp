@@ -15,16 +15,18 @@ constexpr double default_frame_seconds = 0.1;  // of one of an animation
 constexpr double mostly = 0.5;
 // Beyond so many triangles, links for all poses take minutes.
 constexpr std::size_t most_moving_triangles = 30000;
+// And glossy leaves as many as triangles take seconds a picture.
+constexpr std::size_t most_glossy_triangles = 20000;
 
-struct Method_name {
+struct Named {
     Method method;
     const char* name;
 };
-constexpr Method_name names[] = {{Method::direct, "direct"},
-                                 {Method::second_order, "second-order"},
-                                 {Method::light_atlas, "atlas"},
-                                 {Method::antiradiance, "antiradiance"},
-                                 {Method::dynamic_transfer, "transfer"}};
+constexpr Named names[] = {{Method::direct, "direct"},
+                           {Method::second_order, "second-order"},
+                           {Method::light_atlas, "atlas"},
+                           {Method::antiradiance, "antiradiance"},
+                           {Method::dynamic_transfer, "transfer"}};
 
 bool lamps(const Plan& plan) {
     return plan.on(Effect::point_light) || plan.on(Effect::spot_light) ||
@@ -42,7 +44,8 @@ Choice methods_for(const Plan& plan) {
     const bool sky = plan.on(Effect::environment_light);
     if (!plan.on(Effect::first_bounce)) {
         if (!sky) return {{Method::direct}, "there is no indirect light"};
-        return {{Method::dynamic_transfer}, "the light of the environment alone arrives indirectly"};
+        return {{Method::dynamic_transfer},
+                "the light of the environment alone arrives indirectly"};
     }
     if (plan.wish.animated) {
         if (sky && !lamps(plan) && plan.facts.openness > mostly)
@@ -54,54 +57,13 @@ Choice methods_for(const Plan& plan) {
     if (sky && !lamps(plan) && plan.facts.openness > mostly)
         return {{Method::dynamic_transfer, Method::antiradiance},
                 "the environment is the light, and most of it is seen"};
-    return {{Method::antiradiance, Method::light_atlas}, "light goes on between surfaces"};
+    if (plan.on(Effect::gloss) && plan.facts.surfaces.triangles <= most_glossy_triangles)
+        return {{Method::antiradiance}, "glossy surfaces reflect indirect light"};
+    return {{Method::second_order, Method::antiradiance, Method::light_atlas},
+            "light goes on between surfaces"};
 }
 
-void set(Plan& plan, const Rung& rung) {
-    plan.method = rung.method;
-    plan.picture = PictureOptions();
-    plan.picture.width = plan.second_order.width = plan.wish.width;
-    plan.picture.height = plan.second_order.height = plan.wish.height;
-    switch (rung.method) {
-        case Method::direct: plan.second_order.indirect = false; break;
-        case Method::second_order: plan.second_order.emitters.vpls = rung.places; break;
-        case Method::light_atlas:
-            plan.vpls.count = static_cast<std::uint32_t>(rung.places);
-            plan.layout.size = rung.directions;
-            plan.layout.largest_size = 4096;
-            break;
-        case Method::antiradiance:
-            plan.antiradiance.bins = rung.directions;
-            plan.antiradiance.elements.wished = static_cast<std::size_t>(rung.places);
-            break;
-        case Method::dynamic_transfer: break;
-    }
-    apply_effects(plan);
-}
-
-struct Candidate {
-    Plan plan;
-    std::optional<double> error;
-};
-
-double unknown_last(const std::optional<double>& error) {
-    return error ? *error : std::numeric_limits<double>::max();
-}
-
-}  // namespace
-
-const char* name_of(Method method) {
-    for (const Method_name& one : names)
-        if (one.method == method) return one.name;
-    return "";
-}
-
-std::optional<Method> method_of(const std::string& name) {
-    for (const Method_name& one : names)
-        if (name == one.name) return one.method;
-    return std::nullopt;
-}
-
+// Brings the settings to the effects: what is off is switched off.
 void apply_effects(Plan& plan) {
     const BuildOptions& build = plan.wish.build;
     const bool shadows = plan.on(Effect::direct_shadows);
@@ -123,6 +85,11 @@ void apply_effects(Plan& plan) {
 
     emitters(plan.antiradiance.emitters);
     if (!plan.on(Effect::gloss)) plan.antiradiance.least_gloss = 1.0;
+    const EffectChoice& occlusion =
+        plan.effects[static_cast<std::size_t>(Effect::indirect_occlusion)];
+    plan.antiradiance.occlusion = occlusion.on && occlusion.ground == Ground::wished
+                                      ? Occlusion::always
+                                      : Occlusion::automatic;
     plan.antiradiance.build = build;
 
     DynamicTransferOptions& transfer = plan.transfer;
@@ -133,6 +100,70 @@ void apply_effects(Plan& plan) {
     plan.transfer_view.picture = plan.picture;
 }
 
+// The settings of a rung.
+void set(Plan& plan, const Rung& rung) {
+    plan.method = rung.method;
+    plan.picture = PictureOptions();
+    plan.picture.width = plan.second_order.width = plan.wish.width;
+    plan.picture.height = plan.second_order.height = plan.wish.height;
+    switch (rung.method) {
+        case Method::direct:
+            plan.second_order.indirect = false;
+            break;
+        case Method::second_order:
+            plan.second_order.emitters.vpls = rung.places;
+            break;
+        case Method::light_atlas:
+            plan.vpls.count = static_cast<std::uint32_t>(rung.places);
+            plan.layout.size = rung.directions;
+            plan.layout.largest_size = 4096;
+            break;
+        case Method::antiradiance:
+            plan.antiradiance.bins = rung.directions;
+            plan.antiradiance.elements.wished = static_cast<std::size_t>(rung.places);
+            break;
+        case Method::dynamic_transfer:
+            break;
+    }
+    apply_effects(plan);
+}
+
+struct Candidate {
+    Plan plan;
+    std::optional<double> error;
+};
+
+double unknown_last(const std::optional<double>& error) {
+    return error ? *error : std::numeric_limits<double>::max();
+}
+
+}  // namespace
+
+const char* name_of(Method method) {
+    for (const Named& one : names)
+        if (one.method == method) return one.name;
+    return "";
+}
+
+std::optional<Method> method_of(const std::string& name) {
+    for (const Named& one : names)
+        if (name == one.name) return one.method;
+    return std::nullopt;
+}
+
+Plan without_effect(const Plan& plan, Effect effect) {
+    Plan out = plan;
+    const auto off = [&](Effect which) { out.effects[static_cast<std::size_t>(which)].on = false; };
+    off(effect);
+    if (effect == Effect::first_bounce) {
+        off(Effect::further_bounces);
+        off(Effect::indirect_occlusion);
+        if (plan.method != Method::dynamic_transfer) out.method = Method::direct;
+    }
+    apply_effects(out);
+    return out;
+}
+
 void choose_method(const cl::Device& device, Plan& plan) {
     const Choice choice = methods_for(plan);
     const SceneKind kind = kind_of(plan.facts);
@@ -140,6 +171,10 @@ void choose_method(const cl::Device& device, Plan& plan) {
     for (const Rung& rung : rungs()) {
         if (std::find(choice.methods.begin(), choice.methods.end(), rung.method) ==
             choice.methods.end())
+            continue;
+        // It places VPLs through shadow maps, so it cannot do without them.
+        if (rung.method == Method::second_order && !plan.wish.method &&
+            !plan.on(Effect::direct_shadows) && plan.on(Effect::first_bounce))
             continue;
         Candidate one{plan, std::nullopt};
         set(one.plan, rung);
@@ -166,6 +201,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
         if (wish.error && right(a) != right(b)) return right(a);
         if (hurried && !quick(a)) return time(a) < time(b);
         if (wish.error && right(a)) return time(a) < time(b);
+        if (!a.error && !b.error) return time(a) > time(b);  // the more work, the better
         return unknown_last(a.error) < unknown_last(b.error);
     };
     const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), better);
@@ -173,8 +209,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
     plan = best.plan;
     plan.why = choice.why;
     plan.error = best.error;
-    if (best.error)
-        plan.error_ground = std::string("measured in ") + name_of(kind) + " scenes";
+    if (best.error) plan.error_ground = std::string("measured in ") + name_of(kind) + " scenes";
     plan.meets_time = !wish.seconds || quick(best);
     plan.meets_error = !wish.error || right(best);
 }

@@ -9,8 +9,8 @@ namespace clgi {
 // Sets the method, its settings, cost and error.
 void choose_method(const cl::Device& device, Plan& plan);
 
-// Brings the settings of the plan's method to its effects: what is off is switched off.
-void apply_effects(Plan& plan);
+// The plan with one effect less: its settings as they are, without what that effect alone needs.
+Plan without_effect(const Plan& plan, Effect effect);
 
 // Of the plan's method with its settings and effects.
 PlanCost cost_of(const cl::Device& device, const Plan& plan);

@@ -51,25 +51,20 @@ void overrule(EffectChoices& effects, const PlanWish& wish) {
             set(Effect::first_bounce, true);
 }
 
-// The tolerance is for all effects together: those of the least bounds are left out first.
-void share_tolerance(Plan& plan) {
-    std::vector<EffectChoice*> left_out;
-    for (EffectChoice& choice : plan.effects)
-        if (!choice.on && choice.ground == Ground::measured) left_out.push_back(&choice);
-    std::sort(left_out.begin(), left_out.end(),
-              [](const EffectChoice* a, const EffectChoice* b) { return a->bound < b->bound; });
-    // Further bounces and the first one: the bound of the first includes them.
-    for (EffectChoice* choice : left_out) plan.bound = std::max(plan.bound, choice->bound);
+// What is left out for the tolerance: indirect light, and its further bounces, which are a part of
+// it.
+double largest_bound(const EffectChoices& effects) {
+    double out = 0.0;
+    for (const EffectChoice& choice : effects)
+        if (!choice.on && choice.ground == Ground::measured) out = std::max(out, choice.bound);
+    return out;
 }
 
 // What each effect that is on adds: the plan's cost less that of the plan without it.
 void price(const cl::Device& device, Plan& plan) {
     for (EffectChoice& choice : plan.effects) {
         if (!choice.on) continue;
-        Plan without = plan;
-        without.effects[static_cast<std::size_t>(choice.effect)].on = false;
-        apply_effects(without);
-        const PlanCost less = cost_of(device, without);
+        const PlanCost less = cost_of(device, without_effect(plan, choice.effect));
         choice.milliseconds = std::max(0.0, plan.cost.total_ms() - less.total_ms());
         choice.megabytes = std::max(0.0, plan.cost.megabytes - less.megabytes);
     }
@@ -83,7 +78,7 @@ Plan planned(const cl::Device& device, const SceneFacts& facts, const PlanWish& 
     plan.probe = probed;
     plan.effects = choose_effects(facts, wish.tolerance, probed);
     overrule(plan.effects, wish);
-    share_tolerance(plan);
+    plan.bound = largest_bound(plan.effects);
     choose_method(device, plan);
     price(device, plan);
     return plan;

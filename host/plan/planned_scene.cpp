@@ -1,6 +1,5 @@
-// What a plan renders, as a scene: the light, gloss, textures, holes and motion whose effects are off
-// are not in it, so no kernel, buffer or pass for them is made.
-// SPDX-License-Identifier: MIT
+// What a plan renders, as a scene: the light, gloss, textures, holes and motion whose effects are
+// off are not in it, so no kernel, buffer or pass for them is made. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/plan/plan.hpp>
 
@@ -13,9 +12,12 @@ namespace {
 bool kept(const Light& light, const Plan& plan) {
     if (light.intensity == glm::vec3(0.0f)) return false;
     switch (light.kind) {
-        case Light::Kind::point: return plan.on(Effect::point_light);
-        case Light::Kind::spot: return plan.on(Effect::spot_light);
-        case Light::Kind::directional: return plan.on(Effect::directional_light);
+        case Light::Kind::point:
+            return plan.on(Effect::point_light);
+        case Light::Kind::spot:
+            return plan.on(Effect::spot_light);
+        case Light::Kind::directional:
+            return plan.on(Effect::directional_light);
     }
     return true;
 }

@@ -13,9 +13,9 @@
 namespace clgi {
 namespace {
 
-constexpr double little = 0.3;      // of light survives a bounce
-constexpr int longest_side = 160;   // pixels
-constexpr int lights = 256;         // VPLs
+constexpr double little = 0.3;     // of light survives a bounce
+constexpr int longest_side = 160;  // pixels
+constexpr int lights = 256;        // VPLs
 
 std::vector<double> luminances(const cl::CommandQueue& queue, const SecondOrderSolver& solver,
                                const cl::Event& done) {
@@ -62,9 +62,8 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
     const double count = static_cast<double>(lit.size());
     ProbeFacts out;
     // A picture without light tells nothing about light that arrives over more bounces.
-    out.first_bounce =
-        sum > 0.0 ? std::sqrt(squares / count) / (sum / count)
-                  : std::numeric_limits<double>::infinity();
+    out.first_bounce = sum > 0.0 ? std::sqrt(squares / count) / (sum / count)
+                                 : std::numeric_limits<double>::infinity();
     out.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return out;

@@ -14,16 +14,16 @@ enum class Effect {
     point_light,
     spot_light,
     directional_light,
-    area_light,           // of emissive surfaces
-    environment_light,    // of the environment, and its picture behind the scene
-    direct_shadows,       // of all lights but the environment
+    area_light,         // of emissive surfaces
+    environment_light,  // of the environment, and its picture behind the scene
+    direct_shadows,     // of all lights but the environment
     environment_shadows,
-    first_bounce,         // indirect light, diffuse
+    first_bounce,  // indirect light, diffuse
     further_bounces,
-    indirect_occlusion,   // what lies between two surfaces
-    gloss,                // lobes of materials, of direct and indirect light
+    indirect_occlusion,  // what lies between two surfaces
+    gloss,               // lobes of materials, of direct and indirect light
     textures,
-    cutouts,              // holes of alpha masks
+    cutouts,  // holes of alpha masks
     moving_geometry,
     moving_lights,
 };
@@ -47,8 +47,8 @@ struct EffectChoice {
     Effect effect = Effect::point_light;
     bool on = false;
     Ground ground = Ground::absent;
-    // What a picture without it differs by at most: root of the mean squared difference of luminance
-    // over the mean luminance. Infinite where nothing bounds it.
+    // What a picture without it differs by at most: root of the mean squared difference of
+    // luminance over the mean luminance. Infinite where nothing bounds it.
     double bound = 0.0;
     std::string why;            // a sentence
     double milliseconds = 0.0;  // that it adds to a picture and what is done before, predicted

@@ -34,10 +34,10 @@ public:
     // Waits for the last picture: numbers that were not finite and were replaced.
     std::uint32_t non_finite() const;
 
-    std::vector<PassEvent> events() const;   // of what was done before and the last picture
-    std::size_t bytes() const;               // allocated
-    std::uint32_t stride() const;            // floats between planes
-    const cl::Buffer& radiance() const;      // [RADIANCE_PLANES][stride] cd/m^2
+    std::vector<PassEvent> events() const;  // of what was done before and the last picture
+    std::size_t bytes() const;              // allocated
+    std::uint32_t stride() const;           // floats between planes
+    const cl::Buffer& radiance() const;     // [RADIANCE_PLANES][stride] cd/m^2
     const Plan& plan() const;
 
 private:

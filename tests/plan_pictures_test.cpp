@@ -1,0 +1,354 @@
+// Pictures by plans: what is left out changes nothing, and what matters is not left out.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <clgi/plan/renderer.hpp>
+#include <clgi/reference.hpp>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "device.hpp"
+#include "frames.hpp"
+#include "rooms.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr int width = 32, height = 24;
+
+using Pixels = std::vector<glm::vec3>;
+
+double luminance_of(const glm::vec3& rgb) {
+    return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+double mean(const Pixels& picture) {
+    double sum = 0.0;
+    for (const glm::vec3& pixel : picture) sum += luminance_of(pixel);
+    return sum / static_cast<double>(picture.size());
+}
+
+// Root of the mean squared difference of luminance, cd/m^2.
+double distance(const Pixels& a, const Pixels& b) {
+    double squares = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        squares += std::pow(luminance_of(a[k]) - luminance_of(b[k]), 2);
+    return std::sqrt(squares / static_cast<double>(a.size()));
+}
+
+PlanWish quick(std::vector<Effect> with = {}, std::vector<Effect> without = {}) {
+    PlanWish out;
+    out.width = width;
+    out.height = height;
+    out.seconds = 0.2;
+    out.with = std::move(with);
+    out.without = std::move(without);
+    return out;
+}
+
+std::vector<Effect> all_effects() {
+    std::vector<Effect> out;
+    for (std::size_t k = 0; k < effect_count; ++k) out.push_back(static_cast<Effect>(k));
+    return out;
+}
+
+Plan plan_of(const Scene& scene, const Camera& camera, const PlanWish& wish) {
+    return make_plan(test::device().queue, test::programs(), scene, camera, wish);
+}
+
+struct Rendered {
+    Pixels pixels;
+    std::set<std::string> passes;
+    std::size_t bytes = 0;
+};
+
+Rendered render(const Scene& scene, const Camera& camera, const Plan& plan) {
+    const cl::CommandQueue& queue = test::device().queue;
+    const Scene left = planned_scene(scene, plan);
+    const DeviceScene uploaded = test::on_device(left);
+    PlannedRenderer renderer(test::programs(), queue, left, uploaded, plan);
+    EXPECT_TRUE(renderer.prepare());
+    renderer.render(camera).wait();
+    EXPECT_EQ(renderer.non_finite(), 0u);
+    Rendered out;
+    out.pixels = test::vectors(queue, renderer.radiance(), renderer.stride(),
+                               static_cast<std::size_t>(width) * height);
+    for (const PassEvent& pass : renderer.events()) out.passes.insert(pass.name);
+    out.bytes = renderer.bytes();
+    return out;
+}
+
+// ---- what is left out changes nothing ----------------------------------------------------------
+
+void add_coloured_lights(Scene& scene) {
+    scene.lights = {test::point_light({0.3, 1.1, -0.4}, 1.0f),
+                    test::spot_light({-0.5, 1.6, 0.2}, {0.4, -1.0, 0.1}, 0.6, 6.0f)};
+    scene.lights[0].intensity = {3.0f, 1.0f, 0.5f};
+    scene.lights[1].intensity = {0.5f, 2.0f, 6.0f};
+}
+
+// A room with slanted walls.
+Scene slanted_room() {
+    Scene scene = test::plain_scene({0.7f, 0.5f, 0.3f});
+    const glm::dvec3 low[4] = {{-1, 0, 1.2}, {1.2, 0, 0.9}, {0.9, 0, -1}, {-1.1, 0, -1.2}};
+    glm::dvec3 high[4];
+    for (int k = 0; k < 4; ++k) high[k] = low[k] * 0.8 + glm::dvec3(0, 2, 0);
+    test::add_quad(scene, {low[0], low[1], low[2], low[3]});
+    test::add_quad(scene, {high[3], high[2], high[1], high[0]});
+    for (int k = 0; k < 4; ++k)
+        test::add_quad(scene, {low[(k + 1) % 4], low[k], high[k], high[(k + 1) % 4]});
+    add_coloured_lights(scene);
+    return scene;
+}
+
+TEST(Plan, LeavesOutShadowsInAConvexRoom) {
+    const Scene scene = slanted_room();
+    const Camera camera = test::camera_at({0.6, 1.0, 0.6}, {-0.5, 0.6, -0.7});
+    const Plan plan = plan_of(scene, camera, quick());
+    for (const Effect effect : {Effect::direct_shadows, Effect::indirect_occlusion}) {
+        EXPECT_FALSE(plan.on(effect)) << name_of(effect);
+        EXPECT_EQ(plan.effects[static_cast<std::size_t>(effect)].ground, Ground::proven);
+    }
+    EXPECT_TRUE(plan.on(Effect::further_bounces));
+    PlanWish wish = quick(all_effects());
+    wish.method = plan.method;
+    const Plan everything = plan_of(scene, camera, wish);
+    EXPECT_TRUE(everything.on(Effect::direct_shadows));
+
+    const Rendered lean = render(scene, camera, plan), full = render(scene, camera, everything);
+    EXPECT_LT(distance(lean.pixels, full.pixels), 1e-3 * mean(full.pixels));
+    EXPECT_LT(lean.bytes, full.bytes);
+    reference::Options tracing;
+    tracing.width = width;
+    tracing.height = height;
+    tracing.samples = 512;
+    const Pixels truth = reference::PathTracer(scene).render(camera, tracing).radiance;
+    EXPECT_LT(distance(lean.pixels, truth), 0.1 * mean(truth));
+    EXPECT_NEAR(mean(lean.pixels), mean(truth), 0.04 * mean(truth));
+}
+
+TEST(Plan, HasDirectLightAloneWhereNothingReflects) {
+    Scene scene = slanted_room();
+    scene.materials[0].base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    Material bright;
+    bright.emission = {0.5f, 1.0f, 2.0f};
+    bright.base_color = scene.materials[0].base_color;
+    test::add_box(scene, {-0.2, 0.2, -0.4}, {0.2, 0.5, -0.1}, 1, test::add_material(scene, bright));
+    const Camera camera = test::camera_at({0.6, 1.0, 0.6}, {-0.2, 0.3, -0.4});
+    const Plan plan = plan_of(scene, camera, quick());
+    EXPECT_EQ(plan.method, Method::direct);
+    const Rendered lean = render(scene, camera, plan);
+    EXPECT_FALSE(lean.passes.count("lights.fetch"));
+    EXPECT_FALSE(lean.passes.count("image.gather"));
+    const Rendered full = render(scene, camera, plan_of(scene, camera, quick(all_effects())));
+    EXPECT_LT(distance(lean.pixels, full.pixels), 1e-5 * mean(full.pixels));
+    EXPECT_GT(mean(lean.pixels), 0.0);
+}
+
+// A tilted cube under a sky that is brighter above: closed form, the mean of L over the cosine.
+TEST(Plan, HasNoMasksOfOneObjectUnderASky) {
+    Scene scene = test::plain_scene({0.8f, 0.6f, 0.4f});
+    test::add_box(scene, {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, 1);
+    Environment sky;
+    sky.factor = {1.0f, 2.0f, 4.0f};
+    scene.environment = sky;
+    const Camera camera = test::camera_at({0.9, 0.8, 1.0}, {0, 0, 0}, 0.5f);
+    const Plan plan = plan_of(scene, camera, quick());
+    EXPECT_FALSE(plan.on(Effect::environment_shadows));
+    EXPECT_FALSE(plan.on(Effect::first_bounce));
+    EXPECT_EQ(plan.method, Method::dynamic_transfer);
+    const Rendered lean = render(scene, camera, plan);
+    for (const std::string& pass : lean.passes)
+        EXPECT_EQ(pass.find("mask"), std::string::npos) << pass;
+    for (const glm::vec3& pixel : lean.pixels)  // the cube fills the picture: albedo times L
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(pixel[c], scene.materials[0].base_color[c] * sky.factor[c],
+                        1e-3 * sky.factor[c]);
+}
+
+// ---- what matters is not left out --------------------------------------------------------------
+
+// A scene whose picture is one effect alone.
+struct Whole {
+    Effect effect;
+    Scene scene;
+    Camera camera;
+    double error;  // of the plan's picture to the path tracer's, over the mean of the picture
+                   // without the effect or of the truth, whichever is brighter
+};
+
+Scene floor_with(const Light& light) {
+    Scene scene = test::plain_scene({0.6f, 0.5f, 0.2f});
+    test::add_floor(scene, 1.0);
+    scene.lights = {light};
+    scene.lights[0].intensity *= glm::vec3(0.5f, 1.0f, 2.0f);
+    return scene;
+}
+
+std::vector<Whole> wholes() {
+    std::vector<Whole> out;
+    const Camera down = test::camera_at({0.1, 1.5, 0.6}, {0, 0, 0}, 0.6f);
+    out.push_back(
+        {Effect::point_light, floor_with(test::point_light({0.2, 0.7, 0}, 2.0f)), down, 0.02});
+    out.push_back({Effect::spot_light,
+                   floor_with(test::spot_light({0.2, 0.7, 0}, {0, -1, 0.1}, 1.0)), down, 0.05});
+    out.push_back({Effect::directional_light, floor_with(test::directional_light({0.3, -1, 0.2})),
+                   down, 0.02});
+
+    Scene panel = test::plain_scene({0.6f, 0.5f, 0.2f});
+    test::add_floor(panel, 1.0);
+    Material shining;
+    shining.emission = {5.0f, 10.0f, 20.0f};
+    shining.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    test::add_quad(
+        panel, {glm::dvec3(-0.1, 1.6, -0.1), {0.1, 1.6, -0.1}, {0.1, 1.6, 0.1}, {-0.1, 1.6, 0.1}},
+        test::add_material(panel, shining));
+    out.push_back(
+        {Effect::area_light, panel, test::camera_at({0.1, 1.0, 0.6}, {0, 0, 0}, 0.6f), 0.05});
+
+    Scene sky = test::plain_scene({0.6f, 0.5f, 0.2f});
+    test::add_floor(sky, 1.0);
+    sky.environment = Environment();
+    out.push_back({Effect::environment_light, sky, down, 0.02});
+
+    // A plate between the sun and all of the floor that is seen.
+    Scene shadow = floor_with(test::directional_light({0, -1, 0}));
+    test::add_box(shadow, {-0.9, 1.8, -0.9}, {0.9, 1.9, 0.9}, 1);
+    out.push_back(
+        {Effect::direct_shadows, shadow, test::camera_at({0.1, 0.8, 0.3}, {0, 0, 0}, 0.5f), 0.05});
+
+    Scene cellar = test::plain_scene({0.6f, 0.5f, 0.2f});  // under a sky, with a thick lid
+    test::add_box(cellar, {-1, 0, -1}, {1, 1, 1}, -1);
+    test::add_box(cellar, {-1.1, -0.1, -1.1}, {1.1, 1.1, 1.1}, 1);
+    cellar.environment = Environment();
+    out.push_back({Effect::environment_shadows, cellar,
+                   test::camera_at({0.1, 0.8, 0.3}, {0, 0, 0}, 0.5f), 0.05});
+
+    // The ceiling over a floor that a spot lights.
+    Scene ceiling = test::plain_scene({0.7f, 0.5f, 0.3f});
+    test::add_box(ceiling, {-1, 0, -1}, {1, 2, 1}, -1);
+    ceiling.lights = {test::spot_light({0, 1.9, 0}, {0, -1, 0}, 0.4, 9.0f)};
+    const Camera up = test::camera_at({0.1, 0.5, 0.1}, {0, 2, 0}, 0.8f);
+    out.push_back({Effect::first_bounce, ceiling, up, 0.12});
+    ceiling.materials[0].base_color = glm::vec4(0.9f, 0.9f, 0.9f, 1.0f);
+    out.push_back({Effect::further_bounces, ceiling, up, 0.2});
+
+    // A closed chamber beside a lit one.
+    Scene dark = test::plain_scene({0.7f, 0.6f, 0.5f});
+    test::add_box(dark, {0, 0, 0}, {1, 1, 1}, -1);
+    test::add_box(dark, {1.1, 0, 0}, {2.1, 1, 1}, -1);
+    dark.lights = {test::point_light({0.5, 0.8, 0.5})};
+    out.push_back({Effect::indirect_occlusion, dark,
+                   test::camera_at({1.3, 0.5, 0.5}, {2.1, 0.4, 0.5}, 0.8f), 0.05});
+
+    // A rough metal that throws a lamp's light into the camera.
+    Scene metal = floor_with(test::point_light({0.0, 1.0, -1.5}, 3.0f));
+    metal.materials[0].metallic = 1.0f;
+    metal.materials[0].roughness = 0.4f;
+    out.push_back({Effect::gloss, metal, test::camera_at({0, 1.0, 1.5}, {0, 0, 0}, 0.4f), 0.05});
+
+    Scene board = floor_with(test::directional_light({0, -1, 0.1}));
+    Texture chess;
+    chess.width = chess.height = 2;
+    chess.nearest = true;
+    for (const std::uint8_t value : {0, 255, 255, 0})
+        for (const std::uint8_t channel : {value, value, value, std::uint8_t{255}})
+            chess.rgba.push_back(channel);
+    board.textures = {chess};
+    board.uvs.clear();
+    for (const glm::dvec3& at : board.positions)
+        board.uvs.emplace_back(2.0 * at.x, 2.0 * at.z, 0.0, 0.0);
+    board.materials[0].base_texture.texture = 0;
+    // The truth is the mean over a pixel, where squares meet.
+    out.push_back({Effect::textures, board, down, 0.35});
+
+    // A black plate that is all hole, over the floor.
+    Scene hole = floor_with(test::directional_light({0, -1, 0.1}));
+    Material open;
+    open.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 0.1f);
+    open.alpha_mode = AlphaMode::mask;
+    test::add_floor(hole, 1.0, 0.3, test::add_material(hole, open));
+    out.push_back({Effect::cutouts, hole, down, 0.02});
+    return out;
+}
+
+TEST(Plan, KeepsWhatIsTheWholePicture) {
+    for (const Whole& whole : wholes()) {
+        SCOPED_TRACE(name_of(whole.effect));
+        const Plan plan = plan_of(whole.scene, whole.camera, quick());
+        EXPECT_TRUE(plan.on(whole.effect));
+        const Pixels kept = render(whole.scene, whole.camera, plan).pixels;
+        PlanWish wish = quick({}, {whole.effect});
+        // Further bounces and what lies between surfaces are what second order lacks.
+        if (whole.effect == Effect::further_bounces || whole.effect == Effect::indirect_occlusion)
+            wish.method = Method::second_order;
+        const Plan less = plan_of(whole.scene, whole.camera, wish);
+        EXPECT_FALSE(less.on(whole.effect));
+        const Pixels left = render(whole.scene, whole.camera, less).pixels;
+
+        reference::Options tracing;
+        tracing.width = width;
+        tracing.height = height;
+        tracing.samples = 256;
+        const Pixels truth =
+            reference::PathTracer(whole.scene).render(whole.camera, tracing).radiance;
+        const double level = std::max(mean(truth), mean(left));
+        EXPECT_GT(level, 0.0);
+        EXPECT_LT(distance(kept, truth), whole.error * level);
+        EXPECT_GT(distance(left, truth), 0.5 * level);
+    }
+}
+
+TEST(Plan, SaysWhatIsWrongWithAWish) {
+    const SceneFacts facts = scene_facts(slanted_room());
+    const auto refused = [&](const std::function<void(PlanWish&)>& change) {
+        PlanWish wish;
+        change(wish);
+        EXPECT_THROW(make_plan(test::device().device, facts, wish), Error);
+    };
+    refused([](PlanWish& w) { w.width = 0; });
+    refused([](PlanWish& w) { w.height = 16385; });
+    refused([](PlanWish& w) { w.tolerance = -0.1; });
+    refused([](PlanWish& w) { w.tolerance = NAN; });
+    refused([](PlanWish& w) { w.seconds = 0.0; });
+    refused([](PlanWish& w) { w.error = -1.0; });
+    refused([](PlanWish& w) {
+        w.with = {Effect::gloss};
+        w.without = {Effect::gloss};
+    });
+}
+
+// Predicted, not measured.
+TEST(Plan, TakesTheBestWithinATimeAndTheCheapestWithinAnError) {
+    const SceneFacts facts = scene_facts(test::furnished_room(3));
+    const cl::Device& device = test::device().device;
+    double last_ms = 0.0, last_error = 1e9;
+    for (const double seconds : {0.1, 1.0, 10.0, 100.0}) {
+        PlanWish wish;
+        wish.seconds = seconds;
+        const Plan plan = make_plan(device, facts, wish);
+        EXPECT_EQ(plan.meets_time, plan.cost.total_ms() <= 1e3 * seconds);
+        EXPECT_GE(plan.cost.total_ms(), last_ms);
+        ASSERT_TRUE(plan.error);
+        EXPECT_LE(*plan.error, last_error);
+        last_ms = plan.cost.total_ms();
+        last_error = *plan.error;
+
+        PlanWish right;
+        right.error = *plan.error;
+        const Plan cheap = make_plan(device, facts, right);
+        EXPECT_TRUE(cheap.meets_error);
+        EXPECT_LE(cheap.cost.total_ms(), plan.cost.total_ms());
+        EXPECT_LE(*cheap.error, *plan.error);
+    }
+    PlanWish wish;
+    wish.error = 1e-6;
+    EXPECT_FALSE(make_plan(device, facts, wish).meets_error);
+    wish.error.reset();
+    wish.seconds = 1e-6;
+    EXPECT_FALSE(make_plan(device, facts, wish).meets_time);
+}
+
+}  // namespace
+}  // namespace clgi
