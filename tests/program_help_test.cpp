@@ -120,12 +120,12 @@ TEST_F(Program, HelpShowsTheDefaultOfEveryOption) {
             EXPECT_EQ(*documented_default, required ? "required" : option.fallback());
         }
     }
-    EXPECT_EQ(commands, 9);
+    EXPECT_EQ(commands, 10);
     EXPECT_GT(values, 60);
 }
 
 TEST_F(Program, EveryPositionalIsRequired) {
-    for (const char* command : {"scene", "render", "bake", "reference", "compare", "sweep", "bench"}) {
+    for (const char* command : {"scene", "plan", "render", "bake", "reference", "compare", "sweep", "bench"}) {
         const auto positionals = entries(run(std::string(command) + " --help").out, "Positionals:");
         EXPECT_FALSE(positionals.empty()) << command;
         for (const std::string& entry : positionals)

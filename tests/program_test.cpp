@@ -57,7 +57,7 @@ TEST_F(Program, TwoRunsGiveTheSameBytes) {
 TEST_F(Program, StatsSayWhatWasDone) {
     const std::string scene = make("cornell --light spot");
     ASSERT_EQ(run("render " + scene + " --png " + file("p.png").string() +
-                  " --size 64x48 --frames 3 --orbit --stats " + file("s.json").string())
+                  " --method second-order --size 64x48 --frames 3 --orbit --stats " + file("s.json").string())
                   .code,
               0);
     const auto stats = nlohmann::json::parse(read("s.json"));
@@ -120,7 +120,7 @@ TEST_F(Program, ATimeBudgetIsAnsweredWithSettings) {
     const auto ask = [&](const std::string& budget) {
         const Outcome outcome =
             run("render " + scene + " --png " + file("p.png").string() +
-                " --size 64x48 --time-budget " + budget + " --stats " + file("s.json").string());
+                " --method second-order --size 64x48 --time-budget " + budget + " --stats " + file("s.json").string());
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         EXPECT_NE(outcome.out.find("promised"), std::string::npos) << outcome.out;
         return nlohmann::json::parse(read("s.json")).at("ask");
@@ -140,7 +140,7 @@ TEST_F(Program, ATargetOutOfReachIsAWarning) {
     const std::string scene = make("cornell --light spot");
     const Outcome outcome =
         run("render " + scene + " --png " + file("p.png").string() +
-            " --size 32x24 --target-error 1% --time-budget 1ms --stats " + file("s.json").string());
+            " --method second-order --size 32x24 --target-error 1% --time-budget 1ms --stats " + file("s.json").string());
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("not reached within the time budget"), std::string::npos)
         << outcome.err;
@@ -158,7 +158,7 @@ TEST_F(Program, AResultIsAskedForInsteadOfSettings) {
           "--time-budget=-3ms", "--time-budget soon", "--time-budget 33",
           "--target-error 2% --vpls 100", "--time-budget 33ms --negative-vpls 10",
           "--time-budget 33ms --low-res off", "--target-error 2% --low-res-step 2",
-          "--target-error 2% --method direct"})
+          "--target-error 2% --method direct", "--target-error 2% --method atlas"})
         expect_one_error_line(run(render + wrong), 1);
     EXPECT_FALSE(fs::exists(file("p.png")));
 }
@@ -188,7 +188,7 @@ TEST_F(Program, AMissingDeviceEndsWithThree) {
 TEST_F(Program, AFailingCompilerOrTooLittleMemoryEndsWithThree) {
     const std::string scene = make("cornell");
     const std::string out = "render " + scene + " --quiet -o " + file("x.exr").string();
-    const Outcome huge = run(out + " --size 16384x16384", "POCL_MEMORY_LIMIT=1");
+    const Outcome huge = run(out + " --method second-order --size 16384x16384", "POCL_MEMORY_LIMIT=1");
     if (huge.code != 0) {  // a device of 30 GB could
         expect_one_error_line(huge, 3);
         EXPECT_NE(huge.err.find("lower width and height"), std::string::npos) << huge.err;
@@ -257,7 +257,7 @@ TEST_F(Program, TheLayersCostIsTold) {
 
 TEST_F(Program, FastMathStaysCloseToStrict) {
     const std::string scene = make("box");
-    const std::string common = "render " + scene + " --size 96x72 --quiet -o ";
+    const std::string common = "render " + scene + " --method second-order --size 96x72 --quiet -o ";
     ASSERT_EQ(run(common + file("s.exr").string()).code, 0);
     ASSERT_EQ(run(common + file("f.exr").string() + " --math fast").code, 0);
     const Outcome outcome =

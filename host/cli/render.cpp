@@ -296,7 +296,7 @@ void add_render(CLI::App& app) {
         flags->second_order_only =
             given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates"});
         flags->second_order_asked = flags->second_order_only;
-        for (const std::string& flag : given(*command, {"--vpls"}))
+        for (const std::string& flag : given(*command, {"--vpls", "--environment-lights"}))
             flags->second_order_asked.push_back(flag);
         flags->asked = given(*command, {"--target-error", "--time-budget"});
         flags->auto_only = given(*command, {"--tolerance", "--with", "--without"});

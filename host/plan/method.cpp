@@ -42,10 +42,12 @@ struct Choice {
 Choice methods_for(const Plan& plan) {
     if (plan.wish.method) return {{*plan.wish.method}, "asked for"};
     const bool sky = plan.on(Effect::environment_light);
+    if (plan.facts.surfaces.triangles == 0) return {{Method::direct}, "there are no surfaces"};
     if (!plan.on(Effect::first_bounce)) {
         if (!sky) return {{Method::direct}, "there is no indirect light"};
-        return {{Method::dynamic_transfer},
-                "the light of the environment alone arrives indirectly"};
+        return {{Method::dynamic_transfer, Method::direct},
+                "the environment is the only light that "
+                "does not come from a point"};
     }
     if (plan.wish.animated) {
         if (sky && !lamps(plan) && plan.facts.openness > mostly)

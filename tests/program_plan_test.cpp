@@ -1,0 +1,77 @@
+// clgi plan, and render --method auto.
+// SPDX-License-Identifier: MIT
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace {
+
+using clgi::test::Outcome;
+using clgi::test::Program;
+
+TEST_F(Program, PlansBeforeItRenders) {
+    const std::string scene = make("cornell --light spot");
+    const Outcome text = run("plan " + scene + " --size 64x48 --time-budget 0.2s");
+    ASSERT_EQ(text.code, 0) << text.err;
+    for (const char* word : {"spot-light", "first-bounce", "indirect-occlusion", "predicted"})
+        EXPECT_NE(text.out.find(word), std::string::npos) << word;
+
+    const Outcome json = run("plan " + scene + " --size 64x48 --time-budget 0.2s --json");
+    ASSERT_EQ(json.code, 0) << json.err;
+    const auto plan = nlohmann::json::parse(json.out);
+    EXPECT_EQ(plan.at("wish").at("seconds"), 0.2);
+    EXPECT_EQ(plan.at("facts").at("triangles"), 30);
+    ASSERT_EQ(plan.at("effects").size(), 15u);
+    for (const auto& effect : plan.at("effects")) {
+        EXPECT_EQ(effect.at("on") == true, effect.at("bound").is_null()) << effect;
+        EXPECT_FALSE(effect.at("why").get<std::string>().empty());
+    }
+    EXPECT_GT(plan.at("once_ms").get<double>() + plan.at("frame_ms").get<double>(), 0.0);
+
+    ASSERT_EQ(run("render " + scene + " --size 64x48 --time-budget 0.2s --quiet -o " +
+                  file("a.exr").string() + " --stats " + file("s.json").string())
+                  .code,
+              0);
+    const auto stats = nlohmann::json::parse(read("s.json"));
+    EXPECT_EQ(stats.at("method"), plan.at("method"));
+    EXPECT_EQ(stats.at("plan").at("settings"), plan.at("settings"));
+}
+
+TEST_F(Program, OverrulesAPlan) {
+    const std::string scene = make("cornell --light spot");
+    const std::string render = "render " + scene + " --size 32x24 --time-budget 0.1s -o " +
+                               file("a.exr").string() + " --stats " + file("s.json").string();
+    const Outcome direct = run(render + " --without first-bounce");
+    ASSERT_EQ(direct.code, 0) << direct.err;
+    EXPECT_NE(direct.err.find("plan: direct"), std::string::npos) << direct.err;
+    EXPECT_EQ(nlohmann::json::parse(read("s.json")).at("method"), "direct");
+    ASSERT_EQ(run(render + " --with all --quiet").code, 0);
+    for (const auto& effect : nlohmann::json::parse(read("s.json")).at("plan").at("effects"))
+        EXPECT_EQ(effect.at("on"), true) << effect;
+    // A wish that nothing meets is met as nearly as can be, and a warning says so.
+    const Outcome never = run(render + " --target-error 0.01% --quiet");
+    EXPECT_EQ(never.code, 0);
+    EXPECT_NE(never.err.find("no method is known to reach"), std::string::npos) << never.err;
+    // Flags of a method choose it.
+    ASSERT_EQ(run("render " + scene + " --size 32x24 --vpls 20 --quiet -o " +
+                  file("b.exr").string() + " --stats " + file("s.json").string())
+                  .code,
+              0);
+    EXPECT_EQ(nlohmann::json::parse(read("s.json")).at("method"), "second-order");
+}
+
+TEST_F(Program, RefusesWrongPlans) {
+    const std::string scene = make("cornell");
+    for (const char* flags : {"--with caustics", "--without", "--tolerance 0", "--size 0x3",
+                              "--with gloss --without gloss", "--time-budget 3", "--method fast",
+                              "--target-error=-1%", "--camera 3"})
+        expect_one_error_line(run("plan " + scene + " --quiet " + flags), 1);
+    expect_one_error_line(run("plan " + file("absent.glb").string()), 2);
+    expect_one_error_line(run("plan " + scene + " --quiet --device nobody::"), 3);
+    expect_one_error_line(run("render " + scene + " --quiet --method atlas --tolerance 2% -o " +
+                              file("x.exr").string()),
+                          1);
+    EXPECT_FALSE(std::filesystem::exists(file("x.exr")));
+}
+
+}  // namespace
