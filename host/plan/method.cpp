@@ -168,7 +168,7 @@ Plan without_effect(const Plan& plan, Effect effect) {
 
 void choose_method(const cl::Device& device, Plan& plan) {
     const Choice choice = methods_for(plan);
-    const SceneKind kind = kind_of(plan.facts);
+    const SceneKind kind = kind_of(plan);
     std::vector<Candidate> candidates;
     for (const Rung& rung : rungs()) {
         if (std::find(choice.methods.begin(), choice.methods.end(), rung.method) ==

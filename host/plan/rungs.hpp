@@ -1,6 +1,5 @@
-// Settings of each method that are on its front of time against error, and the error that they reach
-// on scenes of a kind.
-// SPDX-License-Identifier: MIT
+// Settings of each method that are on its front of time against error, and the error that they
+// reach on scenes of a kind. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/plan/plan.hpp>
@@ -10,12 +9,12 @@ namespace clgi {
 
 // What decides how far a method's settings get.
 enum class SceneKind {
-    convex,     // nothing lies between surfaces
+    convex,     // nothing lies between surfaces, or what does is left out
     furnished,  // large surfaces, things between them
     fine,       // tens of thousands of triangles
     outdoors,   // much light leaves
 };
-SceneKind kind_of(const SceneFacts& facts);
+SceneKind kind_of(const Plan& plan);
 const char* name_of(SceneKind kind);
 
 struct Rung {
