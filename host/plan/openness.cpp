@@ -18,10 +18,9 @@ constexpr double edge = 1e-12;
 // Planes of rays, so that one triangle is compared with many.
 struct Rays {
     std::vector<double> from[3], along[3];
-    std::vector<std::uint32_t> own;     // the triangle that each starts on
     std::vector<double> nearest;        // distance, infinity: none
     std::vector<std::uint8_t> on_back;  // of the nearest
-    std::size_t count() const { return own.size(); }
+    std::size_t count() const { return nearest.size(); }
 };
 
 // A unit vector about n, its density in proportion to the cosine. [Malley's method]
@@ -65,15 +64,15 @@ Rays make_rays(const std::vector<LocalTriangle>& triangles, const std::vector<do
             out.from[k].push_back(from[k]);
             out.along[k].push_back(along[k]);
         }
-        out.own.push_back(static_cast<std::uint32_t>(t));
     }
-    out.nearest.assign(out.count(), std::numeric_limits<double>::infinity());
-    out.on_back.assign(out.count(), 0);
+    out.nearest.assign(count, std::numeric_limits<double>::infinity());
+    out.on_back.assign(count, 0);
     return out;
 }
 
-// [Moeller and Trumbore 1997], the determinant by the triangle's normal.
-void meet(const LocalTriangle& triangle, std::uint32_t index, Rays& rays) {
+// [Moeller and Trumbore 1997], the determinant by the triangle's normal. What lies in the place of
+// the start, the own triangle above all, is not met.
+void meet(const LocalTriangle& triangle, Rays& rays) {
     const glm::dvec3 &a = triangle.corners[0], e1 = triangle.corners[1] - a,
                      e2 = triangle.corners[2] - a, n = glm::cross(e1, e2);
     for (std::size_t i = 0; i < rays.count(); ++i) {
@@ -87,7 +86,7 @@ void meet(const LocalTriangle& triangle, std::uint32_t index, Rays& rays) {
         const double u = (e2.x * cx + e2.y * cy + e2.z * cz) * over;
         const double v = -(e1.x * cx + e1.y * cy + e1.z * cz) * over;
         const bool hit = u >= -edge && v >= -edge && u + v <= 1.0 + edge && distance > same_place &&
-                         distance < rays.nearest[i] && rays.own[i] != index;
+                         distance < rays.nearest[i];
         if (!hit) continue;
         rays.nearest[i] = distance;
         rays.on_back[i] = facing < 0.0 && !triangle.double_sided ? 1 : 0;
@@ -105,8 +104,8 @@ Openness estimate_openness(const std::vector<LocalTriangle>& triangles,
         static_cast<std::size_t>(std::clamp(wished, double{fewest_rays}, double{most_rays})));
     Openness out;
     if (rays.count() == 0) return out;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        if (!triangles[t].is_line()) meet(triangles[t], static_cast<std::uint32_t>(t), rays);
+    for (const LocalTriangle& triangle : triangles)
+        if (!triangle.is_line()) meet(triangle, rays);
     const auto count = static_cast<double>(rays.count());
     const auto missed = static_cast<double>(std::count(rays.nearest.begin(), rays.nearest.end(),
                                                        std::numeric_limits<double>::infinity()));

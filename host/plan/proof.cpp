@@ -37,7 +37,8 @@ std::vector<Source> sources_of(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (!(luminance(light.intensity) > 0.0f)) continue;
         if (light.kind == Light::Kind::directional) {
-            out.push_back({-glm::normalize(glm::dvec3(light.direction)), true, same_place});
+            // The direction and the normals of planes are rounded.
+            out.push_back({-glm::normalize(glm::dvec3(light.direction)), true, 2.0 * same_place});
             continue;
         }
         const glm::dvec3 place = (light.position - frame.origin) * frame.scale;
@@ -103,7 +104,6 @@ private:
             const double before = source.before(known.plane);
             if (known.sides.above && !(before >= least)) return false;
             if (known.sides.below && !(-before >= least)) return false;
-            if (!known.sides.above && !known.sides.below) return false;  // flat: no side is its
         }
         return true;
     }
