@@ -271,6 +271,7 @@ TEST(SurfaceFacts, ReadTextures) {
     EXPECT_NEAR(facts.mean_albedo.x, 0.5, 1e-7);
     EXPECT_NEAR(facts.mean_albedo.y, 0.25, 1e-7);
     EXPECT_NEAR(facts.mean_albedo.z, 0.1, 1e-7);
+    EXPECT_NEAR(facts.largest_albedo, 0.5, 1e-7) << "of the brightest texel";
     scene.materials.push_back(scene.materials[0]);
     scene.materials[0].base_texture.texture = -1;
     EXPECT_FALSE(scene_facts(scene).surfaces.textures) << "of a material not in use";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <clgi/device_scene.hpp>
 #include <cmath>
 
@@ -7,6 +8,7 @@
 #include "plan/parts.hpp"
 #include "scene/base_color.hpp"
 #include "scene/luminance.hpp"
+#include "scene/texture_pool.hpp"
 
 namespace clgi {
 namespace {
@@ -78,7 +80,7 @@ void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, S
         if (material.double_sided) out.double_sided_area += area;
         if (!(area > 0.0)) continue;
         for (int c = 0; c < 3; ++c)
-            out.largest_albedo = std::max(out.largest_albedo, albedo.all[c]);
+            out.largest_albedo = std::max(out.largest_albedo, albedo.most[c]);
     }
     if (!(out.area > 0.0)) return;
     const double reflected = luminance(out.mean_albedo);
@@ -86,6 +88,37 @@ void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, S
     out.mean_albedo /= out.area;
     out.glossy_area /= out.area;
     out.double_sided_area /= out.area;
+}
+
+// [textures] per channel, linear.
+std::vector<glm::dvec3> brightest_texels(const Scene& scene) {
+    const std::vector<float> srgb = srgb_decode_table();
+    std::vector<glm::dvec3> out;
+    for (const Texture& texture : scene.textures) {
+        std::array<std::uint8_t, 3> most{};
+        for (std::size_t i = 0; i + 3 < texture.rgba.size(); i += 4)
+            for (std::size_t c = 0; c < 3; ++c) most[c] = std::max(most[c], texture.rgba[i + c]);
+        glm::dvec3 linear;
+        for (int c = 0; c < 3; ++c)
+            linear[c] = texture.srgb ? double{srgb[most[c]]} : double_of(most[c]);
+        out.push_back(linear);
+    }
+    return out;
+}
+
+// What the colours at its corners make of a triangle's base colour: the mean, and at most.
+struct VertexColours {
+    glm::dvec3 mean = glm::dvec3(1.0), most = glm::dvec3(1.0);
+};
+VertexColours vertex_colours(const Scene& scene, const SceneTriangle& triangle) {
+    if (scene.colors.empty()) return {};
+    VertexColours out{glm::dvec3(0.0), glm::dvec3(0.0)};
+    for (const std::uint32_t vertex : triangle.vertex) {
+        const glm::dvec3 color(scene.colors[vertex]);
+        out.mean += color / 3.0;
+        out.most = glm::max(out.most, color);
+    }
+    return out;
 }
 
 }  // namespace
@@ -98,20 +131,20 @@ double triangle_area(const Scene& scene, const SceneTriangle& triangle) {
 
 std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
     const BaseColorMeans base_colors(scene);
+    const std::vector<glm::dvec3> brightest = brightest_texels(scene);
     std::vector<TriangleAlbedo> out;
     out.reserve(scene.triangles.size());
     for (const SceneTriangle& triangle : scene.triangles) {
         const Material& material = scene.materials[triangle.material];
         const Reflectance shares = reflectance(material.metallic, material.roughness);
-        glm::dvec3 base = base_colors(triangle);
-        if (!scene.colors.empty()) {
-            glm::dvec3 color(0.0);
-            for (const std::uint32_t vertex : triangle.vertex)
-                color += glm::dvec3(scene.colors[vertex]);
-            base *= color / 3.0;
-        }
-        const glm::dvec3 gloss = base * double{shares.lobe} + double{shares.coat};
-        out.push_back({base * double{shares.diffuse} + gloss, gloss});
+        const VertexColours colours = vertex_colours(scene, triangle);
+        const glm::dvec3 base = base_colors.estimate(triangle) * colours.mean;
+        glm::dvec3 most = glm::dvec3(material.base_color) * colours.most;
+        if (material.base_texture.texture >= 0)
+            most *= brightest[static_cast<std::size_t>(material.base_texture.texture)];
+        const double coat = shares.coat, lobe = shares.lobe, diffuse = shares.diffuse;
+        const glm::dvec3 gloss = base * lobe + coat;
+        out.push_back({base * diffuse + gloss, gloss, most * (diffuse + lobe) + coat});
     }
     return out;
 }

@@ -16,6 +16,9 @@ public:
     // Factor times texture, linear, without vertex colours. Texels that a mask cuts out count.
     glm::dvec3 operator()(const SceneTriangle& triangle) const;
 
+    // The same from nine points of the triangle, whatever the number of texels that it covers.
+    glm::dvec3 estimate(const SceneTriangle& triangle) const;
+
 private:
     const Scene& scene_;
     std::vector<TextureMean> textures_;  // empty ones where no base colour reads them

@@ -39,13 +39,13 @@ struct LightFacts {
     double environment_mean = 0.0;       // mean luminance over the sphere, cd/m^2
 };
 
-// Of all that triangles reflect, weighted by area. Textures count by the mean over the triangle,
+// Of all that triangles reflect, weighted by area. Textures count by nine points of each triangle,
 // with texels that a mask cuts out.
 struct SurfaceFacts {
     std::size_t triangles = 0;
     double area = 0.0;            // m^2, both sides of double-sided ones are one
     glm::dvec3 mean_albedo{0.0};  // of diffuse and gloss together, per channel
-    double largest_albedo = 0.0;  // of any triangle with area and any channel
+    double largest_albedo = 0.0;  // no point of a triangle reflects more in any channel
     double gloss = 0.0;           // share of `mean_albedo`, luminance, that lobes and coats reflect
     double glossy_area = 0.0;     // share of area whose lobe and coat reflect more than 1e-4
     double double_sided_area = 0.0;  // share
