@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""What plans save, and how far they get: the tables and the plot of docs/effects.md.
+
+    samples/effects.py saving build/clgi out/ SCENE.glb ...
+    samples/effects.py race build/clgi out/ SCENE.glb ...
+
+saving: each scene is rendered by its plan, and with every effect on, for the same error. A row has
+what is off, what the plan says that this changes at most, what it does change, and both times.
+race: the error of --method auto after 0.1, 1 and 10 s beside that of the path tracer after the same
+times, against a picture of the path tracer with --truth samples a pixel.
+Times are of a picture with all that is done before it but loading, upload and building kernels.
+SPDX-License-Identifier: MIT
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+
+SIZE = "160x120"
+
+
+def run(*command):
+    """What a command printed; a failure ends the script with its error line."""
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def picture_ms(stats):
+    """Of what was done before the first picture, and of one picture."""
+    once = 0.0
+    if "bake" in stats:
+        once += stats["bake"]["layout_ms"] + stats["bake"]["bake_ms"]
+    if "antiradiance" in stats:
+        once += stats["antiradiance"]["linking_ms"]
+    return once + stats["frame_ms"]["median"]
+
+
+def render(clgi, scene, name, *flags, frames=3):
+    """The statistics of a picture by a plan."""
+    run(clgi, "render", scene, "--quiet", "--full", "--size", SIZE, "--frames", frames,
+        "-o", name + ".exr", "--stats", name + ".json", *flags)
+    with open(name + ".json") as file:
+        return json.load(file)
+
+
+def difference(clgi, a, b):
+    """Root mean squared difference over the mean of b."""
+    return json.loads(run(clgi, "compare", a + ".exr", b + ".exr", "--no-flip", "--json"))["rel_rmse"]
+
+
+def percent(value):
+    return "0" if value == 0 else f"{100 * value:.2g} %"
+
+
+def saving(options):
+    print("| scene | method, with all | off although there is light for it | at most | changed "
+          "| ms | with all, ms | saving |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- |")
+    for scene in options.scenes:
+        name = os.path.join(options.out, os.path.splitext(os.path.basename(scene))[0])
+        wish = ["--target-error", options.error]
+        lean, full = [], []
+        for _ in range(options.rounds):  # in turn: other programs slow both
+            a = render(options.clgi, scene, name + "-plan", *wish)
+            b = render(options.clgi, scene, name + "-all", *wish, "--with", "all")
+            lean.append(picture_ms(a))
+            full.append(picture_ms(b))
+        lean, full = sorted(lean)[len(lean) // 2], sorted(full)[len(full) // 2]
+        off = [e["name"] for e in a["plan"]["effects"]
+               if not e["on"] and e["ground"] in ("proven", "measured")]
+        # The same method with all effects tells what was left out; another one has its own error.
+        same = render(options.clgi, scene, name + "-same", *wish, "--with", "all", frames=1) \
+            if a["method"] == b["method"] else None
+        changed = percent(difference(options.clgi, name + "-plan", name + "-all")) \
+            if same else "another method"
+        print(f"| {os.path.basename(name)} | {a['method']}, {b['method']} | {', '.join(off) or 'nothing'} "
+              f"| {percent(a['plan']['bound'] or 0)} | {changed} | {lean:.1f} | {full:.1f} "
+              f"| {full / lean:.1f} |", flush=True)
+
+
+def trace(options, scene, name, spp):
+    """Seconds that the path tracer took."""
+    run(options.clgi, "reference", scene, "--quiet", "--full", "--size", SIZE, "--spp", spp,
+        "--seed", 7, "-o", name + ".exr", "--stats", name + ".json")
+    with open(name + ".json") as file:
+        return json.load(file)["seconds"]
+
+
+def race(options):
+    print("| scene | s | auto | takes, s | error | path tracer: samples | takes, s | error |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- |")
+    rows = []
+    for scene in options.scenes:
+        name = os.path.join(options.out, os.path.splitext(os.path.basename(scene))[0])
+        truth = name + "-truth"
+        if not os.path.exists(truth + ".exr"):
+            run(options.clgi, "reference", scene, "--quiet", "--full", "--size", SIZE, "--spp",
+                options.truth, "-o", truth + ".exr")
+        once = trace(options, scene, name + "-path", 1)
+        for seconds in (0.1, 1, 10):
+            stats = render(options.clgi, scene, name + "-auto", "--time-budget", f"{seconds}s")
+            taken = picture_ms(stats) / 1000
+            error = difference(options.clgi, name + "-auto", truth)
+            spp = max(1, int(seconds / once))
+            traced = trace(options, scene, name + "-path", spp)
+            noise = difference(options.clgi, name + "-path", truth)
+            print(f"| {os.path.basename(name)} | {seconds:g} | {stats['method']} | {taken:.2f} "
+                  f"| {percent(error)} | {spp} | {traced:.2f} | {percent(noise)} |", flush=True)
+            rows.append((os.path.basename(name), taken, error, traced, noise))
+    plot(options, rows)
+
+
+def plot(options, rows):
+    """out/race.svg: error against time, a pair of lines for each scene."""
+    data, curves = [], []
+    for index, scene in enumerate(dict.fromkeys(row[0] for row in rows)):
+        for column, dashes in ((1, 1), (3, 2)):
+            label = scene + ("" if column == 1 else ", path tracer")
+            points = "\n".join(f"{row[column]} {100 * row[column + 1]}" for row in rows if row[0] == scene)
+            data.append(points + "\ne")
+            curves.append(f"'-' with linespoints lc {index + 1} dt {dashes} pt {5 if column == 1 else 6} "
+                          f"title '{label}'")
+    script = (f"set terminal svg size 800,500 background 'white'\nset output '{options.out}/race.svg'\n"
+              "set logscale xy\nset xlabel 'time of a picture, s'\nset ylabel 'error, %'\n"
+              "set key outside noenhanced\nset grid\nplot " + ", ".join(curves) + "\n" + "\n".join(data) + "\n")
+    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("what", choices=["saving", "race"])
+    parser.add_argument("clgi", help="the program")
+    parser.add_argument("out", help="folder for pictures")
+    parser.add_argument("scenes", nargs="+")
+    parser.add_argument("--error", default="0.1", help="saving: of the pictures")
+    parser.add_argument("--rounds", type=int, default=3, help="saving: measurements of each")
+    parser.add_argument("--truth", type=int, default=4096, help="race: samples a pixel of the truth")
+    options = parser.parse_args()
+    os.makedirs(options.out, exist_ok=True)
+    {"saving": saving, "race": race}[options.what](options)
+
+
+if __name__ == "__main__":
+    main()
