@@ -42,6 +42,7 @@ struct AntiradianceSolver::State {
     // The same for elements and links.
     void follow_geometry();
     void light_leaves();
+    void darken();
     void start();
     void step(std::uint32_t flags);
     double residual();
@@ -49,7 +50,8 @@ struct AntiradianceSolver::State {
 
     // Steps until they are done, the residual is small, or they diverge: false.
     bool symmetric(const Progress& progress);
-    void asymmetric(const Progress& progress);
+    bool asymmetric(const Progress& progress);
+    bool iterate(const Progress& progress);  // one of them, or one after the other
     int limit() const { return options.steps > 0 ? options.steps : options.most_steps; }
     void report(const Progress& progress);
     bool run(const Progress& progress);
@@ -87,6 +89,7 @@ struct AntiradianceSolver::State {
     std::size_t link_total = 0, pair_total = 0, bytes = 0;
     int steps_done = 0;          // of this run
     double first_arrived = 0.0;  // lumens, in the first step
+    double arrived = 0.0;        // in the last one
 };
 
 }  // namespace clgi

@@ -19,10 +19,12 @@
 
 namespace clgi {
 
-// The order of reflections and of steps in which light is let through [section 2.2].
+// The order of reflections and of steps in which light is let through [section 2.2]. Where nothing
+// can lie between two elements they are the same, and steps are those of `symmetric`.
 enum class Iteration {
     symmetric,   // both at once; diverges where parallel surfaces lie close to each other
     asymmetric,  // light is let through until it no longer changes, then reflected; converges
+                 // wherever bins are right about what hides what
     automatic,   // symmetric, and asymmetric from the start where that diverges
 };
 
@@ -58,7 +60,11 @@ struct AntiradianceOptions {
 struct AntiradianceStatus {
     Iteration iteration = Iteration::symmetric;  // that was used last
     bool diverged = false;                       // the symmetric iteration did, and was given up
-    bool converged = false;                      // the residual is below the bound
+    // The iteration that was used last diverged: it has no result. Leaves receive nothing and
+    // pictures show direct light alone.
+    bool given_up = false;
+    bool converged = false;     // the residual is below the bound
+    bool lets_through = false;  // false: nothing can lie between, and there is no antiradiance
     std::vector<double> residuals;               // of each step that was made, of both iterations
     std::uint32_t non_finite = 0;  // leaves with numbers that are not finite, in all steps of
                                    // the iteration that was used
