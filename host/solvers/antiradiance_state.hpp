@@ -2,25 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/kit/emitters.hpp>
 #include <clgi/passes/antiradiance_gloss.hpp>
 #include <clgi/passes/lights.hpp>
 #include <clgi/passes/parallel.hpp>
-#include <clgi/solvers/antiradiance.hpp>
+#include <memory>
 #include <optional>
 
 #include "antiradiance/device_links.hpp"
-#include "antiradiance/element_surface.hpp"
-#include "antiradiance/glossy_leaves.hpp"
+#include "solvers/antiradiance_buffers.hpp"
 #include "solvers/antiradiance_motion.hpp"
 
 namespace clgi {
 
-struct AntiradianceSolver::State {
+struct AntiradianceSolver::State : AntiradianceBuffers {
     State(const Programs& all, const cl::CommandQueue& on, const Scene& file,
           const DeviceScene& of, const AntiradianceOptions& wanted);
 
-    BufferTable table(const DeviceLinks& between);
     void build() const;
     void write(const Scene& file, const DeviceLinks& between);
 
@@ -30,7 +27,6 @@ struct AntiradianceSolver::State {
     }
 
     // Of glossy leaves; nothing where there are none.
-    void add_gloss(BufferTable& table);
     void write_gloss();
     void make_lobes();
     void light_gloss();
@@ -58,31 +54,13 @@ struct AntiradianceSolver::State {
 
     Programs programs;
     cl::CommandQueue queue;
-    const DeviceScene& scene;
-    AntiradianceOptions options;
-    double linking = 0.0;  // seconds
-    DirectionBins bins;
-    ElementTree tree;
-    ElementSurface made;  // on the host
-    GlossyLeaves glossy;
-    Emitters emitters;
     AntiradiancePasses passes;
     std::optional<AntiradianceGlossPasses> gloss_passes;  // none without glossy leaves
     GBufferPasses gbuffer;
     LightPasses lights;
     ParallelPasses parallel;
     mutable Recorder record;
-    LinkBuffers links;
-    ElementRows rows;
-    LeafBuffers leaves;
-    LeafSurface surface;
-    GlossBuffers gloss;
-    RasterBuffers lists;
-    LeafPointParams point_params{};
-    GBuffer points;
-    cl::Buffer samples, irradiance, directions, leaf_list, inner_list, sum, scratch, bad_points;
     AntiradianceStatus found;
-    SceneFrame frame;                            // that elements and links were made for
     std::unique_ptr<AntiradianceMotion> motion;  // null: nothing moves
     bool moved = false;                          // since the last run
     WaitList moves;                              // that the next run waits for
