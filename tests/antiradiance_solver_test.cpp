@@ -1,4 +1,4 @@
-// The solver as a whole: direct light in the leaves, closed rooms, iterations, the sky.
+// The solver as a whole: direct light in the leaves, closed rooms, the sky.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include "device.hpp"
 #include "math_modes.hpp"
 #include "rooms.hpp"
+#include "solved_antiradiance.hpp"
 
 namespace clgi {
 namespace {
@@ -17,44 +18,9 @@ constexpr double pi = 3.14159265358979323846;
 
 CLGI_IN_BOTH_MATHS(AntiradianceLight);
 
-struct Solved {
-    DeviceScene scene;
-    AntiradianceSolver solver;
-    explicit Solved(const Scene& of, const AntiradianceOptions& options = {}, bool run = true)
-        : scene(test::on_device(of)),
-          solver(test::programs(), test::device().queue, of, scene, options) {
-        if (run) solver.run();
-    }
-    double exposure() const { return scene.frame().exposure; }
-    std::size_t count() const { return solver.elements().leaves; }
-    std::vector<glm::vec4> irradiances() const {
-        return test::download<glm::vec4>(solver.leaves().irradiances, count());
-    }
-    std::vector<glm::vec4> sources() const {
-        return test::download<glm::vec4>(solver.leaves().sources, count());
-    }
-    std::vector<glm::vec4> reflectances() const {
-        return test::download<glm::vec4>(solver.leaves().reflectances, count());
-    }
-    std::uint32_t element(std::size_t row) const { return solver.leaf_elements()[row]; }
-};
-
-AntiradianceOptions options_of(Math math, int bins, std::size_t leaves) {
-    AntiradianceOptions out;
-    out.bins = bins;
-    out.elements.wished = leaves;
-    out.build.math = math;
-    return out;
-}
-
-// What all leaves receive, times their areas.
-glm::dvec3 power(const Solved& solved) {
-    glm::dvec3 sum(0.0);
-    const std::vector<glm::vec4> e = solved.irradiances();
-    for (std::size_t row = 0; row < e.size(); ++row)
-        sum += solved.solver.elements().areas[solved.element(row)] * glm::dvec3(e[row]);
-    return solved.exposure() * sum;
-}
+using test::options_of;
+using test::power;
+using test::Solved;
 
 // Each leaf reflects the mean direct light of its four sample points, from the side that it is on.
 // fronts, backs: what is reflected by each triangle of the scene.
@@ -153,63 +119,6 @@ TEST(AntiradianceSolver, KeepsNoRowsOfWhatHasNothingBehindIt) {
     EXPECT_LT(rows, tree.count());
 }
 
-// Thin shelves across a room. Reflecting and letting light through at once diverges; that is seen,
-// and the asymmetric iteration finds the light.
-Scene shelves(float albedo) {
-    Scene scene = test::plain_scene(glm::vec3(albedo));
-    scene.materials[0].double_sided = true;
-    test::add_box(scene, {0, 0, 0}, {1, 1, 1}, -1);
-    for (const double y : {0.2, 0.4, 0.6, 0.8})
-        test::add_quad(scene,
-                       {glm::dvec3(0.1, y, 0.1), {0.1, y, 0.9}, {0.9, y, 0.9}, {0.9, y, 0.1}});
-    scene.lights = {test::point_light({0.5, 0.9, 0.5})};
-    return scene;
-}
-
-TEST_P(AntiradianceLight, SeesDivergenceAndConvergesAllTheSame) {
-    AntiradianceOptions options = options_of(GetParam(), 128, 2000);
-    options.iteration = Iteration::symmetric;
-    const Scene scene = shelves(0.6f);
-    const Solved symmetric(scene, options);
-    EXPECT_TRUE(symmetric.solver.status().diverged);
-    EXPECT_FALSE(symmetric.solver.status().converged);
-
-    options.iteration = Iteration::asymmetric;
-    options.residual = 1e-4;
-    const Solved asymmetric(scene, options);
-    EXPECT_TRUE(asymmetric.solver.status().converged);
-
-    options.iteration = Iteration::automatic;
-    const Solved either(scene, options);
-    const AntiradianceStatus status = either.solver.status();
-    EXPECT_TRUE(status.diverged);
-    EXPECT_TRUE(status.converged);
-    EXPECT_EQ(status.iteration, Iteration::asymmetric);
-    EXPECT_EQ(either.irradiances(), asymmetric.irradiances());
-}
-
-// Where both iterations converge they find the same light.
-TEST_P(AntiradianceLight, BothIterationsMeet) {
-    AntiradianceOptions options = options_of(GetParam(), 128, 1500);
-    options.residual = 1e-5;
-    options.iteration = Iteration::symmetric;
-    const Solved one(test::furnished_room(3), options);
-    options.iteration = Iteration::asymmetric;
-    const Solved other(test::furnished_room(3), options);
-    EXPECT_TRUE(one.solver.status().converged);
-    EXPECT_TRUE(other.solver.status().converged);
-    const glm::dvec3 mean = power(other);
-    double square = 0.0, all = 0.0;
-    const auto a = one.irradiances(), b = other.irradiances();
-    for (std::size_t i = 0; i < a.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            square += std::pow(double(a[i][c]) - b[i][c], 2);
-            all += std::pow(double(b[i][c]), 2);
-        }
-    EXPECT_LT(std::sqrt(square / all), 1e-3);
-    EXPECT_GT(mean.x, 0.0);
-}
-
 // Nothing stands in the sky's way: a surface of any tilt, and its back, receive pi L of a sky of
 // one colour, and of a sky that is bright above what the cosine makes of it.
 TEST_P(AntiradianceLight, ReceivesTheSky) {
@@ -295,67 +204,6 @@ TEST(AntiradianceSolver, LightsASingleElement) {
     const Solved solved(scene, options);
     ASSERT_EQ(solved.count(), 1u);
     EXPECT_NEAR(solved.exposure() * solved.irradiances()[0].x, pi, 1e-5);
-}
-
-TEST(AntiradianceSolver, AsymmetricStepsCanBeStopped) {
-    AntiradianceOptions options = options_of(Math::strict, 32, 600);
-    options.iteration = Iteration::asymmetric;
-    Solved solved(test::furnished_room(5), options, false);
-    int asked = 0;
-    EXPECT_FALSE(solved.solver.run([&](double share) {
-        EXPECT_LE(share, 1.0);
-        return ++asked < 2;
-    }));
-    EXPECT_EQ(asked, 2);
-    EXPECT_FALSE(solved.solver.status().converged);
-    EXPECT_EQ(solved.solver.status().residuals.size(), 2u);
-    options.steps = 5;
-    EXPECT_EQ(Solved(test::furnished_room(5), options).solver.status().residuals.size(), 5u);
-}
-
-// With k steps that let light through for each that reflects, the first reflection is step k + 1
-// and is seen in the one after it; until then all numbers are the same. However many, one light.
-TEST(AntiradianceSolver, LetsLightThroughAsOftenAsItIsTold) {
-    AntiradianceOptions options = options_of(Math::strict, 32, 600);
-    options.iteration = Iteration::asymmetric;
-    options.steps = 60;
-    const auto residuals = [&](int through) {
-        options.through_steps = through;
-        return Solved(test::furnished_room(5), options).solver.status().residuals;
-    };
-    const std::vector<double> long_run = residuals(20);
-    for (const int k : {1, 2, 4}) {
-        const std::vector<double> found = residuals(k);
-        ASSERT_EQ(found.size(), 60u);
-        const auto first = static_cast<std::size_t>(k) + 1;
-        for (std::size_t step = 0; step < first; ++step)
-            EXPECT_EQ(found[step], long_run[step]) << k << " " << step;
-        for (std::size_t step = first; step < 30; ++step) {
-            const bool shows = (step - first) % first == 0;
-            EXPECT_EQ(found[step] > found[step - 1], shows) << k << " " << step;
-        }
-    }
-    options.steps = 0;
-    options.residual = 1e-5;
-    options.through_steps = 0;
-    const auto wanted = Solved(test::furnished_room(5), options).irradiances();
-    options.through_steps = 3;
-    const Solved solved(test::furnished_room(5), options);
-    EXPECT_TRUE(solved.solver.status().converged);
-    const auto found = solved.irradiances();
-    double most = 0.0;
-    for (const glm::vec4& e : wanted) most = std::max(most, double(e.x));
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        EXPECT_NEAR(found[i].x, wanted[i].x, 1e-4 * most) << i;
-}
-
-TEST(AntiradianceSolver, StopsWhenItIsToldTo) {
-    Solved solved(test::furnished_room(5), options_of(Math::strict, 32, 600), false);
-    int asked = 0;
-    EXPECT_FALSE(solved.solver.run([&](double) { return ++asked < 3; }));
-    EXPECT_EQ(asked, 3);
-    EXPECT_TRUE(solved.solver.run());
-    EXPECT_TRUE(solved.solver.status().converged);
 }
 
 TEST(AntiradianceSolver, RefusesWhatItCannotDo) {

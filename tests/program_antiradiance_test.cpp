@@ -46,6 +46,10 @@ TEST_F(AntiradianceProgram, RendersAndSaysWhatItDid) {
     EXPECT_EQ(found.at("iteration"), "symmetric");
     EXPECT_EQ(found.at("converged"), true);
     EXPECT_EQ(found.at("diverged"), false);
+    EXPECT_EQ(found.at("given_up"), false);
+    EXPECT_EQ(found.at("lets_through"), true);
+    EXPECT_EQ(stats.at("converged"), true);
+    EXPECT_TRUE(stats.at("warnings").empty());
     EXPECT_LT(found.at("residual"), 1e-3);
     EXPECT_GT(found.at("links"), 1000);
     EXPECT_EQ(stats.at("frames"), 2);
@@ -68,6 +72,33 @@ TEST_F(AntiradianceProgram, HasTheLightThatWasAskedFor) {
     EXPECT_NE(first, indirect);
     ASSERT_EQ(render("--quiet --no-direct --iteration asymmetric").code, 0);
     EXPECT_NEAR(mean(), indirect, 0.01 * indirect);
+}
+
+// With one bin for each leaf the light of the office grows without end, whatever the iteration.
+TEST_F(AntiradianceProgram, TellsThatLightDivergedAndShowsNoneOfIt) {
+    const std::string scene = make("office");
+    const auto rendered = [&](const std::string& flags) {
+        return run("render " + scene + " --size 64x48 -o " +
+                   file("out.exr").string() + " " + flags);
+    };
+    const test::Outcome outcome =
+        rendered("--method antiradiance --elements 4000 --spread none --stats " + file("s.json").string());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const std::string told = "the asymmetric iteration diverged";
+    EXPECT_NE(outcome.err.find("warning: " + told), std::string::npos) << outcome.err;
+    const json stats = json::parse(read("s.json"));
+    EXPECT_EQ(stats.at("converged"), false);
+    EXPECT_EQ(stats.at("non_finite"), 0);
+    ASSERT_EQ(stats.at("warnings").size(), 1u);
+    EXPECT_EQ(stats.at("warnings")[0].get<std::string>().find(told), 0u);
+    const json& found = stats.at("antiradiance");
+    EXPECT_EQ(found.at("given_up"), true);
+    EXPECT_EQ(found.at("diverged"), true);
+    EXPECT_EQ(found.at("converged"), false);
+    const double shown = mean();
+    ASSERT_EQ(rendered("--method direct --quiet").code, 0);
+    EXPECT_GT(shown, 0.0);
+    EXPECT_NEAR(shown, mean(), 1e-4 * shown);
 }
 
 TEST_F(AntiradianceProgram, RefusesInOneLine) {

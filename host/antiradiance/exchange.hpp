@@ -21,10 +21,17 @@ struct Link {
     float form_factor;
 };
 
+// Throws Error for what cannot be linked.
+void check_linking(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
+                   const std::vector<ElementTree>& poses);
+
+// [elements] DirectionBins::hemisphere_scale of flat ones' normals.
+std::vector<double> hemisphere_scales(const ElementTree& tree, const DirectionBins& bins);
+
 // Not for several threads: it has sums of its own.
 class Exchange {
 public:
-    // scales: [elements] DirectionBins::hemisphere_scale of flat ones' normals
+    // scales: of hemisphere_scales()
     // table: for Spread::gaussian
     Exchange(const ElementTree& tree, const DirectionBins& bins, const std::vector<double>& scales,
              const LinkOptions& options, std::shared_ptr<const SpreadTable> table);

@@ -24,45 +24,12 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t tasks_wanted = 4096;  // many for each thread, for they differ in size
 
-void check(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
-           const std::vector<ElementTree>& poses) {
-    for (const ElementTree& pose : poses)
-        if (pose.count() != tree.count())
-            throw Error("make_links: a pose has " + std::to_string(pose.count()) +
-                        " elements, the tree has " + std::to_string(tree.count()));
-    if (!(options.bin_share > 0.0 && std::isfinite(options.bin_share)))
-        throw Error("make_links: bin_share is " + std::to_string(options.bin_share) +
-                    ", needs a number above 0");
-    if (options.threads < 0 || options.threads > 1024)
-        throw Error("make_links: threads is " + std::to_string(options.threads) +
-                    ", 0 to 1024 needed");
-    if (bins.count() < 2 || bins.count() > 65536 ||
-        bins.solid_angles.size() != bins.directions.size())
-        throw Error("make_links: " + std::to_string(bins.directions.size()) + " directions and " +
-                    std::to_string(bins.solid_angles.size()) +
-                    " solid angles of bins, needs 2 to 65536 and as many");
-    if (tree.normals.size() != tree.count() || tree.corners.size() != tree.count())
-        throw Error("make_links: the tree's arrays differ in length");
-}
-
 // Calls work(thread) in each of them; throws what one of them threw.
 void on_threads(int threads, const std::function<void(int)>& work) {
     std::vector<std::future<void>> others;
     for (int t = 1; t < threads; ++t) others.push_back(std::async(std::launch::async, work, t));
     work(0);
     for (std::future<void>& other : others) other.get();
-}
-
-std::vector<double> hemisphere_scales(const ElementTree& tree, const DirectionBins& bins) {
-    std::vector<double> out(tree.count(), 1.0);
-    for (std::size_t i = 0; i < tree.count(); ++i) {
-        const std::uint32_t parent = tree.parents[i];
-        if (parent != no_index && tree.normals[parent] == tree.normals[i])
-            out[i] = out[parent];
-        else if (tree.is_flat(i))
-            out[i] = bins.hemisphere_scale(tree.normals[i]);
-    }
-    return out;
 }
 
 // Pairs that stand for everything, enough of them to be shared among threads.
@@ -122,7 +89,7 @@ void link_tasks(const Refine& refine, const MotionRefine* motion,
 
 Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
                  const std::vector<ElementTree>& poses) {
-    check(tree, bins, options, poses);
+    check_linking(tree, bins, options, poses);
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const int threads = options.threads > 0 ? options.threads : cores;
     std::optional<MotionRefine> motion;

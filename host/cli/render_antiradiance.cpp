@@ -36,21 +36,26 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& pic
     return out;
 }
 
-void warn_of(const AntiradianceStatus& status, const AntiradianceOptions& options,
-             std::uint32_t in_picture) {
-    if (status.diverged && status.iteration == Iteration::symmetric)
-        notice(false,
-               "warning: the symmetric iteration diverged; --iteration asymmetric converges");
-    else if (options.steps == 0 && !status.converged)
-        notice(false,
-               fmt::format("warning: after {} steps the residual is {:.2g}, not below {:.2g}",
-                           status.residuals.size(),
-                           status.residuals.empty() ? 1.0 : status.residuals.back(),
-                           options.residual));
+std::vector<std::string> warnings_of(const AntiradianceStatus& status,
+                                     const AntiradianceOptions& options, std::uint32_t in_picture) {
+    std::vector<std::string> out;
+    const std::size_t steps = status.residuals.size();
+    const double residual = steps == 0 ? 1.0 : status.residuals.back();
+    if (status.given_up)
+        out.push_back(fmt::format(
+            "the {} iteration diverged; the picture has no light that it would have brought. {}",
+            name_of(status.iteration),
+            status.iteration == Iteration::symmetric && status.lets_through
+                ? "Try --iteration asymmetric"
+                : "Try --spread precise, more bins or a smaller --bin-share"));
+    else if (!status.converged && (options.steps == 0 || residual >= 1.0))
+        out.push_back(fmt::format("after {} steps the residual is {:.2g}, not below {:.2g}", steps,
+                                  residual, options.steps == 0 ? options.residual : 1.0));
     if (status.non_finite + in_picture > 0)
-        notice(false, fmt::format("warning: {} leaves and {} packets of pixels held numbers that "
-                                  "were not finite",
+        out.push_back(fmt::format("{} leaves and {} packets of pixels held numbers that were not "
+                                  "finite",
                                   status.non_finite, in_picture));
+    return out;
 }
 
 }  // namespace
@@ -118,7 +123,8 @@ void run_antiradiance(RenderFlags flags) {
     const AntiradianceStatus status = solver.status();
     const std::uint32_t in_picture = view.picture().non_finite();
     record.status.non_finite = status.non_finite + in_picture;
-    warn_of(status, solver.options(), in_picture);
+    const std::vector<std::string> warnings = warnings_of(status, solver.options(), in_picture);
+    for (const std::string& warning : warnings) notice(false, "warning: " + warning);
     const AntiradianceSummary summary{solver.elements().count(),
                                       solver.elements().leaves,
                                       solver.link_count(),
@@ -126,7 +132,9 @@ void run_antiradiance(RenderFlags flags) {
                                       solver.options().bins,
                                       name_of(status.iteration),
                                       status.diverged,
+                                      status.given_up,
                                       status.converged,
+                                      status.lets_through,
                                       status.residuals.size(),
                                       status.residuals.empty() ? 0.0 : status.residuals.back(),
                                       1e3 * solver.linking_seconds()};
@@ -146,6 +154,7 @@ void run_antiradiance(RenderFlags flags) {
     if (solver.gloss().count > 0) record.effects.push_back("glossy-indirect");
     record.antiradiance = summary;
     record.planned = flags.planned;
+    record.warnings.insert(record.warnings.end(), warnings.begin(), warnings.end());
     save_stats(record, flags.stats);
 }
 

@@ -57,7 +57,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         {"build_ms", record.build_ms},
         {"low_res_share", record.status.low_resolution_share},
         {"non_finite", record.status.non_finite},
-        {"converged", true},
+        {"converged", !record.antiradiance || record.antiradiance->converged},
         {"warnings", record.warnings}};
     if (record.gbuffer == "gl")
         out["gbuffer"] = {{"by", "gl"}, {"renderer", record.gl_renderer}, {"path", record.gl_path}};
@@ -82,10 +82,11 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         const AntiradianceSummary& a = *record.antiradiance;
         out["antiradiance"] = {{"elements", a.elements},   {"leaves", a.leaves},
                                {"links", a.links},         {"moving_links", a.moving_links},
-                               {"bins", a.bins},
+                               {"bins", a.bins},           {"lets_through", a.lets_through},
                                {"iteration", a.iteration}, {"diverged", a.diverged},
-                               {"converged", a.converged}, {"steps", a.steps},
-                               {"residual", a.residual},   {"linking_ms", a.linking_ms}};
+                               {"given_up", a.given_up},   {"converged", a.converged},
+                               {"steps", a.steps},         {"residual", a.residual},
+                               {"linking_ms", a.linking_ms}};
     }
     if (record.planned) {
         out["plan"] = plan_json(record.planned->plan);

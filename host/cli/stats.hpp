@@ -42,7 +42,9 @@ struct AntiradianceSummary {
     int bins = 0;
     std::string iteration;
     bool diverged = false;  // the symmetric iteration did
+    bool given_up = false;  // the one that was used last did: no result
     bool converged = false;
+    bool lets_through = false;  // something may lie between
     std::size_t steps = 0;
     double residual = 0.0;
     double linking_ms = 0.0;  // on the host

@@ -85,6 +85,7 @@ DachsbacherRow1 row1(const DachsbacherSetup& setup, const Programs& programs,
     if (status.non_finite > 0)
         throw Error("bench: " + scene.name + " has " + std::to_string(status.non_finite) +
                     " leaves with light that is not finite");
+    if (status.given_up) throw Error("bench: the light of " + scene.name + " diverged");
     row.steps = static_cast<int>(status.residuals.size());
     row.residual = status.residuals.empty() ? 0.0 : status.residuals.back();
     if (setup.samples > 0) {

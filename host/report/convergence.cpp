@@ -60,6 +60,8 @@ private:
                                   options_of(Iteration::asymmetric, 0, 0));
         if (!solver.run([&](double done) { return progress_.goes_on(done); })) throw_cancelled();
         const AntiradianceStatus status = solver.status();
+        if (status.given_up)
+            throw Error("sweep: the asymmetric iteration diverged; there is nothing to converge to");
         out_.elements = solver.elements().count();
         out_.leaves = solver.elements().leaves;
         out_.links = solver.link_count();
@@ -85,7 +87,7 @@ private:
         });
         if (!ended) throw_cancelled();
         const AntiradianceStatus status = solver.status();
-        curve.diverged = status.diverged;
+        curve.diverged = status.given_up;
         curve.residuals = status.residuals;
         out_.curves.push_back(std::move(curve));
     }

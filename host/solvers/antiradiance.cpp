@@ -2,34 +2,13 @@
 #include <algorithm>
 #include <chrono>
 #include <clgi/kit/draw.hpp>
-#include <clgi/planes.hpp>
 
 #include "antiradiance/sky.hpp"
-#include "opencl/check.hpp"
 #include "opencl/variants.hpp"
 #include "solvers/antiradiance_state.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr std::size_t color = sizeof(glm::vec4);
-constexpr const char* owner = "antiradiance";
-
-AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scene) {
-    need_range(owner, "steps", options.steps, 0, 10000);
-    need_range(owner, "through_steps", options.through_steps, 0, 1000);
-    need_range(owner, "most_steps", options.most_steps, 1, 10000);
-    need_range(owner, "least_gloss", options.least_gloss, 0.0, 1.0);
-    need_range(owner, "residual", options.residual, 1e-6, 1.0);
-    if (options.bins < 32 || options.bins > 4096 || options.bins % 4 != 0)
-        throw Error("antiradiance: bins is " + std::to_string(options.bins) +
-                    ", a multiple of 4 from 32 to 4096 needed");
-    options.emitters.environment_lights = 0;
-    options.emitters.vpls = 0;
-    options.build.textures = options.build.textures && scene.needs_textures();
-    return options;
-}
 
 std::size_t bytes_of(const std::vector<cl::Buffer>& buffers) {
     std::size_t sum = 0;
@@ -42,28 +21,19 @@ std::size_t bytes_of(const std::vector<cl::Buffer>& buffers) {
 AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on,
                                  const Scene& file, const DeviceScene& of,
                                  const AntiradianceOptions& wanted)
-    : programs(all),
+    : AntiradianceBuffers(file, of, wanted),
+      programs(all),
       queue(on),
-      scene(of),
-      options(checked(wanted, of)),
-      bins(direction_bins(options.bins)),
-      emitters(of, options.emitters, Pixels::depth),
       passes(programs, wanted.bins, options.build),
       gbuffer(programs, full(options.build)),
       lights(programs, full(options.build)),
       parallel(programs, options.build),
-      record(queue, owner),
-      frame(of.frame()) {
-    const auto begin = std::chrono::steady_clock::now();
-    tree = make_elements(file, options.elements, options.poses);
-    if (tree.leaves == 0) throw Error("antiradiance: the scene has no surface");
-    made = make_element_surface(tree, bins, file, scene);
-    glossy = find_glossy_leaves(tree, made, file, options.least_gloss);
+      record(queue, antiradiance_owner) {
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
-    table(DeviceLinks()).check(device, options.memory_budget, scene.bytes());  // as far as is known before it takes time
-    std::vector<ElementTree> poses;
-    for (const std::vector<glm::dvec3>& pose : options.poses)
-        if (!tree.moving.empty()) poses.push_back(posed_elements(tree, file, pose));
+    table(0, 0).check(device, options.memory_budget, scene.bytes());  // as far as is known before it takes time
+    if (gloss.count > 0) gloss_passes.emplace(programs, options.bins, options.build);
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<ElementTree> poses = posed(file);
     options.poses = {};
     const Links all_links = make_links(tree, bins, options.links, poses);
     const DeviceLinks between = device_links(tree, bins, all_links, scene.frame().scale,
@@ -72,69 +42,16 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
         motion = std::make_unique<AntiradianceMotion>(programs, options.build, tree, poses, bins,
                                                       file, scene, between);
     moved = motion != nullptr;
-    linking = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    linking += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     link_total = between.senders.size();
     pair_total = all_links.pairs;
-    const BufferTable rows_of = table(between);
+    BufferTable rows_of = table(link_total, between.rows);
+    if (motion) motion->add_to(rows_of);
     rows_of.check(device, options.memory_budget, scene.bytes());
     rows_of.allocate(record);
     bytes = rows_of.bytes();
     build();
     write(file, between);
-}
-
-BufferTable AntiradianceSolver::State::table(const DeviceLinks& between) {
-    const char* size = "elements.wished";
-    const char* bin = "bins";
-    const std::size_t count = made.elements.size(), leaf = made.leaves.size();
-    const std::size_t inner = made.inner.size();
-    const auto m = static_cast<std::size_t>(options.bins);
-    links.element_count = static_cast<std::uint32_t>(count);
-    links.leaf_count = static_cast<std::uint32_t>(leaf);
-    links.inner_count = static_cast<std::uint32_t>(made.inner.size());
-    links.link_count = static_cast<std::uint32_t>(between.senders.size());
-    links.row_count = between.rows;
-    surface.vertex_count = made.vertices();
-    surface.patch_count = static_cast<std::uint32_t>(made.patches.size());
-    const auto point_count = static_cast<std::uint32_t>(made.samples.size());
-    points.stride = static_cast<std::uint32_t>(plane_stride(point_count));
-    point_params = {links.leaf_count, leaf_samples, points.stride, made.first_back};
-    BufferTable t(owner);
-    emitters.add_to(t);
-    add_raster_lists(t, lists, scene);
-    t.add(links.elements, "elements", size, count * sizeof(Element));
-    t.add(links.first_links, "links", size, (2 * count + 1) * word);
-    t.add(links.senders, "links", size, between.senders.size() * word);
-    t.add(links.bins, "links", size, between.senders.size() * word / 2);
-    t.add(links.form_factors, "links", size, between.senders.size() * word);
-    t.add(rows.sky, "the sky's row", bin, m * color);
-    t.add(rows.incident, "incident light", bin, std::max<std::size_t>(inner, 1) * m * color);
-    t.add(rows.exitant, "intensities", bin, passes.intensity_bytes(between.rows));
-    t.add(rows.next, "intensities", bin, passes.intensity_bytes(between.rows));
-    t.add(rows.powers, "light of elements", size, count * color);
-    t.add(rows.next_powers, "light of elements", size, count * color);
-    for (cl::Buffer* buffer : {&leaves.sources, &leaves.reflectances, &leaves.radiances,
-                               &leaves.irradiances, &leaves.changes})
-        t.add(*buffer, "light of leaves", size, leaf * color);
-    t.add_word(leaves.non_finite, "counters", 0);
-    t.add_word(bad_points, "counters", 0);
-    t.add(surface.roots, "patches of triangles", size, made.roots.size() * sizeof(TrianglePatches));
-    t.add(surface.patches, "patches", size, made.patches.size() * sizeof(PatchCorners));
-    t.add(surface.first_leaves, "vertices", size, made.first_leaves.size() * word);
-    t.add(surface.vertex_leaves, "vertices", size, made.vertex_leaves.size() * 2 * word);
-    t.add(surface.light, "vertices", size, surface.vertex_count * color);
-    t.add(samples, "sample points", size, made.samples.size() * sizeof(SurfaceSample));
-    t.add(points.planes, "sample points", size, gbuffer_bytes(Storage::full, points.stride));
-    t.add(points.ids, "sample points", size, GBUFFER_ID_PLANES * word * points.stride);
-    t.add(irradiance, "sample points", size, irradiance_bytes(Storage::full, points.stride));
-    t.add(directions, "directions", bin, m * color);
-    t.add(leaf_list, "elements", size, glossy.others.size() * word);
-    t.add(inner_list, "elements", size, made.inner.size() * word);
-    t.add(sum, "counters", size, color);
-    t.add(scratch, "counters", size, sum_scratch_bytes(leaf));
-    add_gloss(t);
-    if (motion) motion->add_to(t);
-    return t;
 }
 
 void AntiradianceSolver::State::build() const {

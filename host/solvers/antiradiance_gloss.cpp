@@ -3,34 +3,6 @@
 #include "solvers/antiradiance_state.hpp"
 
 namespace clgi {
-namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
-
-}  // namespace
-
-void AntiradianceSolver::State::add_gloss(BufferTable& t) {
-    gloss.count = glossy.count();
-    gloss.vertex_count = glossy.vertices();
-    if (gloss.count == 0) return;
-    gloss_passes.emplace(programs, options.bins, options.build);
-    const char* size = "elements.wished";
-    const char* bin = "bins";
-    const auto m = static_cast<std::size_t>(options.bins);
-    const std::size_t row = gloss_passes->row_bytes();
-    t.add(gloss.leaves, "glossy leaves", size, gloss.count * sizeof(GlossyLeaf));
-    t.add(gloss.albedos, "glossy leaves", size, glossy.albedos.size() * sizeof(float));
-    t.add(gloss.bins, "directions", bin, row / 3 * 4);
-    t.add(gloss.factors, "factors of lobes", bin, gloss.count * m * sizeof(float));
-    t.add(gloss.colors, "glossy leaves", size, gloss.count * sizeof(glm::vec4));
-    t.add(gloss.sources, "light of glossy leaves", bin, gloss.count * row);
-    t.add(gloss.arriving, "light of glossy leaves", bin, gloss.count * row);
-    t.add(gloss.rows, "glossy vertices", size, glossy.rows.size() * word);
-    t.add(gloss.first_leaves, "glossy vertices", size, glossy.first.size() * word);
-    t.add(gloss.vertex_leaves, "glossy vertices", size, glossy.vertex_leaves.size() * 2 * word);
-    t.add(gloss.light, "light of glossy vertices", bin, gloss.vertex_count * row);
-}
-
 void AntiradianceSolver::State::write_gloss() {
     if (gloss.count == 0) return;
     put(gloss.leaves, glossy.leaves);

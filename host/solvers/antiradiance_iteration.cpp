@@ -12,11 +12,22 @@ namespace {
 
 constexpr std::uint32_t symmetric_step = LOCAL_RECEIVE | LOCAL_REFLECT | LOCAL_GO_THROUGH;
 
-// Light that is let through may grow at first, up to a binomial coefficient of the number of
-// surfaces behind each other, and yet converge. Growth in so many steps, to so many times the least
-// residual, is divergence.
+// Of the symmetric iteration, which another one can follow, a rule of thumb: growth in so many
+// steps, to so many times the least residual, is divergence.
 constexpr int growing_steps = 3;
 constexpr double growth = 4.0;
+
+// What counts as divergence of the asymmetric iteration, behind which there is no other. Light that
+// is let through may grow at first and yet converge: where it passes n surfaces, step k changes at
+// most C(n - 1, k) times what the first one brought, and steps from n on change nothing
+// [derived: powers of a strictly triangular matrix of ones]. So many surfaces are allowed for.
+constexpr int most_surfaces = 64;
+constexpr double most_growth = 0x1p60;  // C(63, 31) is less
+
+// When light has been let through, what arrives is at most what the sources send and that times the
+// greatest albedo, as often as it was reflected. In the first step the sources' light arrives with
+// nothing in its way. Errors of bins are allowed for as well: more than twice is not one of them.
+constexpr double most_gain = 2.0;
 
 }  // namespace
 
@@ -37,11 +48,16 @@ void AntiradianceSolver::State::light_leaves() {
 }
 
 // Nothing has arrived yet: leaves send their own light alone.
-void AntiradianceSolver::State::start() {
-    record.fill(leaves.non_finite, 0);
+void AntiradianceSolver::State::darken() {
     record.fill(leaves.irradiances, 0);
     record.fill(leaves.radiances, 0);
     step(LOCAL_REFLECT | LOCAL_GO_THROUGH);
+}
+
+void AntiradianceSolver::State::start() {
+    record.fill(leaves.non_finite, 0);
+    steps_done = 0;
+    darken();
 }
 
 // One of the steps of Eq. 13 and 14, for all elements: down the tree, at the leaves, and up again.
@@ -83,7 +99,8 @@ double AntiradianceSolver::State::residual() {
     const WaitList pending = record.waits();
     queue.enqueueReadBuffer(sum, CL_TRUE, 0, sizeof(all), &all, &pending);
     const double changed = double{all.x} + all.y + all.z;
-    if (steps_done == 1) first_arrived = all.w;
+    arrived = all.w;
+    if (steps_done == 1) first_arrived = arrived;
     const double out = changed == 0.0 ? 0.0 : changed / first_arrived;
     found.residuals.push_back(out);
     return out;
@@ -103,60 +120,77 @@ bool AntiradianceSolver::State::symmetric(const Progress& progress) {
         const double now = residual();
         found.converged = done(now) && !record.cancelled();
         if (options.steps == 0 && found.converged) return true;
+        report(progress);  // before what diverged is taken away
         growing = now > before ? growing + 1 : 0;
         least = std::min(least, now);
         if (growing >= growing_steps && now >= growth * least) return false;
         if (!std::isfinite(now)) return false;
         before = now;
-        report(progress);
     }
     return true;
 }
 
-void AntiradianceSolver::State::asymmetric(const Progress& progress) {
+bool AntiradianceSolver::State::asymmetric(const Progress& progress) {
     found.iteration = Iteration::asymmetric;
     found.converged = false;
-    steps_done = 0;
     start();
-    double last = 1.0;
-    int through = 0;  // steps since the last reflection
+    double last = 1.0, brought = 1.0;  // by the last step; by the reflection, once it shows
+    int through = 0;                   // steps since the last reflection
+    int reflections = 0;
+    bool grows = false;
     // False where that was the last step.
     const auto make = [&](std::uint32_t flags) {
         step(flags);
         last = residual();
+        grows = !(last <= most_growth) || (through >= most_surfaces && last > brought);
         report(progress);
-        return steps_done < limit() && !record.cancelled() && std::isfinite(last);
+        return steps_done < limit() && !record.cancelled() && !grows;
     };
     while (steps_done < limit() && !record.cancelled()) {
         // What is not yet taken away need not be less than what the next reflection changes.
         const double enough = std::max(0.1 * last, 0.5 * options.residual);
         const int wanted = options.through_steps;
         for (bool more = wanted == 0 || through < wanted; more; ++through) {
-            if (!make(LOCAL_RECEIVE | LOCAL_GO_THROUGH)) return;
+            if (!make(LOCAL_RECEIVE | LOCAL_GO_THROUGH)) return !grows;
             more = wanted == 0 ? !(last < enough) : through + 1 < wanted;
         }
-        if (!make(LOCAL_RECEIVE | LOCAL_REFLECT)) return;
+        // With a number of steps that was set light may not yet be taken away behind all surfaces.
+        const bool settled = wanted == 0 || steps_done >= most_surfaces;
+        if (settled && arrived > most_gain * (reflections + 1) * first_arrived) return false;
+        if (!make(LOCAL_RECEIVE | LOCAL_REFLECT)) return !grows;
+        ++reflections;
         const bool taken = done(last);
         // A step that lets through shows what the reflection changed.
+        through = 0;
         const bool more = make(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
         through = 1;
+        brought = last;
         found.converged = taken && done(last) && !record.cancelled();
-        if (!more || (options.steps == 0 && found.converged)) return;
+        if (!more || (options.steps == 0 && found.converged)) return !grows;
     }
+    return true;
+}
+
+bool AntiradianceSolver::State::iterate(const Progress& progress) {
+    found.lets_through = links.row_count > 0;
+    const bool either = options.iteration == Iteration::automatic && found.lets_through;
+    const bool at_once = options.iteration != Iteration::asymmetric || !found.lets_through;
+    if (at_once) {
+        found.diverged = !symmetric(progress);
+        // One that neither diverges nor comes to rest is given up as well.
+        const bool stuck = options.steps == 0 && !found.converged;
+        if (!either || !(found.diverged || stuck)) return !found.diverged;
+    }
+    return asymmetric(progress);
 }
 
 bool AntiradianceSolver::State::run(const Progress& progress) {
     record.begin(std::exchange(moves, {}), progress);
     found = {};
-    steps_done = 0;
     if (moved) follow_geometry();
     light_leaves();
-    const bool either = options.iteration == Iteration::automatic;
-    if (options.iteration != Iteration::asymmetric) found.diverged = !symmetric(progress);
-    // A symmetric iteration that neither diverges nor comes to rest is given up as well.
-    const bool stuck = either && options.steps == 0 && !found.converged;
-    if (options.iteration == Iteration::asymmetric || (either && found.diverged) || stuck)
-        asymmetric(progress);
+    found.given_up = !iterate(progress) && !record.cancelled();
+    if (found.given_up) darken();
     record("antiradiance.vertices", surface.vertex_count,
            [&](const WaitList& wait) { return passes.vertices(queue, surface, leaves, wait); });
     keep_gloss();

@@ -37,6 +37,13 @@ AntiradianceMotion::AntiradianceMotion(const Programs& programs, const BuildOpti
     }
 }
 
+std::size_t moving_bytes(const ElementTree& tree, std::size_t moving_links) {
+    const auto moving = std::count(tree.moving.begin(), tree.moving.end(), std::uint8_t{1});
+    return tree.count() * sizeof(ElementPlace) +
+           static_cast<std::size_t>(moving) * sizeof(std::uint32_t) +
+           moving_links * (sizeof(glm::uvec2) + sizeof(std::uint32_t));
+}
+
 void AntiradianceMotion::add_to(BufferTable& table) {
     const char* size = "elements.wished";
     table.add(moving_.places, "moving elements", size, places_.size() * sizeof(ElementPlace));

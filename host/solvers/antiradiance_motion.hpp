@@ -14,6 +14,9 @@
 
 namespace clgi {
 
+// Bytes of the buffers of the class below.
+std::size_t moving_bytes(const ElementTree& tree, std::size_t moving_links);
+
 class AntiradianceMotion {
 public:
     // poses: the tree in each, at least one.

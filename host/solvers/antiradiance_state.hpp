@@ -2,25 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/kit/emitters.hpp>
 #include <clgi/passes/antiradiance_gloss.hpp>
 #include <clgi/passes/lights.hpp>
 #include <clgi/passes/parallel.hpp>
-#include <clgi/solvers/antiradiance.hpp>
+#include <memory>
 #include <optional>
 
 #include "antiradiance/device_links.hpp"
-#include "antiradiance/element_surface.hpp"
-#include "antiradiance/glossy_leaves.hpp"
+#include "solvers/antiradiance_buffers.hpp"
 #include "solvers/antiradiance_motion.hpp"
 
 namespace clgi {
 
-struct AntiradianceSolver::State {
+struct AntiradianceSolver::State : AntiradianceBuffers {
     State(const Programs& all, const cl::CommandQueue& on, const Scene& file,
           const DeviceScene& of, const AntiradianceOptions& wanted);
 
-    BufferTable table(const DeviceLinks& between);
     void build() const;
     void write(const Scene& file, const DeviceLinks& between);
 
@@ -30,7 +27,6 @@ struct AntiradianceSolver::State {
     }
 
     // Of glossy leaves; nothing where there are none.
-    void add_gloss(BufferTable& table);
     void write_gloss();
     void make_lobes();
     void light_gloss();
@@ -42,6 +38,7 @@ struct AntiradianceSolver::State {
     // The same for elements and links.
     void follow_geometry();
     void light_leaves();
+    void darken();
     void start();
     void step(std::uint32_t flags);
     double residual();
@@ -49,44 +46,28 @@ struct AntiradianceSolver::State {
 
     // Steps until they are done, the residual is small, or they diverge: false.
     bool symmetric(const Progress& progress);
-    void asymmetric(const Progress& progress);
+    bool asymmetric(const Progress& progress);
+    bool iterate(const Progress& progress);  // one of them, or one after the other
     int limit() const { return options.steps > 0 ? options.steps : options.most_steps; }
     void report(const Progress& progress);
     bool run(const Progress& progress);
 
     Programs programs;
     cl::CommandQueue queue;
-    const DeviceScene& scene;
-    AntiradianceOptions options;
-    double linking = 0.0;  // seconds
-    DirectionBins bins;
-    ElementTree tree;
-    ElementSurface made;  // on the host
-    GlossyLeaves glossy;
-    Emitters emitters;
     AntiradiancePasses passes;
     std::optional<AntiradianceGlossPasses> gloss_passes;  // none without glossy leaves
     GBufferPasses gbuffer;
     LightPasses lights;
     ParallelPasses parallel;
     mutable Recorder record;
-    LinkBuffers links;
-    ElementRows rows;
-    LeafBuffers leaves;
-    LeafSurface surface;
-    GlossBuffers gloss;
-    RasterBuffers lists;
-    LeafPointParams point_params{};
-    GBuffer points;
-    cl::Buffer samples, irradiance, directions, leaf_list, inner_list, sum, scratch, bad_points;
     AntiradianceStatus found;
-    SceneFrame frame;                            // that elements and links were made for
     std::unique_ptr<AntiradianceMotion> motion;  // null: nothing moves
     bool moved = false;                          // since the last run
     WaitList moves;                              // that the next run waits for
     std::size_t link_total = 0, pair_total = 0, bytes = 0;
     int steps_done = 0;          // of this run
     double first_arrived = 0.0;  // lumens, in the first step
+    double arrived = 0.0;        // in the last one
 };
 
 }  // namespace clgi

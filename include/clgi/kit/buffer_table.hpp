@@ -15,7 +15,7 @@ class Recorder;
 
 // What a render will need, before any of it is allocated.
 struct Estimate {
-    std::size_t bytes = 0;      // of all buffers without the scene: exact
+    std::size_t bytes = 0;      // of all buffers without the scene: exact, of antiradiance about
     double milliseconds = 0.0;  // a rough guess from clock, units and lanes of the device
 };
 

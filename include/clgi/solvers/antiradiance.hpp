@@ -19,10 +19,12 @@
 
 namespace clgi {
 
-// The order of reflections and of steps in which light is let through [section 2.2].
+// The order of reflections and of steps in which light is let through [section 2.2]. Where nothing
+// can lie between two elements they are the same, and steps are those of `symmetric`.
 enum class Iteration {
     symmetric,   // both at once; diverges where parallel surfaces lie close to each other
     asymmetric,  // light is let through until it no longer changes, then reflected; converges
+                 // wherever bins are right about what hides what
     automatic,   // symmetric, and asymmetric from the start where that diverges
 };
 
@@ -58,11 +60,25 @@ struct AntiradianceOptions {
 struct AntiradianceStatus {
     Iteration iteration = Iteration::symmetric;  // that was used last
     bool diverged = false;                       // the symmetric iteration did, and was given up
-    bool converged = false;                      // the residual is below the bound
+    // The iteration that was used last diverged: it has no result. Leaves receive nothing and
+    // pictures show direct light alone.
+    bool given_up = false;
+    bool converged = false;     // the residual is below the bound
+    bool lets_through = false;  // false: nothing can lie between, and there is no antiradiance
     std::vector<double> residuals;               // of each step that was made, of both iterations
     std::uint32_t non_finite = 0;  // leaves with numbers that are not finite, in all steps of
                                    // the iteration that was used
 };
+
+// What an AntiradianceSolver of these will allocate and what run() takes, about, before elements
+// are linked: they are made, and the links of 128 leaves are counted, which takes a fifth of the
+// time of linking at most. Bytes are within a twentieth as a rule. Milliseconds are of `steps`
+// steps; where these are 0, of 20, about what the symmetric iteration takes. Where that is given up
+// run() takes ten times as long. scene: what `device_scene` was made from. Throws as the solver
+// does, but no memory is too small for it.
+CLGI_API Estimate estimate(const cl::Device& device, const Scene& scene,
+                           const DeviceScene& device_scene,
+                           const AntiradianceOptions& options = {});
 
 // Owns its buffers, works on the given queue (in order or not). The scene must outlive the solver
 // and stay as it was uploaded, but for what options.poses move. One thread at a time.
