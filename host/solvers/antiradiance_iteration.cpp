@@ -151,11 +151,13 @@ bool AntiradianceSolver::State::run(const Progress& progress) {
     steps_done = 0;
     if (moved) follow_geometry();
     light_leaves();
-    const bool either = options.iteration == Iteration::automatic;
-    if (options.iteration != Iteration::asymmetric) found.diverged = !symmetric(progress);
+    // Without rows a step that lets light through would change nothing.
+    const Iteration wanted = links.row_count > 0 ? options.iteration : Iteration::symmetric;
+    const bool either = wanted == Iteration::automatic;
+    if (wanted != Iteration::asymmetric) found.diverged = !symmetric(progress);
     // A symmetric iteration that neither diverges nor comes to rest is given up as well.
     const bool stuck = either && options.steps == 0 && !found.converged;
-    if (options.iteration == Iteration::asymmetric || (either && found.diverged) || stuck)
+    if (wanted == Iteration::asymmetric || (either && found.diverged) || stuck)
         asymmetric(progress);
     record("antiradiance.vertices", surface.vertex_count,
            [&](const WaitList& wait) { return passes.vertices(queue, surface, leaves, wait); });
