@@ -246,7 +246,8 @@ public:
         rows_.sky = upload(of.sky);
         rows_.incident =
             empty<glm::vec4>(std::max<std::size_t>(inner_.size(), 1) * of.directions.size());
-        const std::vector<char> nothing(passes_.intensity_bytes(with_rows.size()), 0);
+        const std::vector<char> nothing(
+            std::max<std::size_t>(passes_.intensity_bytes(with_rows.size()), 1), 0);
         rows_.exitant = upload(nothing);
         rows_.next = upload(nothing);
         rows_.powers = upload(std::vector<glm::vec4>(count, glm::vec4(0.0f)));

@@ -28,9 +28,9 @@ struct DeviceLinks {
 
 // glossy: leaves with lobes, which send otherwise than evenly before them. elements: as the device
 // has them; gives those a row whose row is read. scale: metres of a unit of
-// the device's frame.
+// the device's frame. everywhere: all elements get a row, and all links read one.
 DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, const Links& links,
                          double scale, const std::vector<GlossyLeaf>& glossy,
-                         std::vector<Element>& elements);
+                         std::vector<Element>& elements, bool everywhere = false);
 
 }  // namespace clgi

@@ -54,7 +54,7 @@ inline void need_linked(const PassKernel& pass, int bins, const LinkBuffers& l,
 }
 
 inline std::size_t intensities(const PassKernel& pass, int bins, std::size_t rows) {
-    return std::max<std::size_t>(rows, 1) * static_cast<std::size_t>(bins) *
+    return rows * static_cast<std::size_t>(bins) *
            (pass.storage == Storage::half ? sizeof(glm::vec4) / 2 : sizeof(glm::vec4));
 }
 

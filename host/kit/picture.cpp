@@ -15,6 +15,13 @@ PictureOptions checked(PictureOptions options, const DeviceScene& scene, const s
     return options;
 }
 
+// Shadow maps serve direct light alone.
+EmitterOptions emitters_of(const PictureOptions& options) {
+    EmitterOptions out = options.emitters;
+    out.shadows = out.shadows && options.direct;
+    return out;
+}
+
 }  // namespace
 
 Picture::Picture(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& scene,
@@ -24,7 +31,7 @@ Picture::Picture(const Programs& programs, const cl::CommandQueue& queue, const 
       options_(checked(options, scene, owner_)),
       gbuffer_(programs, options_.build),
       image_(programs, options_.build),
-      emitters_(scene, options_.emitters, Pixels::depth),
+      emitters_(scene, emitters_of(options_), Pixels::depth),
       record_(queue, owner_) {}
 
 BufferTable Picture::table() {
@@ -50,7 +57,8 @@ void Picture::allocate(const BufferTable& table, std::size_t taken) {
     table.allocate(record_);
     bytes_ = table.bytes();
     build_draw(gbuffer_, scene_, emitters_.set().views.size());
-    gbuffer_.build({"clear", "raster", "raster_large", "raster_views"}, Pixels::depth);
+    if (emitters_.casts_shadows())
+        gbuffer_.build({"clear", "raster", "raster_large", "raster_views"}, Pixels::depth);
     image_.build({"combine"});
     if (options_.direct && scene_.environment()) image_.build({"environment"});
     emitters_.write(record_);
@@ -58,7 +66,7 @@ void Picture::allocate(const BufferTable& table, std::size_t taken) {
 }
 
 void Picture::lights_changed() {
-    if (!emitters_.update(options_.emitters))
+    if (!emitters_.update(emitters_of(options_)))
         throw Error(owner_ + ": a light needs more views than before; make another view");
     record_.forget_failed();
     emitters_.write(record_);
@@ -67,7 +75,7 @@ void Picture::lights_changed() {
 View Picture::begin(const Camera& camera, const WaitList& wait) {
     const View view = make_view(camera, scene_.frame(), options_.width, options_.height);
     record_.begin(wait);
-    if (options_.direct) emitters_.draw(record_, gbuffer_, raster_);
+    emitters_.draw(record_, gbuffer_, raster_);
     draw_gbuffer(record_, gbuffer_, scene_, view, view_, raster_, seen_, RESOLVE_TRIANGLE);
     return view;
 }

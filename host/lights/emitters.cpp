@@ -249,6 +249,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     need_range("emitters", "area_samples", options.area_samples, 0, 4096);
     need_range("emitters", "environment_lights", options.environment_lights, 0, 4096);
 
+    const int vpls = options.shadows ? options.vpls : 0;
     std::vector<Source> sources;
     if (scene.info().triangle_count > 0) {
         for (const Light& light : scene.lights())
@@ -258,6 +259,8 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         for (const auto& more : {area_samples(scene, options), environment_lights(scene, options)})
             sources.insert(sources.end(), more.begin(), more.end());
     }
+    if (!options.shadows)
+        for (Source& source : sources) source.views.clear();
     EmitterSet out;
     for (const Source& source : sources) {
         ++out.room.emitters;
@@ -271,7 +274,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
             "area_samples or environment_lights, or smaller shadow_size and face_size needed");
     std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
     if (sources.empty()) return out;
-    const std::vector<std::uint32_t> shares = divide(sources, options.vpls);
+    const std::vector<std::uint32_t> shares = divide(sources, vpls);
     const std::array<double, group_count> factor = taken_over(sources, shares);
     // All directions of the environment spread their lights over one disc together, and all samples
     // of the emissive surfaces theirs over what they light: points of one sequence, as each alone

@@ -102,6 +102,14 @@ std::size_t Programs::built() const {
                       [](const auto& entry) { return entry.second->built(); }));
 }
 
+std::vector<std::string> Programs::built_kernels() const {
+    const std::lock_guard lock(store_->mutex);
+    std::vector<std::string> out;
+    for (const auto& [name, slot] : store_->slots)
+        if (slot->built()) out.push_back(name);
+    return out;
+}
+
 void build(const std::vector<PassKernel>& kernels) {
     std::vector<std::future<void>> builds;
     for (const PassKernel& kernel : kernels) {

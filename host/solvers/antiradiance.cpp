@@ -37,7 +37,8 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
     options.poses = {};
     const Links all_links = make_links(tree, bins, options.links, poses);
     const DeviceLinks between = device_links(tree, bins, all_links, scene.frame().scale,
-                                             glossy.leaves, made.elements);
+                                             glossy.leaves, made.elements,
+                                             options.occlusion == Occlusion::always);
     if (!poses.empty())
         motion = std::make_unique<AntiradianceMotion>(programs, options.build, tree, poses, bins,
                                                       file, scene, between);
@@ -62,7 +63,8 @@ void AntiradianceSolver::State::build() const {
     lights.build({"direct"});
     parallel.build({"sum_tiles", "sum_merge"});
     if (motion) motion->build();
-    build_draw(gbuffer, scene, emitters.set().views.size());
+    if (emitters.casts_shadows())
+        gbuffer.build({"clear", "raster", "raster_large", "raster_views"}, Pixels::depth);
 }
 
 void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& between) {
@@ -157,6 +159,7 @@ std::size_t AntiradianceSolver::moving_elements() const {
 std::size_t AntiradianceSolver::moving_links() const {
     return state_->motion ? state_->motion->link_count() : 0;
 }
+std::size_t AntiradianceSolver::row_count() const { return state_->links.row_count; }
 double AntiradianceSolver::linking_seconds() const { return state_->linking; }
 std::size_t AntiradianceSolver::bytes() const { return state_->bytes; }
 std::size_t AntiradianceSolver::table_bytes() const {

@@ -89,7 +89,7 @@ BufferTable AntiradianceBuffers::table(std::size_t link_count, std::uint32_t row
     const std::size_t intensities = std::max<std::size_t>(row_count, 1) * m * color / narrow;
     BufferTable t(antiradiance_owner);
     emitters.add_to(t);
-    add_raster_lists(t, lists, scene);
+    if (emitters.casts_shadows()) add_raster_lists(t, lists, scene);
     t.add(links.elements, "elements", size, count * sizeof(Element));
     t.add(links.first_links, "links", size, (2 * count + 1) * word);
     t.add(links.senders, "links", size, link_count * word);

@@ -49,7 +49,11 @@ SecondOrderSolver::State::State(const Programs& programs, const cl::CommandQueue
     image.build({"combine"});
     if (options.direct && scene.environment()) image.build({"environment"});
     if (indirect()) {
-        light_passes.build({"accept_mask", "accept_list", "fetch", "negative"});
+        const std::vector<std::uint32_t>& tried = emitters.set().candidates;
+        if (std::any_of(tried.begin(), tried.end(), [](std::uint32_t n) { return n > 0; }))
+            light_passes.build({"accept_mask", "accept_list"});
+        light_passes.build({"fetch"});
+        if (options.negative_vpls > 0) light_passes.build({"negative"});
         image.build({"gather"});
     }
     if (refine()) {

@@ -35,6 +35,10 @@ void check(const SecondOrderOptions& options) {
                     ", 1, 2 or 4 needed");
     if (!(options.discontinuity_threshold >= 0.0f))
         throw Error("second-order: discontinuity_threshold is negative or not a number");
+    if (options.indirect && options.emitters.vpls > 0 && !options.emitters.shadows)
+        throw Error(
+            "second-order: emitters.shadows is false, but indirect light places VPLs through the "
+            "views of emitters; indirect false, or emitters.vpls 0, needed");
 }
 
 bool refines(const SecondOrderOptions& options) {

@@ -19,6 +19,10 @@ struct EmitterOptions {
     // 0: the Halton points themselves. Other values: randomised shifts of them (Cranley and
     // Patterson). The differences between replicates estimate the error of one.
     std::uint32_t replicate = 0;
+    // false: nothing lies between lights and surfaces. Emitters then have no views and no shadow
+    // maps, and light every point that faces them. No VPL can be placed without views, so vpls
+    // counts as 0.
+    bool shadows = true;
 };
 
 // Halton candidates that are tried for a spot at most; a narrower cone is mapped directly.
@@ -42,7 +46,7 @@ struct EmitterSet {
 
 // One emitter for each punctual light, `area_samples` for the emissive triangles (stratified by
 // power) and `environment_lights` for the environment (median cut [Debevec05]), each with its views
-// and its share of the VPLs. Lights without power are left out. Emitters too weak for a VPL of
+// (without EmitterOptions::shadows: none) and its share of the VPLs. Lights without power are left out. Emitters too weak for a VPL of
 // their own leave their indirect light to the others of their group (punctual lights, directions,
 // samples). A group without any VPL leaves it to all. Power is luminance.
 //

@@ -26,6 +26,10 @@ public:
     // How many kernels have been built so far.
     std::size_t built() const;
 
+    // Which: "lights/direct -cl-std=CL1.2 ...", in alphabetical order. Kernels that were asked for
+    // but not enqueued are not among them.
+    std::vector<std::string> built_kernels() const;
+
     const cl::Context& context() const { return context_; }
     const cl::Device& device() const { return device_; }
 

@@ -37,13 +37,16 @@ public:
     // Enqueues the writes of emitters and views to their buffers, without waiting.
     void write(Recorder& record) const;
 
-    // Draws the shadow maps. lists: as for draw(); pixels and kind of it are not used.
+    // Draws the shadow maps; without EmitterOptions::shadows there are none. lists: as for draw(); pixels and kind of it are not used.
     void draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const;
 
     // Which Halton points of each spot's cone its VPLs are placed at. mask: of most_candidates bits;
     // accepted: [vpls] uint.
     void accept(Recorder& record, const LightPasses& passes, const cl::Buffer& mask,
                 const cl::Buffer& accepted) const;
+
+    // Whether some light of the scene has a shadow map, also one that is dark now.
+    bool casts_shadows() const { return room_.views > 0; }
 
     const EmitterSet& set() const { return set_; }
     const EmitterBuffers& buffers() const { return buffers_; }

@@ -21,7 +21,7 @@ struct PictureOptions {
     int width = 640;  // pixels
     int height = 480;
     EmitterOptions emitters;  // for direct light; emitters.vpls is not used
-    bool direct = true;       // with its gloss, emission and the environment
+    bool direct = true;       // with its gloss, emission and the environment; false: no shadow maps
     // Bytes that the buffers may take together; 0: what the device has beside the scene.
     std::size_t memory_budget = 0;
     BuildOptions build;

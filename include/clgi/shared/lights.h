@@ -27,7 +27,7 @@ typedef struct {
                        // directional: of the disc, for one VPL of all that share it
     uint kind;         // EMITTER_..., EMITTER_MAPPED
     uint first_view;   // its views of the scene: 1 (spot, directional), 5 (area) or 6 (point)
-    uint view_count;
+    uint view_count;   // 0: nothing lies between it and any surface
     uint first_vpl;  // its share of the VPLs
     uint vpl_count;
     uint first_index;  // of its points in their sequence, at least 1. All directions of an

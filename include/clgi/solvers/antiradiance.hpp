@@ -28,6 +28,12 @@ enum class Iteration {
     automatic,   // symmetric, and asymmetric from the start where that diverges
 };
 
+// Which elements have antiradiance. It changes nothing where nothing can lie behind an element.
+enum class Occlusion {
+    automatic,  // those that something may lie behind; none: no antiradiance is stored or moved
+    always,     // all; for measurements of what automatic saves
+};
+
 struct AntiradianceOptions {
     int bins = 128;  // of directions, a multiple of 4, 32 to 4096
     ElementOptions elements;
@@ -39,7 +45,9 @@ struct AntiradianceOptions {
     // Shadow maps and samples of the lights; vpls and environment_lights are not used: the
     // environment arrives in bins.
     EmitterOptions emitters;
+    // Where no element has antiradiance there is nothing to let through: it is symmetric.
     Iteration iteration = Iteration::automatic;
+    Occlusion occlusion = Occlusion::automatic;
     // Leaves whose material's lobe reflects more than this share of all light, 0 to 1, send gloss
     // along every bin; others are diffuse alone. 1: all are.
     double least_gloss = 1e-4;
@@ -134,6 +142,7 @@ public:
     std::size_t link_pairs() const;  // Links::pairs
     std::size_t moving_links() const;  // those of which an end moves
     std::size_t moving_elements() const;
+    std::size_t row_count() const;  // elements with antiradiance
     double linking_seconds() const;  // that elements and links took
     std::size_t bytes() const;
     std::size_t table_bytes() const;  // of them, intensities and incident light

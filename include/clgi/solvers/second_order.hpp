@@ -20,7 +20,9 @@ namespace clgi {
 struct SecondOrderOptions {
     int width = 640;  // pixels
     int height = 480;
-    EmitterOptions emitters;   // emitters.vpls is N, the number of VPLs
+    // emitters.vpls is N, the number of VPLs. They are placed through the views of emitters, so
+    // indirect light needs emitters.shadows, unless there are no VPLs.
+    EmitterOptions emitters;
     int negative_vpls = 100;   // samples of the image that take light away; 0: none
     // The first of every n-th pixel of every n-th row is lit first, n = 2 or 4; the others are
     // interpolated where the surface is smooth. 1: every pixel is lit in full.
