@@ -149,8 +149,7 @@ void DynamicTransferSolver::State::light_openly() {
     const OpenParams params = open_params(options.masks.bands, options.window, RECEIVER_NORMAL,
                                           receivers.count, receivers.stride);
     record("transfer.open", receivers.count, [&](const WaitList& wait) {
-        return projection.open(queue, params, receivers.planes, sky.light(), irradiance, bad,
-                               wait);
+        return projection.open(queue, params, receivers.planes, sky.light(), irradiance, bad, wait);
     });
 }
 

@@ -101,8 +101,7 @@ BufferTable TransferBuffers::table() {
     }
     if (options.shadowed) add_shadows(t);
     if (integrates()) {
-        t.add(weights, "weights of cells", "bands",
-              (mask_cells(options.masks) + 1) * terms * word);
+        t.add(weights, "weights of cells", "bands", (mask_cells(options.masks) + 1) * terms * word);
         t.add(directions, "directions of cells", "mask size",
               (mask_cells(options.masks) + turns) * sizeof(glm::vec4));
     }
@@ -124,11 +123,11 @@ Estimate estimate(const cl::Device& device, const Scene& scene, const DeviceScen
     // mask looks at is worth 10 of them, as most are culled with their cluster; a term of a cell 2.
     const double masks = 10.0 * static_cast<double>(buffers.listed_triangles);
     const double integrals = (options.shadowed ? 1.0 : 0.0) + (buffers.glossy ? 1.0 : 0.0);
-    const double cells = static_cast<double>(mask_cells(options.masks)) *
-                         sh::terms(options.masks.bands) * integrals;
+    const double cells =
+        static_cast<double>(mask_cells(options.masks)) * sh::terms(options.masks.bands) * integrals;
     const double pairs =
         masks * (1 + options.bounces) + 2.0 * (cells + sh::terms(options.masks.bands)) *
-                                                 static_cast<double>(buffers.receivers.count);
+                                            static_cast<double>(buffers.receivers.count);
     out.milliseconds = 1e3 * pairs / pairs_per_second(device);
     return out;
 }

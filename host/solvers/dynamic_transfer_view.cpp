@@ -64,9 +64,7 @@ struct DynamicTransferView::State {
 
     bool shadowed() const { return solver.options().shadowed; }
     // Without shadows and lobes every pixel has its own light anyway.
-    bool some_pixels() const {
-        return !std::isinf(threshold) && (shadowed() || solver.glossy());
-    }
+    bool some_pixels() const { return !std::isinf(threshold) && (shadowed() || solver.glossy()); }
     bool all_pixels() const { return threshold == 0.0f && some_pixels(); }
     std::uint32_t count() const { return static_cast<std::uint32_t>(picture.pixels()); }
 

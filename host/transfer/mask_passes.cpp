@@ -133,10 +133,10 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
 }
 
 void MaskPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_,
-                 exitance_, bounce_, bounce_near_, integrate_, integrate_gloss_, integrate_open_gloss_,
-                 shade_},
-                passes);
+    build_named(
+        {receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_, exitance_,
+         bounce_, bounce_near_, integrate_, integrate_gloss_, integrate_open_gloss_, shade_},
+        passes);
 }
 
 cl::Event MaskPasses::receivers(const cl::CommandQueue& queue, const cl::Buffer& positions,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <clgi/shared/masks.h>
 #include <clgi/passes/transfer.hpp>
 #include <clgi/planes.hpp>
-#include <clgi/shared/masks.h>
 #include <clgi/sh.hpp>
 
 #include "opencl/launch.hpp"

@@ -86,9 +86,8 @@ public:
     // planes: of receivers (MaskPasses::receivers; BuildOptions::storage must be full), or a
     // G-buffer's. light: [terms] float4. non_finite: [1] uint, counts packets.
     cl::Event open(const cl::CommandQueue& queue, const OpenParams& params,
-                   const cl::Buffer& planes, const cl::Buffer& light,
-                   const cl::Buffer& irradiance, const cl::Buffer& non_finite,
-                   const WaitList& wait = {}) const;
+                   const cl::Buffer& planes, const cl::Buffer& light, const cl::Buffer& irradiance,
+                   const cl::Buffer& non_finite, const WaitList& wait = {}) const;
 
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;

@@ -35,11 +35,11 @@ typedef struct {
 
 // What arrives at receivers where nothing blocks the light.
 typedef struct {
-    float cosine[12];     // of each band, l = 0 to bands - 1: the clamped cosine's A_l, windowed
+    float cosine[12];  // of each band, l = 0 to bands - 1: the clamped cosine's A_l, windowed
     uint receiver_count;
-    uint stride;          // of the planes and the irradiance
-    uint normal;          // the first of three planes: RECEIVER_NORMAL, or GBUFFER_NORMAL
-    uint flags;           // SHADE_... (clgi/shared/masks.h)
+    uint stride;  // of the planes and the irradiance
+    uint normal;  // the first of three planes: RECEIVER_NORMAL, or GBUFFER_NORMAL
+    uint flags;   // SHADE_... (clgi/shared/masks.h)
 } OpenParams;
 
 // A light from one direction, in the frame of the coefficients.
