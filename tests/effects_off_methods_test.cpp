@@ -58,6 +58,7 @@ Baked antiradiance(const Scene& scene, bool shadows, bool direct = true) {
 TEST(WithoutShadows, AntiradianceAndItsPicturesDrawNoMap) {
     const Scene scene = test::convex_room();
     const Baked on = antiradiance(scene, true), off = antiradiance(scene, false);
+    test::expect_no_less(on.radiance, off.radiance, 0.02);
     EXPECT_EQ(off.solver.enqueued("gbuffer.raster") + off.solver.enqueued("gbuffer.clear"), 0u);
     EXPECT_GT(on.solver.enqueued("gbuffer.raster"), 0u);
     EXPECT_EQ(off.solver.built("gbuffer/raster") + off.solver.built("gbuffer/clear"), 0u);
@@ -81,7 +82,7 @@ TEST(WithoutDirectLight, PicturesHaveNoShadowMaps) {
     EXPECT_LT(off.view.bytes, on.view.bytes);
 }
 
-TEST(WithoutShadows, ALightAtlasDrawsNoMap) {
+TEST(WithoutShadows, ALightAtlasHasTheSameDirectLight) {
     const Scene scene = test::convex_room();
     LightAtlasOptions options;
     options.bounces = 1;
@@ -93,6 +94,7 @@ TEST(WithoutShadows, ALightAtlasDrawsNoMap) {
     options.emitters.shadows = false;
     LightAtlasSolver without = bakery.solver(options);
     ASSERT_TRUE(with.run() && without.run());
+    test::expect_no_less(with.irradiance(), without.irradiance(), 0.05);
     const EmitterRoom room = make_emitters(bakery.on_device, test::small_maps(true)).room;
     EXPECT_EQ(with.bytes() - without.bytes(),
               room.views * sizeof(View) + room.pixels * sizeof(std::uint32_t) - 32);

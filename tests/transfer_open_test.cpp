@@ -144,6 +144,7 @@ TEST_P(TransferOpen, CountsWhatIsNotFiniteAndLeavesEmptyPixelsBlack) {
     Lit lit(35);
     lit.set(3, glm::vec3(0.0f));
     lit.set(4, {nan, 0.0f, 1.0f});
+    lit.set(6, {-nan, 0.0f, 1.0f});  // no more negative than the other
     lit.set(34, {0.0f, nan, 0.0f});
     for (const std::uint32_t flags : {0u, std::uint32_t{SHADE_CLAMP}}) {
         const std::vector<float> found = lit.run({.math = GetParam(), .packet_width = 16}, flags);
@@ -152,11 +153,13 @@ TEST_P(TransferOpen, CountsWhatIsNotFiniteAndLeavesEmptyPixelsBlack) {
             const float* plane = found.data() + std::size_t{lit.stride} * c;
             EXPECT_EQ(plane[3], 0.0f);
             EXPECT_TRUE(std::isnan(plane[4]));
+            EXPECT_TRUE(std::isnan(plane[6]));
             EXPECT_TRUE(std::isnan(plane[34]));
             EXPECT_NEAR(double{plane[5]}, std::max(lit.truth(5)[c], flags ? 0.0 : -1e9), 3e-5);
         }
     }
     lit.set(4, {1.0f, 0.0f, 0.0f});
+    lit.set(6, {1.0f, 0.0f, 0.0f});
     lit.set(34, {1.0f, 0.0f, 0.0f});
     lit.light[6].y = std::numeric_limits<float>::infinity();
     lit.run({.math = GetParam(), .packet_width = 16});
