@@ -36,9 +36,9 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
     const std::vector<ElementTree> poses = posed(file);
     options.poses = {};
     const Links all_links = make_links(tree, bins, options.links, poses);
-    const DeviceLinks between = device_links(tree, bins, all_links, scene.frame().scale,
-                                             glossy.leaves, made.elements,
-                                             options.occlusion == Occlusion::always);
+    const DeviceLinks between =
+        device_links(tree, bins, all_links, scene.frame().scale, glossy.leaves, made.elements,
+                     options.occlusion == Occlusion::always);
     if (!poses.empty())
         motion = std::make_unique<AntiradianceMotion>(programs, options.build, tree, poses, bins,
                                                       file, scene, between);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "opencl/variants.hpp"
 #include "solvers/dynamic_transfer_state.hpp"
 
 namespace clgi {
@@ -25,11 +26,12 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
       queue(on),
       masks(programs, wanted.masks, wanted.build),
       sides(programs, wanted.build),
-      projection(programs, wanted.build, wanted.masks.bands),
+      projection(programs, full(wanted.build), wanted.masks.bands),
       record(queue, transfer_owner),
-      cells(windowed(
-          mask_weights(wanted.masks.size, wanted.masks.block, wanted.masks.bands, wanted.cells),
-          wanted.window)) {
+      cells(integrates() ? windowed(mask_weights(wanted.masks.size, wanted.masks.block,
+                                                 wanted.masks.bands, wanted.cells),
+                                    wanted.window)
+                         : MaskWeights()) {
     const BufferTable rows = table();
     rows.check(queue.getInfo<CL_QUEUE_DEVICE>(), options.memory_budget, scene.bytes());
     rows.allocate(record);
@@ -44,10 +46,17 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
 }
 
 void DynamicTransferSolver::State::build() const {
-    masks.build({"receivers", "blockers", "mask", "integrate", "shade"});
+    masks.build({"receivers"});
     projection.build({"project_rows", "project_columns", "project_environment"});
-    if (!levels.near.empty()) masks.build({"mask_near"});
     if (!vertices.fronts.empty()) sides.build({"other_sides"});
+    if (integrates()) masks.build({"shade"});
+    if (!options.shadowed) {
+        projection.build({"open"});
+        if (glossy) masks.build({"integrate_open_gloss"});
+        return;
+    }
+    masks.build({"blockers", "mask", "integrate"});
+    if (!levels.near.empty()) masks.build({"mask_near"});
     if (options.masks.planes == EdgePlanes::table) masks.build({"planes"});
     if (glossy) masks.build({"integrate_gloss"});
     if (options.bounces > 0)
@@ -59,6 +68,13 @@ void DynamicTransferSolver::State::write(const Scene& file) {
     put(other_side, vertices.other_side);
     put(fronts, vertices.fronts);
     if (glossy) put(exponents, vertices.exponents);
+    put(weights, cells.values);
+    put(directions, cells.directions);
+    sky.write(record);
+    if (options.shadowed) write_shadows(file);
+}
+
+void DynamicTransferSolver::State::write_shadows(const Scene& file) {
     put(triangles, levels.triangles);
     put(both.lists, levels.lists);
     put(both.ranges, levels.ranges);
@@ -67,9 +83,6 @@ void DynamicTransferSolver::State::write(const Scene& file) {
     const std::uint32_t fine_clusters = blocker_stride(levels.fine_count) / BLOCKER_CLUSTER;
     put(fine.lists, std::vector<std::uint32_t>{0, 1});
     put(fine.ranges, std::vector<std::uint32_t>{0, fine_clusters});
-    put(weights, cells.values);
-    put(directions, cells.directions);
-    sky.write(record);
     const std::vector<float> z = pixel_heights(options.masks.size);
     if (options.bounces > 0) {
         put(reflectance, vertices.reflectances(file, scene, receivers.stride));
@@ -102,6 +115,7 @@ void DynamicTransferSolver::State::place_receivers() {
                  static_cast<std::uint32_t>(vertices.fronts.size()), receivers.stride, 0},
                 fronts, receivers, wait);
         });
+    if (!options.shadowed) return;
     record("transfer.blockers", both.triangle_count, [&](const WaitList& wait) {
         return masks.blockers(queue, triangles, scene.positions(), both, status, wait);
     });
@@ -109,6 +123,7 @@ void DynamicTransferSolver::State::place_receivers() {
 
 void DynamicTransferSolver::State::transfer() {
     place_receivers();
+    if (!options.shadowed) return;
     record("transfer.mask", receivers.count, [&](const WaitList& wait) {
         return masks.mask(queue, receivers, blockers, drawn, wait);
     });
@@ -125,8 +140,17 @@ void DynamicTransferSolver::State::shade(const cl::Buffer& vectors, const cl::Bu
 
 void DynamicTransferSolver::State::light() {
     sky.project(record, projection);
+    if (!options.shadowed) return light_openly();
     shade(receivers.transfer, irradiance);
     if (options.bounces > 0) bounce();
+}
+
+void DynamicTransferSolver::State::light_openly() {
+    const OpenParams params = open_params(options.masks.bands, options.window, RECEIVER_NORMAL,
+                                          receivers.count, receivers.stride);
+    record("transfer.open", receivers.count, [&](const WaitList& wait) {
+        return projection.open(queue, params, receivers.planes, sky.light(), irradiance, bad, wait);
+    });
 }
 
 void DynamicTransferSolver::State::bounce() {

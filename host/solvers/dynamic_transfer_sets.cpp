@@ -29,6 +29,13 @@ void check(const VisibleSets& sets, std::uint32_t receivers, std::uint32_t trian
                         std::to_string(triangles));
 }
 
+// Visible sets say what blocks.
+void need_shadows(const DynamicTransferOptions& options, const char* call) {
+    if (!options.shadowed)
+        throw Error(std::string(transfer_owner) + ": " + call +
+                    " of a solver without shadows, DynamicTransferOptions::shadowed needed");
+}
+
 }  // namespace
 
 void DynamicTransferSolver::State::allocate_more(const BufferTable& more) {
@@ -42,6 +49,7 @@ void DynamicTransferSolver::State::allocate_more(const BufferTable& more) {
 }
 
 cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
+    need_shadows(options, "look()");
     if (!seen()) {
         BufferTable t(transfer_owner);
         t.add(seen, "bits of visible sets", "the scene's vertices",
@@ -63,6 +71,7 @@ cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
 }
 
 VisibleSets DynamicTransferSolver::State::sets() {
+    need_shadows(options, "sets()");
     if (!seen()) throw Error("dynamic-transfer: sets before the first look");
     record.wait();
     std::vector<std::uint32_t> words(visible_words(both.triangle_count) * receivers.stride);
@@ -72,6 +81,7 @@ VisibleSets DynamicTransferSolver::State::sets() {
 }
 
 void DynamicTransferSolver::State::restrict(const VisibleSets& sets) {
+    need_shadows(options, "restrict()");
     check(sets, receivers.count, both.triangle_count);
     // Those of the hierarchy stay: look() goes on with them. Those of before stay until all that
     // may fail is done.

@@ -33,6 +33,10 @@ struct TransferBuffers {
     TransferBuffers(const Scene& file, const DeviceScene& of, const DynamicTransferOptions& wanted);
 
     BufferTable table();
+    void add_shadows(BufferTable& table);
+
+    // Sums over the cells of masks are needed.
+    bool integrates() const { return options.shadowed || glossy; }
 
     const DeviceScene& scene;
     DynamicTransferOptions options;
@@ -54,6 +58,7 @@ struct DynamicTransferSolver::State : TransferBuffers {
 
     void build() const;
     void write(const Scene& file);
+    void write_shadows(const Scene& file);
 
     template <typename T>
     void put(const cl::Buffer& buffer, const std::vector<T>& values) {
@@ -64,6 +69,7 @@ struct DynamicTransferSolver::State : TransferBuffers {
     void transfer();
     void shade(const cl::Buffer& vectors, const cl::Buffer& out);
     void light();
+    void light_openly();
     void bounce();
     void reflect(const glm::vec4& eye);
 

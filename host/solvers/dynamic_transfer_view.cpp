@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "opencl/check.hpp"
+#include "opencl/variants.hpp"
 
 namespace clgi {
 namespace {
@@ -41,6 +42,8 @@ struct DynamicTransferView::State {
           solver(from),
           picture(programs, queue, of, without_sky(options.picture), owner),
           passes(programs, picture.options().build),
+          open_pixels(programs, picture.options().build, from.options().masks.bands),
+          open_receivers(programs, full(picture.options().build), from.options().masks.bands),
           parallel(programs, picture.options().build),
           threshold(options.threshold) {
         if (!(threshold >= 0.0f))
@@ -51,15 +54,18 @@ struct DynamicTransferView::State {
         BufferTable all = picture.table();
         add_to(all);
         picture.allocate(all, solver.bytes());
-        passes.build({"show"});
+        if (shadowed() || solver.glossy()) passes.build({"show"});
+        if (!shadowed()) open_pixels.build({"open"});
         if (solver.glossy()) passes.build({"add_gloss"});
         if (some_pixels()) passes.build({"pixels", "place", "compare_probes", "undersampled"});
         if (some_pixels() && solver.glossy()) passes.build({"compare_gloss"});
         write();
     }
 
-    bool some_pixels() const { return !std::isinf(threshold); }
-    bool all_pixels() const { return threshold == 0.0f; }
+    bool shadowed() const { return solver.options().shadowed; }
+    // Without shadows and lobes every pixel has its own light anyway.
+    bool some_pixels() const { return !std::isinf(threshold) && (shadowed() || solver.glossy()); }
+    bool all_pixels() const { return threshold == 0.0f && some_pixels(); }
     std::uint32_t count() const { return static_cast<std::uint32_t>(picture.pixels()); }
 
     void probe(std::uint32_t step) {
@@ -97,8 +103,9 @@ struct DynamicTransferView::State {
         probing.probe_stride = receivers.stride;
         const std::size_t stride = receivers.stride;
         t.add(receivers.planes, "receivers", size, RECEIVER_PLANES * stride * word);
-        t.add(receivers.masks, "masks", size,
-              static_cast<std::size_t>(MASK_WORDS(masks.size)) * stride * word);
+        if (shadowed())
+            t.add(receivers.masks, "masks", size,
+                  static_cast<std::size_t>(MASK_WORDS(masks.size)) * stride * word);
         t.add(receivers.transfer, "transfer vectors", size, terms * stride * word);
         t.add(arriving, "irradiance of receivers", size, 4 * stride * word);
         if (solver.glossy()) t.add(shining, "gloss of receivers", size, 4 * stride * word);
@@ -137,6 +144,9 @@ struct DynamicTransferView::State {
             return passes.pixels(queue, run, of, scene, picture.gbuffer(), receivers, exponents,
                                  wait);
         });
+        if (!shadowed())
+            return light_openly(open_receivers, RECEIVER_NORMAL, run.count, receivers.stride,
+                                receivers.planes, arriving);
         record("transfer.mask", run.count, [&](const WaitList& wait) {
             return solver.passes().mask(queue, receivers, solver.blockers(), solver.drawn(), wait);
         });
@@ -149,6 +159,18 @@ struct DynamicTransferView::State {
         record("transfer.bounce", run.count, [&](const WaitList& wait) {
             return solver.passes().bounce(queue, receivers, solver.blockers(), solver.heights(),
                                           solver.exitance(), arriving, picture.counter(), wait);
+        });
+    }
+
+    // What arrives at receivers or pixels of which nothing blocks the light.
+    void light_openly(const TransferPasses& open, std::uint32_t normal, std::uint32_t number,
+                      std::uint32_t stride, const cl::Buffer& planes, const cl::Buffer& out) {
+        const DynamicTransferOptions& of = solver.options();
+        const OpenParams params = open_params(of.masks.bands, of.window, normal, number, stride);
+        Recorder& record = picture.record();
+        record("transfer.open", number, [&](const WaitList& wait) {
+            return open.open(record.queue(), params, planes, solver.environment(), out,
+                             picture.counter(), wait);
         });
     }
 
@@ -211,7 +233,7 @@ struct DynamicTransferView::State {
                                             picture.irradiance(), gloss, shining, states, wait);
             });
         }
-        mend(arriving, picture.irradiance());
+        if (shadowed()) mend(arriving, picture.irradiance());
         if (solver.glossy()) mend(shining, gloss);
         record("parallel.list", count(), [&](const WaitList& wait) {
             return parallel.list(record.queue(), count(), flags, list.pixels, list.listed, scratch,
@@ -232,7 +254,7 @@ struct DynamicTransferView::State {
         for (std::uint32_t first = 0; first < count(); first += batch) {
             const PixelParams run = run_of(first, std::min(batch, count() - first));
             light_pixels(run, list);
-            place(run, arriving, picture.irradiance());
+            if (shadowed()) place(run, arriving, picture.irradiance());
             if (!solver.glossy()) continue;
             gloss_pixels(view);
             place(run, shining, gloss);
@@ -248,10 +270,12 @@ struct DynamicTransferView::State {
         // Also of a queue out of order, where nothing else orders two recorders.
         if (const cl::Event lit = solver.last(); lit()) ready.push_back(lit);
         const View view = picture.begin(camera, ready);
-        if (!all_pixels()) {
+        if (!shadowed())
+            light_openly(open_pixels, GBUFFER_NORMAL, count(), picture.stride(),
+                         picture.gbuffer().planes, picture.irradiance());
+        else if (!all_pixels())
             show(view, solver.irradiance(), picture.irradiance());
-            if (solver.glossy()) show(view, solver.gloss(), gloss);
-        }
+        if (!all_pixels() && solver.glossy()) show(view, solver.gloss(), gloss);
         const bool probed = some_pixels() && !all_pixels() && !probes.empty();
         if (probed) list_undersampled(view);
         if (probed || all_pixels()) light_listed(view);
@@ -272,6 +296,7 @@ struct DynamicTransferView::State {
     DynamicTransferSolver& solver;
     Picture picture;
     ReceiverPasses passes;
+    TransferPasses open_pixels, open_receivers;  // storage of pictures, and of receivers
     ParallelPasses parallel;
     float threshold;
     ProbeParams probing{};

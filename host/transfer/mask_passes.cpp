@@ -127,13 +127,16 @@ MaskPasses::MaskPasses(const Programs& programs, const MaskOptions& masks,
     integrate_ = few("integrate", full(options), cells);
     integrate_gloss_ = few("integrate", full(options), cells + " -DCLGI_GLOSS");
     integrate_gloss_.name = "transfer.integrate_gloss";
+    integrate_open_gloss_ = few("integrate", full(options), cells + " -DCLGI_GLOSS -DCLGI_OPEN");
+    integrate_open_gloss_.name = "transfer.integrate_open_gloss";
     shade_ = few("shade", full(options), bands.substr(1));
 }
 
 void MaskPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_,
-                 exitance_, bounce_, bounce_near_, integrate_, integrate_gloss_, shade_},
-                passes);
+    build_named(
+        {receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_, exitance_,
+         bounce_, bounce_near_, integrate_, integrate_gloss_, integrate_open_gloss_, shade_},
+        passes);
 }
 
 cl::Event MaskPasses::receivers(const cl::CommandQueue& queue, const cl::Buffer& positions,
@@ -247,21 +250,25 @@ std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuff
                                       const cl::Buffer& transfer) const {
     const auto side = static_cast<std::size_t>(std::max(masks_.size / masks_.block, 1));
     const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
-    need_countable(pass, "masks", MASK_WORDS(static_cast<std::size_t>(masks_.size)), r.stride);
     need_countable(pass, "transfer", terms, r.stride);
     need_receivers(pass, r);
     const std::size_t turns = 2 * static_cast<std::size_t>(masks_.bands) - 1;
-    need(pass, "masks", r.masks,
-         std::size_t{MASK_WORDS(static_cast<std::size_t>(masks_.size))} * r.stride * word);
     need(pass, "weights", weights, (side * side + 1) * terms * word);
     need(pass, "directions", directions, (turns + side * side) * sizeof(glm::vec4));
     need(pass, "transfer", transfer, terms * r.stride * word);
     return packets(pass, r.count);
 }
 
+void MaskPasses::need_masks(const PassKernel& pass, const ReceiverBuffers& r) const {
+    const std::size_t words = MASK_WORDS(static_cast<std::size_t>(masks_.size));
+    need_countable(pass, "masks", words, r.stride);
+    need(pass, "masks", r.masks, words * r.stride * word);
+}
+
 cl::Event MaskPasses::integrate(const cl::CommandQueue& queue, const ReceiverBuffers& r,
                                 const cl::Buffer& weights, const cl::Buffer& directions,
                                 const WaitList& wait) const {
+    need_masks(integrate_, r);
     const std::size_t items = need_integral(integrate_, r, weights, directions, r.transfer);
     return launch(integrate_, queue, items, wait,
                   IntegrateParams{glm::vec4(0.0f), r.count, r.stride, 0, 0}, r.planes, r.masks,
@@ -272,8 +279,13 @@ cl::Event MaskPasses::integrate_gloss(const cl::CommandQueue& queue, const Recei
                                       const cl::Buffer& weights, const cl::Buffer& directions,
                                       const cl::Buffer& exponents, const glm::vec4& eye,
                                       const cl::Buffer& lobes, const WaitList& wait) const {
-    const std::size_t items = need_integral(integrate_gloss_, r, weights, directions, lobes);
-    need(integrate_gloss_, "exponents", exponents, word * r.stride);
+    const PassKernel& pass = r.masks() ? integrate_gloss_ : integrate_open_gloss_;
+    const std::size_t items = need_integral(pass, r, weights, directions, lobes);
+    need(pass, "exponents", exponents, word * r.stride);
+    if (!r.masks())
+        return launch(pass, queue, items, wait, IntegrateParams{eye, r.count, r.stride, 0, 0},
+                      r.planes, weights, directions, exponents, lobes);
+    need_masks(pass, r);
     return launch(integrate_gloss_, queue, items, wait,
                   IntegrateParams{eye, r.count, r.stride, 0, 0}, r.planes, r.masks, weights,
                   directions, exponents, lobes);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <clgi/shared/masks.h>
 #include <clgi/passes/transfer.hpp>
+#include <clgi/planes.hpp>
 #include <clgi/sh.hpp>
 
 #include "opencl/launch.hpp"
+#include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
 #include "transfer/sh_check.hpp"
@@ -75,6 +78,20 @@ void need_environment(const PassKernel& pass, const ProjectParams& params, int b
 
 }  // namespace
 
+OpenParams open_params(int bands, sh::Window window, std::uint32_t normal, std::uint32_t count,
+                       std::uint32_t stride) {
+    OpenParams out{};
+    const std::vector<double> cosine = sh::cosine_kernel(bands);
+    const std::vector<double> factor = sh::window(window, bands);
+    for (std::size_t l = 0; l < cosine.size(); ++l)
+        out.cosine[l] = static_cast<float>(cosine[l] * factor[l]);
+    out.receiver_count = count;
+    out.stride = stride;
+    out.normal = normal;
+    out.flags = SHADE_CLAMP;
+    return out;
+}
+
 TransferPasses::TransferPasses(const Programs& programs, const BuildOptions& options, int bands)
     : bands_(bands) {
     sh::need_bands(bands);
@@ -86,10 +103,11 @@ TransferPasses::TransferPasses(const Programs& programs, const BuildOptions& opt
     project_rows_ = kernel("project_rows", full(options));
     project_columns_ = kernel("project_columns", scalar(options));
     project_environment_ = kernel("project_environment", scalar(options));
+    open_ = kernel("open", options);
 }
 
 void TransferPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({project_rows_, project_columns_, project_environment_}, passes);
+    build_named({project_rows_, project_columns_, project_environment_, open_}, passes);
 }
 
 cl::Event TransferPasses::project_rows(const cl::CommandQueue& queue, const ProjectParams& params,
@@ -124,6 +142,20 @@ cl::Event TransferPasses::project(const cl::CommandQueue& queue, const ProjectPa
     const cl::Event rows = project_rows(queue, params, b, wait);
     const cl::Event columns = project_columns(queue, params, b, {rows});
     return project_environment(queue, params, b, {columns});
+}
+
+cl::Event TransferPasses::open(const cl::CommandQueue& queue, const OpenParams& params,
+                               const cl::Buffer& planes, const cl::Buffer& light,
+                               const cl::Buffer& irradiance, const cl::Buffer& non_finite,
+                               const WaitList& wait) const {
+    need_stride(open_, "stride", params.stride, params.receiver_count);
+    need(open_, "planes", planes,
+         gbuffer_bytes(open_.storage, params.stride, params.normal + std::size_t{3}));
+    need(open_, "light", light, terms_of(bands_) * sizeof(float4));
+    need(open_, "irradiance", irradiance, irradiance_bytes(open_.storage, params.stride));
+    need(open_, "non_finite", non_finite, word);
+    return launch(open_, queue, packets(open_, params.receiver_count), wait, params, planes, light,
+                  irradiance, non_finite);
 }
 
 }  // namespace clgi

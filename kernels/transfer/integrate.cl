@@ -13,6 +13,8 @@
 // widened to it, with their integral: n is at most 2 / w^2, w: width of a cell in the disc.
 //                                                      [derived: docs/materials.md, Kautz04, Eq. 3]
 //
+// With CLGI_OPEN as well nothing blocks: no masks are read, and the result is that of empty ones.
+//
 // Cost         (R / B)^2 (terms + 6) multiply-adds for CLGI_WIDTH receivers, where a cell is blocked
 //              in any of them, and 2 (2 bands - 1) terms for the turn; R^2 / 8 bytes a receiver
 // Work size    1D, one work-item a packet of receivers; any local size; tail guarded
@@ -79,7 +81,9 @@ CLGI_INLINE floatp dot_axis(const floatp* a, const floatp* b) {
 kernel void transfer_integrate(
     const IntegrateParams  params,
     global const float*    restrict receivers,   // [RECEIVER_PLANES][stride]
+#ifndef CLGI_OPEN
     global const uint*     restrict masks,       // [MASK_WORDS][stride]
+#endif
     global const float*    restrict weights,     // [cells + 1][terms] MaskWeights::values
     global const float4*   restrict directions,  // [DIRECTIONS + cells] MaskWeights::directions
 #ifdef CLGI_GLOSS
@@ -133,10 +137,12 @@ kernel void transfer_integrate(
         for (int word = 0; word < ROW_WORDS; ++word) {
             uintp counts[COUNTS];
             for (int k = 0; k < COUNTS; ++k) counts[k] = (uintp)(0);
+#ifndef CLGI_OPEN
             for (int k = 0; k < CLGI_BLOCK; ++k) {
                 uint at = (uint)(word * MASK_COLUMNS(CLGI_MASK) + column * CLGI_BLOCK + k);
                 add_column(count_rows(packet_load(masks + at * stride + first)), counts);
             }
+#endif
 #ifndef CLGI_GLOSS
             uintp any = counts[0];
             if (COUNTS > 1) any |= counts[COUNTS - 1];

@@ -37,7 +37,8 @@ public:
     // Enqueues the writes of emitters and views to their buffers, without waiting.
     void write(Recorder& record) const;
 
-    // Draws the shadow maps; without EmitterOptions::shadows there are none. lists: as for draw(); pixels and kind of it are not used.
+    // Draws the shadow maps; without EmitterOptions::shadows there are none. lists: as for draw();
+    // pixels and kind of it are not used.
     void draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const;
 
     // Which Halton points of each spot's cone its VPLs are placed at. mask: of most_candidates bits;

@@ -127,7 +127,8 @@ public:
     // The same for the receivers' Phong lobes seen from `eye`, local frame (docs/materials.md): the
     // inner product with light, times the lobe's share of reflectance, is radiance. eye: w 0: a
     // place; w 1: xyz is the direction to the eye, everywhere. exponents: [stride] float. lobes:
-    // [terms][stride].
+    // [terms][stride]. Receivers without masks: nothing blocks (a kernel of its own: build names it
+    // integrate_open_gloss).
     cl::Event integrate_gloss(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
                               const cl::Buffer& weights, const cl::Buffer& directions,
                               const cl::Buffer& exponents, const glm::vec4& eye,
@@ -149,9 +150,12 @@ private:
                               const cl::Buffer& weights, const cl::Buffer& directions,
                               const cl::Buffer& transfer) const;
 
+    void need_masks(const PassKernel& pass, const ReceiverBuffers& receivers) const;
+
     MaskOptions masks_;
     PassKernel receivers_, blockers_, planes_, mask_, mask_near_, visible_, visible_near_,
-        exitance_, bounce_, bounce_near_, integrate_, integrate_gloss_, shade_;
+        exitance_, bounce_, bounce_near_, integrate_, integrate_gloss_, integrate_open_gloss_,
+        shade_;
 };
 
 }  // namespace clgi

@@ -8,6 +8,7 @@
 #include <clgi/export.hpp>
 #include <clgi/pass.hpp>
 #include <clgi/programs.hpp>
+#include <clgi/sh.hpp>
 #include <initializer_list>
 #include <vector>
 
@@ -34,6 +35,10 @@ CLGI_API std::vector<float> environment_rotation(double angle, int bands);
 
 // The scene's directional lights, exposed.
 CLGI_API std::vector<DirectionalLight> directional_lights(const DeviceScene& scene);
+
+// Of `count` receivers with normals in the planes from `normal` on; nothing is negative.
+CLGI_API OpenParams open_params(int bands, sh::Window window, std::uint32_t normal,
+                                std::uint32_t count, std::uint32_t stride);
 
 struct ProjectionBuffers {
     cl::Buffer texels;          // [height][width][3] float: DeviceScene::environment_texels()
@@ -77,12 +82,19 @@ public:
     cl::Event project(const cl::CommandQueue& queue, const ProjectParams& params,
                       const ProjectionBuffers& buffers, const WaitList& wait = {}) const;
 
+    // What arrives at receivers of which nothing blocks the light -> irradiance [3][params.stride].
+    // planes: of receivers (MaskPasses::receivers; BuildOptions::storage must be full), or a
+    // G-buffer's. light: [terms] float4. non_finite: [1] uint, counts packets.
+    cl::Event open(const cl::CommandQueue& queue, const OpenParams& params,
+                   const cl::Buffer& planes, const cl::Buffer& light, const cl::Buffer& irradiance,
+                   const cl::Buffer& non_finite, const WaitList& wait = {}) const;
+
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
 
 private:
     int bands_;
-    PassKernel project_rows_, project_columns_, project_environment_;
+    PassKernel project_rows_, project_columns_, project_environment_, open_;
 };
 
 }  // namespace clgi

@@ -33,6 +33,15 @@ typedef struct {
     uint light_count;  // directional lights that are added
 } ProjectParams;
 
+// What arrives at receivers where nothing blocks the light.
+typedef struct {
+    float cosine[12];  // of each band, l = 0 to bands - 1: the clamped cosine's A_l, windowed
+    uint receiver_count;
+    uint stride;  // of the planes and the irradiance
+    uint normal;  // the first of three planes: RECEIVER_NORMAL, or GBUFFER_NORMAL
+    uint flags;   // SHADE_... (clgi/shared/masks.h)
+} OpenParams;
+
 // A light from one direction, in the frame of the coefficients.
 typedef struct {
     float4 direction;   // xyz: unit, towards the light; w: 0

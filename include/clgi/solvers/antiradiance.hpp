@@ -142,7 +142,7 @@ public:
     std::size_t link_pairs() const;  // Links::pairs
     std::size_t moving_links() const;  // those of which an end moves
     std::size_t moving_elements() const;
-    std::size_t row_count() const;  // elements with antiradiance
+    std::size_t row_count() const;   // elements with antiradiance
     double linking_seconds() const;  // that elements and links took
     std::size_t bytes() const;
     std::size_t table_bytes() const;  // of them, intensities and incident light

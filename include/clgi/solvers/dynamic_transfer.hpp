@@ -26,6 +26,11 @@ struct DynamicTransferOptions {
     sh::Window window = sh::Window::none;  // of transfer vectors, against ringing
     bool gloss = true;                     // the Phong lobes of materials, where the scene has some
     bool directional = false;              // directional lights are part of the environment
+    // false: nothing blocks the environment. There are no blockers, masks and diffuse transfer
+    // vectors then: irradiance follows from the normal alone, at vertices and at each pixel. Lobes
+    // keep vectors of their own, and of masks only bands, block and size count, for the cells that
+    // lobes are integrated over. bounces must be 0; coarse and rings are not used.
+    bool shadowed = true;
     // 1: diffuse light that the scene reflects to itself once is part of the irradiance.
     int bounces = 0;
     // Far from a vertex these triangles block, near it those of the scene
@@ -82,12 +87,13 @@ public:
     // and has those of all looks since it was called last. After restrict(), masks look at such
     // sets alone; they are bit for bit those of before in the frames that were looked at, with
     // exact planes. look() itself always sees everything. Both take memory, of the budget as well.
+    // All three throw Error without DynamicTransferOptions::shadowed.
     cl::Event look(const WaitList& wait = {});
     VisibleSets sets();
     void restrict(const VisibleSets& sets);
 
-    // Enqueues masks and transfer vectors of the geometry as it is now. Vectors stay good as long
-    // as no vertex moves.
+    // Enqueues masks and transfer vectors of the geometry as it is now (without shadows: receivers
+    // alone). Vectors stay good as long as no vertex moves.
     cl::Event transfer(const WaitList& wait = {});
 
     // Enqueues the projection of the environment and what arrives: irradiance().
@@ -117,13 +123,13 @@ public:
     std::size_t bytes() const;
 
     // Results, valid when the event is complete.
-    const ReceiverBuffers& receivers() const;  // with masks and transfer vectors
+    const ReceiverBuffers& receivers() const;  // with masks and transfer vectors, if shadowed
     const cl::Buffer& irradiance() const;      // [3][receivers().stride] exposed lux
     const cl::Buffer& gloss() const;           // [3][receivers().stride] exposed cd/m^2
     const cl::Buffer& other_side() const;      // [vertex_count] uint: receiver or RECEIVER_NONE
     const cl::Buffer& environment() const;     // [terms] float4: exposed cd/m^2 sr
 
-    // What masks of other receivers of this scene are made with.
+    // What masks of other receivers of this scene are made with; empty where it needs none.
     const MaskPasses& passes() const;
     const BlockerBuffers& blockers() const;  // the scene's own triangles, one list
     double triangles_per_receiver() const;   // that masks look at, before any is culled

@@ -15,7 +15,9 @@ struct DynamicTransferViewOptions {
     PictureOptions picture;
     // Pixels around probes that differ from what is interpolated between vertices by more than
     // this, of the larger of the two, become receivers themselves. 0: all; infinity: none. What
-    // differs is irradiance, or where materials have lobes gloss, of all that they reflect.
+    // differs is irradiance, or where materials have lobes gloss, of all that they reflect. Where
+    // the solver has no shadows every pixel has the irradiance of its own normal, and only gloss is
+    // interpolated.
     float threshold = 0.1f;
     int probe_step = 8;  // pixels between probes: 2 to 64
 };
