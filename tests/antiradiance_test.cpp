@@ -180,6 +180,34 @@ TEST_P(Antiradiance, BetweenThreePlatesNeedsTheAsymmetricIteration) {
     EXPECT_NEAR(arrives(asymmetric, 5), 0.0, 2e-5);  // behind an opaque plate
 }
 
+// By how much the change from step to step grows: the table of STABILITY 1.8. It is above 1 from
+// sqrt(2) - 1 on for three plates, and from less for more of them.
+TEST_P(Antiradiance, GrowsBetweenPlatesAsTheTableSays) {
+    const struct {
+        std::uint32_t plates;
+        float reflectance;
+        double growth;
+    } rows[] = {{3, 0.3f, 0.79226163},  {3, 0.41421356f, 1.0}, {3, 0.5f, 1.15138782},
+                {3, 0.66f, 1.42749715}, {3, 0.8f, 1.66491106}, {3, 1.0f, 2.0},
+                {4, 0.19393657f, 1.0},  {4, 1.0f, 3.0},        {5, 0.09478759f, 1.0},
+                {6, 1.0f, 5.0}};
+    for (const auto& row : rows) {
+        test::LightOnDevice light(plates_of_two_sides(row.plates, row.reflectance),
+                                  {.math = GetParam()});
+        light.step(LOCAL_REFLECT);
+        double value = 0.0, change = 0.0, growth = 0.0;
+        for (int step = 0; step < 30; ++step) {
+            light.step(all_of_it);
+            const double now = test::download<glm::vec4>(light.light.irradiances, 4)[3].x;
+            growth = std::abs((now - value) / change);
+            change = now - value;
+            value = now;
+        }
+        EXPECT_NEAR(growth, row.growth, 2e-3 * row.growth)
+            << row.plates << " plates, " << row.reflectance;
+    }
+}
+
 TEST_P(Antiradiance, CountsLeavesThatAreNotFinite) {
     HandElements scene = stack(3);
     scene.sources[0].y = std::numeric_limits<float>::quiet_NaN();

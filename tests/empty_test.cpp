@@ -24,10 +24,10 @@ Scene lit_floor() {
 
 const Camera above = test::camera_at({0, 2, 0.1}, {0, 0, 0});
 
-Frame render(const Scene& scene, Math math, const Camera& camera = above, int lights = 20,
-             int negative = 10) {
+Frame render(const Scene& scene, const BuildOptions& build, const Camera& camera = above,
+             int lights = 20, int negative = 10) {
     SecondOrderOptions options;
-    options.build.math = math;
+    options.build = build;
     options.width = 19;
     options.height = 13;
     options.emitters.vpls = lights;
@@ -40,8 +40,8 @@ void expect_black(const Frame& frame) {
     EXPECT_EQ(frame.status.non_finite, 0u);
 }
 
-void expect_black_without_work(const Scene& scene, Math math) {
-    const Frame frame = render(scene, math);
+void expect_black_without_work(const Scene& scene, const BuildOptions& build) {
+    const Frame frame = render(scene, build);
     expect_black(frame);
     EXPECT_EQ(frame.launches, 0u);
 }
@@ -52,8 +52,8 @@ void expect_finite(const Frame& frame) {
     EXPECT_EQ(frame.status.non_finite, 0u);
 }
 
-CLGI_IN_BOTH_MATHS(Nothing);
-CLGI_IN_BOTH_MATHS(Hardly);
+CLGI_IN_ALL_MODES(Nothing);
+CLGI_IN_ALL_MODES(Hardly);
 
 TEST_P(Nothing, OfAScene) { expect_black_without_work(Scene(), GetParam()); }
 
@@ -126,7 +126,7 @@ TEST_P(Nothing, OfNegativeLightsAndFootprint) {
     options.emitters.vpls = 1;
     options.negative_vpls = 0;
     options.footprint = 0.0f;
-    options.build.math = GetParam();
+    options.build = GetParam();
     expect_finite(test::render(lit_floor(), above, options));
 }
 

@@ -2,8 +2,10 @@
 // same scene is rendered after every failure.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <chrono>
 #include <clgi/procedural.hpp>
 #include <functional>
+#include <thread>
 
 #include "frames.hpp"
 #include "opencl_calls.hpp"
@@ -29,6 +31,13 @@ SecondOrderOptions small() {
 
 std::vector<glm::vec3> picture() {
     return test::render(room(), room().cameras[0], small()).radiance;
+}
+
+// With every kind of light.
+Scene box_of_light() {
+    Scene scene = cornell({.light = LightSource::spot});
+    scene.environment = Environment{};
+    return scene;
 }
 
 class Failures : public testing::Test {
@@ -117,6 +126,74 @@ TEST_F(Failures, BetweenPassesNameThePass) {
             EXPECT_TRUE(test::same_bits(test::read_frame(queue, scene, solver).radiance, whole))
                 << names[pass];
         }
+    }
+}
+
+// Every call that makes a buffer and every one that enqueues a kernel, with every code that a
+// driver may answer: an error in one line, and whatever was made before it is given back.
+TEST_F(Failures, OfAnyCallLeaveNothingBehind) {
+    const cl_int codes[] = {CL_DEVICE_NOT_AVAILABLE,  CL_MEM_OBJECT_ALLOCATION_FAILURE,
+                            CL_OUT_OF_RESOURCES,      CL_OUT_OF_HOST_MEMORY,
+                            CL_INVALID_COMMAND_QUEUE, CL_INVALID_WORK_GROUP_SIZE,
+                            CL_INVALID_BUFFER_SIZE,   -9999};
+    const Scene scene = box_of_light();
+    const DeviceScene placed = test::on_device(scene);
+    const BakeLayout bake = make_bake_layout(scene, {.count = 20}, {.size = 16});
+    const cl::CommandQueue& queue = test::device().queue;
+    const auto references = [] {
+        return test::device().context.getInfo<CL_CONTEXT_REFERENCE_COUNT>();
+    };
+    // The driver lets go of what commands held a moment after they ended.
+    const auto wait_until = [&](const std::function<bool()>& done) {
+        queue.finish();
+        for (int wait = 0; wait < 200 && !done(); ++wait)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    };
+    const std::function<void()> solvers[] = {
+        [&] {
+            SecondOrderSolver solver(test::programs(), queue, placed, small());
+            solver.render(room().cameras[0]).wait();
+        },
+        [&] { LightAtlasSolver(test::programs(), queue, placed, bake.vpls, bake.atlas).run(); },
+        [&] { DynamicTransferSolver(test::programs(), queue, scene, placed).run(); },
+        [&] {
+            AntiradianceOptions options;
+            options.bins = 32;
+            options.elements.wished = 40;
+            options.steps = 3;
+            AntiradianceSolver(test::programs(), queue, scene, placed, options).run();
+        }};
+    for (const std::function<void()>& work : solvers) {
+        work();
+        calls.clear();
+        work();
+        const int buffers = calls.buffers, enqueued = calls.enqueued;
+        cl_uint before = references();
+        int same = 0;  // for 100 ms
+        wait_until([&] {
+            const cl_uint now = references();
+            same = now == before ? same + 1 : 0;
+            before = now;
+            return same > 20;
+        });
+        std::size_t code = 0;
+        for (int k = 1; k <= buffers + enqueued; ++k) {
+            (k <= buffers ? calls.fail_buffer : calls.fail_enqueue) =
+                k <= buffers ? k : k - buffers;
+            calls.code = codes[code++ % std::size(codes)];
+            try {
+                work();
+                ADD_FAILURE() << "nothing failed";
+            } catch (const Error& error) {  // a queue that is none is a wrong call
+                const std::string text = error.what();
+                EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+            }
+            calls.clear();
+            wait_until([&] { return references() == before; });
+            EXPECT_EQ(references(), before) << k;
+        }
+        EXPECT_GT(buffers, 10);
+        EXPECT_GT(enqueued, 5);
     }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/shared/halton.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
 
 #include "device.hpp"
@@ -29,14 +30,16 @@ Fraction exact(std::uint64_t index, std::uint64_t base) {
     return out;
 }
 
-std::vector<float> on_device(const std::vector<cl_uint>& indices, cl_uint base) {
+std::vector<float> on_device(const std::vector<cl_uint>& indices, cl_uint base, bool fast = false) {
     const test::Device& on = test::device();
-    static cl::Program program = [&] {
-        cl::Program built(on.context, test::kernel_text("tests/halton.cl"));
-        built.build(on.device, "-cl-std=CL1.2");
-        return built;
-    }();
-    cl::Kernel kernel(program, "halton");
+    const auto built = [&](const char* options) {
+        cl::Program program(on.context, test::kernel_text("tests/halton.cl"));
+        program.build(on.device, options);
+        return program;
+    };
+    static const cl::Program strict = built("-cl-std=CL1.2");
+    static const cl::Program relaxed = built("-cl-std=CL1.2 -cl-fast-relaxed-math");
+    cl::Kernel kernel(fast ? relaxed : strict, "halton");
     const cl::Buffer asked = test::upload(indices);  // a kernel does not keep its arguments alive
     const cl::Buffer values = test::empty<float>(indices.size());
     kernel.setArg(0, base);
@@ -150,7 +153,8 @@ TEST(Halton, StopsShortOfOneWhereTheFractionRoundsToIt) {
                                       {0xffffffffu, 2u},
                                       {0xffffff80u, 2u}}) {
         EXPECT_LT(radical_inverse(index, base), 1.0f) << index;
-        EXPECT_LT(on_device({index}, base)[0], 1.0f) << index;
+        for (const bool fast : {false, true})
+            EXPECT_LT(on_device({index}, base, fast)[0], 1.0f) << index;
     }
 }
 
@@ -163,6 +167,38 @@ TEST(Halton, BalancesOverPowersOfTheBase) {
         for (uint i = 1; i <= count; ++i) sum += 2.0 * radical_inverse(i, 3) - 1.0;
         EXPECT_NEAR(sum / count, 0.0, 6e-8);  // float spacing of a value below 1
     }
+}
+
+// The largest difference between the share of points in a box at the origin and its area. It is
+// found at a box whose sides end at points, closed or open.
+double star_discrepancy(int count) {
+    std::vector<std::pair<double, double>> points;
+    for (int i = 1; i <= count; ++i)
+        points.emplace_back(exact(static_cast<std::uint64_t>(i), 2).value(),
+                            exact(static_cast<std::uint64_t>(i), 3).value());
+    std::vector<double> xs{1.0}, ys{1.0};
+    for (const auto& [x, y] : points) xs.push_back(x), ys.push_back(y);
+    double worst = 0.0;
+    for (const double x : xs)
+        for (const double y : ys) {
+            int open = 0, closed = 0;
+            for (const auto& p : points) {
+                open += p.first < x && p.second < y;
+                closed += p.first <= x && p.second <= y;
+            }
+            worst = std::max({worst, x * y - double(open) / count, double(closed) / count - x * y});
+        }
+    return worst;
+}
+
+TEST(Halton, HasTheDiscrepancyOfTheTable) {
+    const std::pair<int, double> rows[] = {
+        {16, 0.17361111}, {64, 0.05208333}, {100, 0.05023920}, {128, 0.03317901}};
+    for (const auto& [count, wanted] : rows)
+        EXPECT_NEAR(star_discrepancy(count), wanted, 5e-9) << count;
+    for (int i = 1; i <= 128; ++i)  // of the floats that are used
+        EXPECT_NEAR(radical_inverse(static_cast<uint>(i), 3),
+                    exact(static_cast<std::uint64_t>(i), 3).value(), 1.2e-7);
 }
 
 TEST(Halton, PutsOnePointInEveryElementaryBox) {

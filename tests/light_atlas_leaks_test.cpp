@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "light_baking.hpp"
+#include "math_modes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -44,21 +45,23 @@ Leak leak_of(const Bakery& bakery, const Baked& baked, const Dark& dark) {
     return out;
 }
 
-Leak leak_of(const Scene& scene, const Dark& dark, std::uint32_t vpls = 400) {
+Leak leak_of(Math math, const Scene& scene, const Dark& dark, std::uint32_t vpls = 400) {
     const Bakery bakery(scene, {.vpls = vpls});
-    return leak_of(bakery, test::bake(bakery, test::bake_options()), dark);
+    return leak_of(bakery, test::bake(bakery, test::bake_options(math)), dark);
 }
+
+CLGI_IN_BOTH_MATHS(LightAtlasLeaks);
 
 Scene grey() { return test::plain_scene(glm::vec3(0.5f)); }
 
-TEST(LightAtlasLeaks, NothingThroughThickWalls) {
+TEST_P(LightAtlasLeaks, NothingThroughThickWalls) {
     for (const double thickness : {0.1, 0.01}) {
         Scene scene = grey();
         test::add_box(scene, glm::dvec3(-1.0), glm::dvec3(1.0), -1);
         test::add_box(scene, glm::dvec3(-1.0 - thickness), glm::dvec3(1.0 + thickness), 1);
         test::add_floor(scene, 3.0, -1.6);
         scene.lights = {test::point_light({0.2, 0.3, 0.1}, 10.0f)};
-        const Leak leak = leak_of(scene, [&](const glm::dvec3& p, const glm::dvec3&) {
+        const Leak leak = leak_of(GetParam(), scene, [&](const glm::dvec3& p, const glm::dvec3&) {
             return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1.0 + 0.5 * thickness;
         });
         EXPECT_EQ(leak.most, 0.0) << thickness;
@@ -82,9 +85,9 @@ Dark beyond(double gap) {
 }
 
 // The pixel of the contact line sees the floor of one box and holds a part of the next one's.
-TEST(LightAtlasLeaks, NothingBetweenBoxesThatTouch) {
+TEST_P(LightAtlasLeaks, NothingBetweenBoxesThatTouch) {
     for (const double gap : {0.0, 0.001, 0.1}) {
-        const Leak leak = leak_of(boxes(gap), beyond(gap));
+        const Leak leak = leak_of(GetParam(), boxes(gap), beyond(gap));
         EXPECT_LT(leak.mean, 1e-6) << gap;
         EXPECT_LT(leak.most, 1e-5) << gap;
         EXPECT_LT(leak.vpls, 1e-6) << gap;
@@ -93,26 +96,27 @@ TEST(LightAtlasLeaks, NothingBetweenBoxesThatTouch) {
 
 // A box with fronts inside only, lit from outside. The light outside is faint itself: of reflected
 // light alone.
-TEST(LightAtlasLeaks, NothingThroughTheBacksOfSingleSidedWalls) {
+TEST_P(LightAtlasLeaks, NothingThroughTheBacksOfSingleSidedWalls) {
     Scene scene = grey();
     test::add_box(scene, glm::dvec3(-1.0), glm::dvec3(1.0), -1);
     test::add_floor(scene, 4.0, -1.5);
     test::add_quad(scene, {glm::dvec3(-4, -1.5, -4), {4, -1.5, -4}, {4, 2, -4}, {-4, 2, -4}});
     scene.lights = {test::point_light({0.2, 2.7, 0.1}, 10.0f)};
-    const Leak leak = leak_of(
-        scene, [](const glm::dvec3& p, const glm::dvec3&) { return p.y > -1.2 && p.z > -2.0; });
+    const Leak leak = leak_of(GetParam(), scene, [](const glm::dvec3& p, const glm::dvec3&) {
+        return p.y > -1.2 && p.z > -2.0;
+    });
     EXPECT_LT(leak.mean, 1e-5);
     EXPECT_LT(leak.most, 1e-4);
 }
 
 // A room whose walls are cut where a wall without thickness stands: two single-sided faces at one
 // place.
-TEST(LightAtlasLeaks, NothingThroughFacesThatLieAtOnePlace) {
+TEST_P(LightAtlasLeaks, NothingThroughFacesThatLieAtOnePlace) {
     Scene scene = grey();
     test::add_box(scene, glm::dvec3(-1.0), {0.0, 1.0, 1.0}, -1);
     test::add_box(scene, {0.0, -1.0, -1.0}, glm::dvec3(1.0), -1);
     scene.lights = {test::point_light({-0.5, 0.3, 0.1}, 10.0f)};
-    const Leak leak = leak_of(scene, [](const glm::dvec3& p, const glm::dvec3& n) {
+    const Leak leak = leak_of(GetParam(), scene, [](const glm::dvec3& p, const glm::dvec3& n) {
         return std::abs(p.x) < 1e-9 ? n.x > 0.0 : p.x > 0.0;
     });
     EXPECT_LT(leak.mean, 1e-6);
@@ -120,21 +124,22 @@ TEST(LightAtlasLeaks, NothingThroughFacesThatLieAtOnePlace) {
 }
 
 // A table of two such faces with a wall on it: nothing reaches the floor below.
-TEST(LightAtlasLeaks, NothingFromTheTopToTheUndersideOfATable) {
+TEST_P(LightAtlasLeaks, NothingFromTheTopToTheUndersideOfATable) {
     Scene scene = grey();
     test::add_floor(scene, 1.0);
     test::add_quad(scene, {glm::dvec3(-1, 0, -1), {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}});
     test::add_quad(scene, {glm::dvec3(-1, 0, -1), {-1, 1, -1}, {-1, 1, 1}, {-1, 0, 1}});
     test::add_floor(scene, 1.0, -1.0);
     scene.lights = {test::point_light({0.2, 0.7, 0.1}, 10.0f)};
-    const Leak leak = leak_of(
-        scene, [](const glm::dvec3& p, const glm::dvec3& n) { return p.y < -0.5 || n.y < -0.5; });
+    const Leak leak = leak_of(GetParam(), scene, [](const glm::dvec3& p, const glm::dvec3& n) {
+        return p.y < -0.5 || n.y < -0.5;
+    });
     EXPECT_EQ(leak.most, 0.0);
     EXPECT_EQ(leak.vpls, 0.0);
 }
 
 // A double-sided plane through a room whose walls go on: no VPL of these stands for both sides.
-TEST(LightAtlasLeaks, NothingThroughAThinWallOnAFloorThatGoesOn) {
+TEST_P(LightAtlasLeaks, NothingThroughAThinWallOnAFloorThatGoesOn) {
     Scene scene = grey();
     Material both = scene.materials[0];
     both.double_sided = true;
@@ -147,7 +152,7 @@ TEST(LightAtlasLeaks, NothingThroughAThinWallOnAFloorThatGoesOn) {
         return std::abs(p.x) < 1e-9 ? n.x > 0.0 : p.x > 0.0;
     };
     for (const std::uint32_t vpls : {200u, 400u, 1600u}) {
-        const Leak leak = leak_of(scene, dark, vpls);
+        const Leak leak = leak_of(GetParam(), scene, dark, vpls);
         EXPECT_LT(leak.mean, 1e-5) << vpls;
         EXPECT_LT(leak.most, 1e-4) << vpls;
         EXPECT_LT(leak.vpls, 1e-5) << vpls;

@@ -79,6 +79,61 @@ TEST_P(LightAtlas, OfASphereHoldsAsManyBouncesAsAskedFor) {
     }
 }
 
+// An integrating sphere of two halves of albedo 0.2 and 0.8, the first of which shines: with the
+// mean emission 1/2 and the mean albedo 1/2 everything receives 1 (STABILITY 1.2).
+TEST_P(LightAtlas, OfASphereOfTwoAlbedosIsAnIntegratingSphere) {
+    Scene scene = sphere(glm::vec3(0.2f), glm::vec3(1.0f));
+    Material bright;
+    bright.base_color = glm::vec4(glm::vec3(0.8f), 1.0f);
+    const std::uint32_t other = test::add_material(scene, bright);
+    const auto upper = [&](const SceneTriangle& t) {
+        return scene.positions[t.vertex[0]].y + scene.positions[t.vertex[1]].y +
+                   scene.positions[t.vertex[2]].y >
+               0.0;
+    };
+    for (SceneTriangle& t : scene.triangles)
+        if (upper(t)) t.material = other;
+    const Bakery bakery(scene);
+    // VPLs on the border have samples in both halves.
+    std::vector<glm::vec3> direct;
+    double emitted = 0.0, reflected = 0.0, area = 0.0;
+    for (const VplSite& site : bakery.vpls.vpls) {
+        double albedo = 0.0;
+        for (std::uint32_t k = 0; k < site.sample_count; ++k)
+            albedo += upper(scene.triangles[bakery.vpls.samples[site.first_sample + k].triangle])
+                          ? 0.8
+                          : 0.2;
+        albedo /= site.sample_count;
+        direct.emplace_back(upper(scene.triangles[site.triangle]) ? 0.0f : 5.0f);
+        emitted += site.area * albedo * double{direct.back().x};
+        reflected += site.area * albedo;
+        area += site.area;
+    }
+    EXPECT_NEAR(reflected / area, 0.5, 0.01);
+    const double wanted = emitted / area / (1.0 - reflected / area);
+    EXPECT_NEAR(wanted, 1.0, 0.1);
+    const Baked baked = test::bake_from(bakery, test::converged(GetParam()), direct);
+    expect_all(test::over_texels(bakery, baked.texels), glm::dvec3(wanted), 0.015, "two halves");
+    expect_balance(baked.status, "two halves");
+}
+
+// White walls would keep light for ever. VPLs reflect all but 2^-10 of it, so that bakes end: with
+// 1023 times the light, of which a hundredth is not shot.
+TEST_P(LightAtlas, OfAWhiteRoomEnds) {
+    Scene room = test::plain_scene(glm::vec3(1.0f));
+    test::add_box(room, glm::dvec3(0.0), glm::dvec3(1.0), -1);
+    const Bakery bakery(room, {.vpls = 24, .atlas = 16});
+    LightAtlasOptions options = test::bake_options(GetParam());
+    options.bounces = 0;
+    options.threshold = 0.01f;
+    const Baked baked =
+        test::bake_from(bakery, options,
+                        std::vector<glm::vec3>(bakery.vpls.vpls.size(), glm::vec3(1.0f)));
+    expect_all(test::over_texels(bakery, baked.texels), glm::dvec3(1023.0 * 0.99), 0.011, "white");
+    EXPECT_GT(baked.status.power_left, 0.0);
+    EXPECT_LT(baked.status.power_left, 0.011 * baked.status.power_direct);
+}
+
 // Every point of a sphere gets the same light from each part of it. What differs are texels in the
 // beam: VPLs and triangles are flat, so those next to a texel give it more or less than they
 // should, a few parts of 1 / (VPLs in the beam), which are 107 of 1600.

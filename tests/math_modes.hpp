@@ -1,4 +1,4 @@
-// Tests that hold in strict and in fast math run in both.
+// Tests that hold in strict and in fast math run in both, and with planes in half storage.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,6 +7,11 @@
 #include <string>
 
 namespace clgi::test {
+
+inline std::string mode_name(const testing::TestParamInfo<BuildOptions>& info) {
+    if (info.param.storage == Storage::half) return "half";
+    return info.param.math == Math::strict ? "strict" : "fast";
+}
 
 inline std::string math_name(const testing::TestParamInfo<Math>& info) {
     return info.param == Math::strict ? "strict" : "fast";
@@ -19,3 +24,12 @@ inline std::string math_name(const testing::TestParamInfo<Math>& info) {
     class subject : public testing::TestWithParam<clgi::Math> {};                                  \
     INSTANTIATE_TEST_SUITE_P(Math, subject, testing::Values(clgi::Math::strict, clgi::Math::fast), \
                              clgi::test::math_name)
+
+// The same with GetParam() the build options, once in half storage.
+#define CLGI_IN_ALL_MODES(subject)                                                          \
+    class subject : public testing::TestWithParam<clgi::BuildOptions> {};                   \
+    INSTANTIATE_TEST_SUITE_P(                                                               \
+        Mode, subject,                                                                      \
+        testing::Values(clgi::BuildOptions{}, clgi::BuildOptions{.math = clgi::Math::fast}, \
+                        clgi::BuildOptions{.storage = clgi::Storage::half}),                \
+        clgi::test::mode_name)

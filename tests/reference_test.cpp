@@ -99,13 +99,32 @@ TEST(Reference, KnowsViewFactorsOfEmissiveSurfaces) {
         const std::vector<Place> places(200, {{0, 0, 0}, {0, 0, 1}});
         return PathTracer(scene).irradiance(places, options_for("direct", 256));
     };
-    expect_mean(lit({glm::dvec3(0, 0, 1), {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}),
-                pi * light * 0.1385316060, 1e-6, "parallel");
-    expect_mean(lit({glm::dvec3(0, 0, 1), {0, 1, 1}, {2, 1, 1}, {2, 0, 1}}),
-                pi * light * 0.1673750099, 1e-6, "parallel, twice as long");
-    // a along the edge, b up from the horizon, c away.
-    expect_mean(lit({glm::dvec3(1, 0, 0), {1, 0, 1}, {1, 1, 1}, {1, 1, 0}}),
-                pi * light * 0.0557341970, 1e-6, "perpendicular");
+    // Parallel at height 1, a corner on the normal: sides a and b.
+    for (const auto& [a, b, wanted] : std::initializer_list<std::array<double, 3>>{
+             {1, 1, 0.1385316060}, {2, 1, 0.1673750099}, {0.5, 0.5, 0.0598641176}})
+        expect_mean(lit({glm::dvec3(0, 0, 1), {0, b, 1}, {a, b, 1}, {a, 0, 1}}),
+                    pi * light * wanted, 1e-6, "parallel");
+    // Perpendicular: a along the edge, b up from the horizon, c away.
+    for (const auto& [a, b, c, wanted] : std::initializer_list<std::array<double, 4>>{
+             {1, 1, 1, 0.0557341970}, {2, 1, 1, 0.0686972989}, {1, 2, 0.5, 0.1587748045}})
+        expect_mean(lit({glm::dvec3(c, 0, 0), {c, 0, b}, {c, a, b}, {c, a, 0}}),
+                    pi * light * wanted, 1e-6, "perpendicular");
+}
+
+TEST(Reference, KnowsViewFactorsBesideTheNormal) {
+    for (const auto& [aside, wanted] : std::initializer_list<std::array<double, 2>>{
+             {0, 0.5}, {0.5, 0.4379826327}, {1, 0.2763932023}, {2, 0.0527864045}}) {
+        Scene scene = test::plain_scene();
+        add_disc(scene, 1.0, 1.0, add_glowing(scene, 1.0f));
+        const std::vector<Place> at(200, {{aside, 0, 0}, {0, 1, 0}});
+        const Irradiance found = PathTracer(scene).irradiance(at, options_for("direct", 256));
+        expect_mean(found, pi * wanted, 1e-4, "disc, aside by " + std::to_string(aside));
+    }
+    Scene scene = test::plain_scene();
+    test::add_triangle(scene, {1, 0, 1}, {-1, -1, 1}, {0, 1, 1}, add_glowing(scene, 1.0f));
+    const std::vector<Place> places(200, {{0, 0, 0}, {0, 0, 1}});
+    const Irradiance found = PathTracer(scene).irradiance(places, options_for("direct", 256));
+    expect_mean(found, pi * 0.3003491901, 1e-5, "triangle");
 }
 
 // A glowing face of a closed cube: what is reflected in all is what is sent out times rho/(1 -

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lighting.hpp"
+#include "math_modes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -23,12 +24,15 @@ Scene room(const glm::vec3& direction, double angle) {
     return scene;
 }
 
-PlacedLights placed(const glm::vec3& direction, double angle, int lights) {
-    return test::place_lights(test::on_device(room(direction, angle)), {.vpls = lights});
+PlacedLights placed(const glm::vec3& direction, double angle, int lights,
+                    Math math = Math::strict) {
+    return test::place_lights(test::on_device(room(direction, angle)), {.vpls = lights}, math);
 }
 
+CLGI_IN_BOTH_MATHS(Spot);
+
 // Index of the last of N accepted points, found with numpy in double precision.
-TEST(Spot, TakesTheIndicesOfTheTable) {
+TEST_P(Spot, TakesTheIndicesOfTheTable) {
     const struct {
         glm::vec3 axis;
         double angle;
@@ -41,7 +45,8 @@ TEST(Spot, TakesTheIndicesOfTheTable) {
     const int counts[] = {100, 300, 450};
     for (const auto& row : rows)
         for (int k = 0; k < 3; ++k)
-            EXPECT_EQ(placed(row.axis, row.angle * degree, counts[k]).accepted.back(), row.last[k])
+            EXPECT_EQ(placed(row.axis, row.angle * degree, counts[k], GetParam()).accepted.back(),
+                      row.last[k])
                 << row.angle << " degrees, " << counts[k];
 }
 
@@ -82,9 +87,9 @@ TEST(Spot, LightsNothingOutsideItsCone) {
 
 // However narrow the cone, it gets all its lights: where too many candidates would have to be
 // rejected, the cone is mapped, and the list of accepted ones is not used.
-TEST(Spot, FillsEveryConeThereIs) {
+TEST_P(Spot, FillsEveryConeThereIs) {
     for (const double angle : {1e-3, 0.01, 0.1, 0.5, 1.0, 5.0, 89.9, 90.0}) {
-        const PlacedLights found = placed({0, -1, 0.01f}, angle * degree, 300);
+        const PlacedLights found = placed({0, -1, 0.01f}, angle * degree, 300, GetParam());
         std::size_t lit = 0;
         for (const Vpl& light : found.lights) {
             lit += light.flux.w > 0.0f;

@@ -28,11 +28,15 @@ struct Shown {
     std::uint32_t non_finite = 0;
 };
 
-Shown picture_of(const Scene& scene, const Camera& camera, float threshold, Size size = {}) {
+Shown picture_of(const Scene& scene, const Camera& camera, float threshold, Size size = {},
+                 const BuildOptions& build = {}) {
     const DeviceScene device = test::on_device(scene);
     const cl::CommandQueue& queue = test::device().queue;
-    DynamicTransferSolver solver(test::programs(), queue, scene, device);
+    DynamicTransferOptions how;
+    how.build = build;
+    DynamicTransferSolver solver(test::programs(), queue, scene, device, how);
     DynamicTransferViewOptions options;
+    options.picture.build = build;
     options.picture.width = size.width;
     options.picture.height = size.height;
     options.threshold = threshold;
@@ -95,6 +99,19 @@ double relative(const std::vector<glm::vec3>& found, const std::vector<glm::vec3
         whole += glm::dot(glm::dvec3(wanted[i]), glm::dvec3(wanted[i]));
     }
     return std::sqrt(apart / whole);
+}
+
+// Half storage rounds normals, irradiance and albedo to 11 bits each.
+TEST(DynamicTransferView, IsNearlyTheSameInHalfStorage) {
+    Scene scene = test::heap_of_solids(11);
+    metal(scene, 0.6f);
+    test::light_by(scene, {0.8f, 1.0f, 1.3f});
+    const Shown full = picture_of(scene, scene.cameras[0], 0.1f),
+                half = picture_of(scene, scene.cameras[0], 0.1f, {}, {.storage = Storage::half});
+    EXPECT_EQ(half.non_finite, 0u);
+    EXPECT_EQ(half.triangles, full.triangles);
+    EXPECT_LT(relative(half.radiance, full.radiance), 3.0 / 2048.0);
+    EXPECT_GT(relative(half.radiance, full.radiance), 0.0);
 }
 
 // They have no probes, so what they show is what vertices receive.

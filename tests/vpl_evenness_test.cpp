@@ -56,6 +56,30 @@ TEST(VplEvenness, DoesNotDependOnHowAWallIsCut) {
         }
 }
 
+// The share of a VPL's cell on one side of an edge that may be anywhere. Of m independent samples
+// its error is sqrt(1 / (6 m)) on average (STABILITY 1.3); these are spread evenly.
+TEST(VplEvenness, SharesErrLessThanThoseOfRandomSamples) {
+    for (const std::uint32_t m : {10u, 30u, 100u}) {
+        const Scene scene = test::crooked_wall(1, 1, 1);
+        const VplLayout layout =
+            place_vpls(scene, make_patches(scene), {.count = 1, .samples_per_vpl = m});
+        ASSERT_EQ(layout.vpls.size(), 1u);
+        const std::vector<glm::dvec3> samples = positions(scene, layout.samples);
+        double square = 0.0;
+        const int edges = 200;
+        for (int axis = 0; axis < 2; ++axis)
+            for (int k = 0; k < edges; ++k) {
+                const double edge = (k + 0.5) / edges;
+                const auto inside =
+                    std::count_if(samples.begin(), samples.end(),
+                                  [&](const glm::dvec3& p) { return p[axis] < edge; });
+                const double error = double(inside) / double(samples.size()) - edge;
+                square += error * error / (2 * edges);
+            }
+        EXPECT_LT(std::sqrt(square), 0.6 * std::sqrt(1.0 / (6.0 * m))) << m;
+    }
+}
+
 // Cells lie along the borders, however the wall is turned.
 TEST(VplEvenness, KeepsOffTheBordersOfATurnedWall) {
     for (const double angle : {0.3, 0.7, 2.0}) {

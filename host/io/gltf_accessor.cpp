@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <ranges>
 
 namespace clgi::io::gltf {
 
@@ -121,10 +120,16 @@ bool AccessorReader::is_in_order() const {
 
 const std::uint8_t* AccessorReader::find(std::size_t element) const {
     if (sparse_count_ > 0) {
-        const auto numbers = std::views::iota(std::size_t{0}, sparse_count_);
-        const auto found =
-            std::ranges::lower_bound(numbers, element, {}, [this](auto i) { return replaced(i); });
-        if (found != numbers.end() && replaced(*found) == element) return sparse_values_.at(*found);
+        std::size_t found = 0, end = sparse_count_;  // is_in_order(): they increase
+        while (found < end) {
+            const std::size_t middle = found + (end - found) / 2;
+            if (replaced(middle) < element) {
+                found = middle + 1;
+            } else {
+                end = middle;
+            }
+        }
+        if (found < sparse_count_ && replaced(found) == element) return sparse_values_.at(found);
     }
     return dense_.at(element);
 }
