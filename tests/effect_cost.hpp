@@ -36,8 +36,8 @@ private:
 inline Programs own_programs() { return {device().context, device().device}; }
 
 // All kinds of light in colours of their own, in a room that nothing stands in. One of its crooked
-// walls is open, for the sun: others would block it, from behind as well.
-inline Scene convex_room() {
+// walls may be open, for the sun: walls block it from behind as well.
+inline Scene convex_room(bool open = true) {
     Scene scene = plain_scene({0.7f, 0.6f, 0.5f});
     Material lamp;
     lamp.base_color = {0.3f, 0.2f, 0.5f, 1.0f};
@@ -52,6 +52,7 @@ inline Scene convex_room() {
     };
     add(a, b, c, 0);
     add(a, d, b, 0);
+    if (!open) add(b, d, c, 0);
     add(c, d, a, shines);
     scene.lights = {point_light({0.1, 0.4, 0.3}),
                     spot_light({0.3, 0.2, 0.2}, {-0.4f, -1.0f, 0.1f}, 0.6),

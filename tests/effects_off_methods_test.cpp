@@ -221,9 +221,9 @@ AntiradianceOptions few_elements() {
 TEST(WithoutOcclusion, NoAntiradianceIsStoredOrLetThrough) {
     AntiradianceOptions options = few_elements();
     options.iteration = Iteration::asymmetric;
-    const Exchanged none = exchange(test::convex_room(), options);
+    const Exchanged none = exchange(test::convex_room(false), options);
     options.occlusion = Occlusion::always;
-    const Exchanged all = exchange(test::convex_room(), options);
+    const Exchanged all = exchange(test::convex_room(false), options);
     EXPECT_EQ(none.rows, 0u);
     EXPECT_EQ(all.rows, all.elements);
     EXPECT_EQ(all.table_bytes - none.table_bytes, 2 * (all.elements * 64 * 16 - 16));
@@ -237,7 +237,7 @@ TEST(WithoutOcclusion, NoAntiradianceIsStoredOrLetThrough) {
 
 TEST(WithoutOcclusion, TheLightIsThatOfRowsEverywhere) {
     Scene behind = test::furnished_room(5);
-    for (const Scene& scene : {test::convex_room(), behind}) {
+    for (const Scene& scene : {test::convex_room(false), behind}) {
         AntiradianceOptions options = few_elements();
         options.iteration = Iteration::symmetric;
         options.steps = 5;
