@@ -82,7 +82,8 @@ void apply_effects(Plan& plan) {
     second.build = build;
 
     emitters(plan.light_atlas.emitters);
-    if (!plan.on(Effect::further_bounces)) plan.light_atlas.bounces = 1;
+    // All bounces cost little more than one where the transport is kept.
+    plan.light_atlas.bounces = plan.on(Effect::further_bounces) ? 0 : 1;
     plan.light_atlas.build = build;
 
     emitters(plan.antiradiance.emitters);
