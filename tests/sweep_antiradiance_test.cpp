@@ -26,10 +26,11 @@ namespace clgi::report {
 namespace {
 
 TEST(AntiradianceSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
-    for (const bool quick : {true, false}) {
+    for (const auto& [quick, alone] : std::vector<std::pair<bool, bool>>{
+             {true, true}, {false, true}, {true, false}, {false, false}}) {
         std::map<std::string, std::map<std::string, std::set<std::string>>> values;
         std::set<std::string> seen;
-        for (const AntiradianceSettings& one : antiradiance_settings(quick)) {
+        for (const AntiradianceSettings& one : antiradiance_settings(quick, {}, alone)) {
             std::string text = one.series;
             for (const auto& [name, value] : one.knobs) {
                 text += " " + name + " " + value;
