@@ -181,14 +181,16 @@ TEST(Lettering, LeavesInkForEveryLetterThatItKnowsAndNoneElsewhere) {
         for (std::size_t i = 0; i < raster.rgba.size(); i += 4) sum += 255 - raster.rgba[i];
         return sum / 255.0;
     };
-    for (const char letter : std::string_view("0123456789+-eABFLIP|")) {
+    for (const char letter : std::string_view("0123456789+-eABFLIP|abcdefghjkmnopqrstuvwxyz%")) {
         EXPECT_GT(ink({&letter, 1}), 15.0) << letter;
     }
-    EXPECT_GT(ink("."), 4.0);
+    for (const char* small : {".", ",", ":"}) EXPECT_GT(ink(small), 4.0) << small;
+    for (const char* thin : {"i", "l"}) EXPECT_GT(ink(thin), 10.0) << thin;
     EXPECT_EQ(ink(" "), 0.0);
     EXPECT_EQ(ink("#"), 0.0);
     // 6 and 9 are one stroke, turned; a minus is its length times its thickness and round ends.
     EXPECT_NEAR(ink("6"), ink("9"), 0.5);
+    EXPECT_NEAR(ink("b"), ink("q"), 1.5);
     EXPECT_NEAR(ink("-"), 3.0 * 3.0 * 2.0 * 0.42 * 3.0 + 3.1416 * 0.42 * 0.42 * 9.0, 1.0);
 }
 

@@ -49,16 +49,22 @@ TEST_F(Program, SweepsASceneIntoAFolder) {
     const std::string scene = make("cornell --light spot");
     const fs::path folder = file("sweep");
     const Outcome outcome =
-        run("sweep " + scene + " -o " + folder.string() + " --quick --size 40x30 --spp 16");
+        run("sweep " + scene + " -o " + folder.string() + " --quick --size 40x30 --spp 16 --sheet-time 0.2s");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
-    for (const char* name : {"index.html", "sweep.csv", "sweep.json", "reference-full.exr"})
+    for (const char* name :
+         {"index.html", "sweep.csv", "sweep.json", "reference-full.exr", "methods.png"})
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     const auto json = nlohmann::json::parse(read("sweep/sweep.json"));
     EXPECT_GT(json.at("points").size(), 20u);
     EXPECT_GE(json.at("summary").size(), 5u);
+    EXPECT_NE(json.at("command").get<std::string>().find("--sheet-time 0.2s"), std::string::npos);
     for (const auto& line : json.at("summary"))
         EXPECT_NE(outcome.out.find(line.get<std::string>()), std::string::npos) << line;
     expect_one_error_line(run("sweep " + scene + " -o " + folder.string() + " --method vpl"), 1);
+    for (const char* flags : {"--method antiradiance --sheet-time 1s", "--sheet-time 5",
+                              "--method atlas --sheet-time 1s", "--convergence --sheet-time 1s"})
+        expect_one_error_line(run("sweep " + scene + " --quiet -o " + folder.string() + " " + flags),
+                              1);
     expect_one_error_line(run("sweep " + scene), 1);
     std::ofstream(file("taken")) << "a file";
     expect_one_error_line(run("sweep " + scene + " --quiet -o " + file("taken").string()), 2);

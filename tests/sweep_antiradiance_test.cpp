@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <clgi/procedural.hpp>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,6 +14,7 @@
 
 #include "device.hpp"
 #include "gltf_draft.hpp"
+#include "report/contact_sheet.hpp"
 #include "report/luminance.hpp"
 #include "report/sweep_antiradiance.hpp"
 #include "report/sweep_files.hpp"
@@ -24,10 +26,11 @@ namespace clgi::report {
 namespace {
 
 TEST(AntiradianceSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
-    for (const bool quick : {true, false}) {
+    for (const auto& [quick, alone] : std::vector<std::pair<bool, bool>>{
+             {true, true}, {false, true}, {true, false}, {false, false}}) {
         std::map<std::string, std::map<std::string, std::set<std::string>>> values;
         std::set<std::string> seen;
-        for (const AntiradianceSettings& one : antiradiance_settings(quick)) {
+        for (const AntiradianceSettings& one : antiradiance_settings(quick, {}, alone)) {
             std::string text = one.series;
             for (const auto& [name, value] : one.knobs) {
                 text += " " + name + " " + value;
@@ -233,6 +236,16 @@ TEST(SweepOfAllMethods, DrawsThoseThatTheSceneAdmits) {
     const auto bounces = points_of(made, "interreflections, transfer");
     ASSERT_EQ(bounces.size(), 2u);
     EXPECT_LT(bounces[1]->error[all_light], bounces[0]->error[all_light]);
+    // The sheet has one picture of each: at no bound that of the least error.
+    const Sheet sheet = contact_sheet(made, 1e9);
+    ASSERT_EQ(sheet.panels.size(), all.size() + 2);
+    for (std::size_t m = 0; m < all.size(); ++m) {
+        const std::array<std::string, 2>& said = sheet.panels[m + 1].caption;
+        char error[32];
+        std::snprintf(error, sizeof error, ": error %.1f %%", 100.0 * best[all[m]]);
+        EXPECT_EQ(said[0], all[m] + error);
+        EXPECT_EQ(said[1].find(" once") != std::string::npos, once[all[m]] > 0) << said[1];
+    }
     const std::string why = save_sweep(made, {"clgi sweep", "1.2.3"}, out.path());
     if (!why.empty()) GTEST_SKIP() << why;
     const std::string plot = text(out.path() / "error-full.svg");

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <clgi/error.hpp>
+#include <clgi/io/image.hpp>
 #include <filesystem>
 #include <initializer_list>
 #include <memory>
@@ -12,10 +13,12 @@
 
 #include "cli/animation.hpp"
 #include "cli/commands.hpp"
+#include "cli/duration.hpp"
 #include "cli/picture.hpp"
 #include "cli/session.hpp"
 #include "cli/sweep_flags.hpp"
 #include "cli/version.hpp"
+#include "report/contact_sheet.hpp"
 #include "report/sweep_atlas.hpp"
 #include "report/sweep_files.hpp"
 #include "report/sweep_pictures.hpp"
@@ -27,6 +30,7 @@ namespace {
 
 bool of_atlas(const SweepFlags& flags) { return flags.method == "atlas"; }
 bool of_transfer(const SweepFlags& flags) { return flags.method == "transfer"; }
+bool of_all(const SweepFlags& flags) { return flags.method == "all"; }
 
 report::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
     report::PictureSweep out;
@@ -35,7 +39,7 @@ report::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
     out.width = flags.quick ? 160 : 320;
     out.height = flags.quick ? 120 : 240;
     if (flags.method == "antiradiance") out.methods = {report::antiradiance_method};
-    if (flags.method == "all")
+    if (of_all(flags))
         out.methods = {report::second_order_method, report::antiradiance_method,
                        report::light_atlas_method, report::dynamic_transfer_method};
     parse_size("sweep", flags.size, 4096, out.width, out.height);
@@ -68,6 +72,8 @@ void run_sweep(const SweepFlags& flags) {
     refuse(of_atlas(flags) || of_transfer(flags), flags.pictures_only,
            "not with --method " + flags.method);
     refuse(!of_atlas(flags), flags.atlas_only, "only with --method atlas");
+    refuse(!of_all(flags), flags.all_only, "only with --method all");
+    const double sheet_time = parse_milliseconds("sweep", "--sheet-time", flags.sheet_time);
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet,
                              of_atlas(flags));
     report::TransferSweep motion;
@@ -104,13 +110,17 @@ void run_sweep(const SweepFlags& flags) {
     if (setup.progress) setup.progress(1.0);
     const std::string why = report::save_sweep(result, {flags.command, CLGI_VERSION}, setup.folder);
     if (!why.empty()) notice(flags.device.quiet, "no plots: " + why);
+    if (of_all(flags)) {
+        const report::Raster sheet = draw_sheet(report::contact_sheet(result, sheet_time));
+        io::save_png(sheet.width, sheet.height, sheet.rgba, setup.folder / "methods.png");
+    }
     if (result.non_finite > 0)
         notice(false, fmt::format("warning: {} packets held numbers that are not finite",
                                   result.non_finite));
     if (flags.device.quiet) return;
     for (const std::string& line : report::summary(result)) fmt::print("{}\n", line);
-    fmt::print("{}: index.html, sweep.csv, sweep.json{}\n", flags.output,
-               why.empty() ? ", error-*.svg" : "");
+    fmt::print("{}: index.html, sweep.csv, sweep.json{}{}\n", flags.output,
+               of_all(flags) ? ", methods.png" : "", why.empty() ? ", error-*.svg" : "");
 }
 
 }  // namespace
@@ -162,6 +172,10 @@ void add_sweep(CLI::App& app) {
         ->type_name("N")
         ->default_str("3; with --quick 2")
         ->check(CLI::Range(1, 1000));
+    command
+        ->add_option("--sheet-time", flags->sheet_time,
+                     "all: Time of a frame that pictures of methods.png may take")
+        ->type_name("TIME");
     command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
     command->add_flag("--convergence", flags->convergence,
                       "Instead: how the iterations of antiradiance converge, step by step");
@@ -186,9 +200,11 @@ void add_sweep(CLI::App& app) {
     command->callback([flags, command] {
         flags->pictures_only = given(*command, {"--size", "--camera"});
         flags->atlas_only = given(*command, {"--atlas-size", "--reference"});
+        flags->all_only = given(*command, {"--sheet-time"});
         flags->convergence_only = given(*command, {"--bins", "--elements", "--iterations"});
         flags->not_convergence = given(*command, {"--method", "--size", "--camera", "--spp",
-                                                  "--rounds", "--atlas-size", "--reference"});
+                                                  "--rounds", "--atlas-size", "--reference",
+                                                  "--sheet-time"});
         flags->command = fmt::format(
             "clgi sweep {} -o {}{}{}", std::filesystem::path(flags->scene).filename().string(),
             std::filesystem::path(flags->output).filename().string(),
@@ -205,6 +221,7 @@ void add_sweep(CLI::App& app) {
                            std::filesystem::path(flags->reference).filename().string()) +
                 (flags->samples > 0 ? fmt::format(" --spp {}", flags->samples) : "") +
                 (flags->rounds > 0 ? fmt::format(" --rounds {}", flags->rounds) : "") +
+                (flags->all_only.empty() ? std::string() : " --sheet-time " + flags->sheet_time) +
                 (flags->scene_index >= 0 ? fmt::format(" --scene {}", flags->scene_index) : "") +
                 (flags->camera > 0 ? fmt::format(" --camera {}", flags->camera) : "") +
                 (flags->animation.time ? fmt::format(" --time {}", *flags->animation.time) : "") +

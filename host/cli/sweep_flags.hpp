@@ -20,6 +20,7 @@ struct SweepFlags {
     std::string method = "all";
     std::string size;
     std::string reference;
+    std::string sheet_time = "100ms";
     int atlas_size = 0;
     int scene_index = -1;
     int camera = 0;
@@ -33,7 +34,7 @@ struct SweepFlags {
     int steps = 0;
     std::string command;
     // Flags given that go with one kind of sweep alone, and those that go with all but convergence.
-    std::vector<std::string> pictures_only, atlas_only, convergence_only, not_convergence;
+    std::vector<std::string> pictures_only, atlas_only, all_only, convergence_only, not_convergence;
 };
 
 // The scene in its pose, and an existing folder for results. Throws InputError.

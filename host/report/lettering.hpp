@@ -1,4 +1,4 @@
-// The few letters that a scale needs, drawn as strokes: sharp at every size.
+// The letters that scales and captions need, drawn as strokes: sharp at every size.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace clgi::report {
 
-// Known are 0 to 9, "+-.e", "A", "B", "F", "L", "I", "P", "|" and the space; others leave a gap.
+// Known are 0 to 9, a to z, "+-.,:%|", "A", "B", "F", "L", "I", "P" and the space; others leave a
+// gap.
 // height: of a digit, in pixels.
 double text_width(std::string_view text, double height);
 

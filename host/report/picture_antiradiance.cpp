@@ -108,7 +108,7 @@ Measured measure(const PictureTask& task, const AntiradianceSettings& one, Sweep
         found = pictures(asked, lit);
     }
     judge_all(task, asked, found, *result);
-    if (!one.estimate) return out;
+    if (!one.estimate || !task.alone) return out;
     AntiradianceOptions twice = one.options;
     twice.bins *= 2;
     const Lit finer(task, twice, [&](double done) { return part(0.5 + 0.5 * done); });
@@ -121,8 +121,9 @@ Measured measure(const PictureTask& task, const AntiradianceSettings& one, Sweep
 }  // namespace
 
 PictureMethod antiradiance_pictures(const PictureTask& task) {
-    const std::vector<AntiradianceSettings> settings =
-        antiradiance_settings(task.setup.quick, task.setup.build);
+    std::vector<AntiradianceSettings> settings =
+        antiradiance_settings(task.setup.quick, task.setup.build, task.alone);
+    for (AntiradianceSettings& one : settings) one.options.emitters.shadow_size = task.shadow_size;
     PictureMethod out;
     out.knobs = {"bins", "elements", "iteration", "steps", "spread", "bin-share", "storage"};
     out.settings = names_of(settings);

@@ -46,7 +46,7 @@ Measured measure(const PictureTask& task, const TransferPicture& one, SweepPoint
     DynamicTransferViewOptions shown;
     shown.picture.width = task.width;
     shown.picture.height = task.height;
-    shown.picture.emitters.shadow_size = 1024;
+    shown.picture.emitters.shadow_size = task.shadow_size;
     shown.picture.build = task.setup.build;
     DynamicTransferView view(task.programs, queue, task.scene, solver, shown);
     const auto frame = [&] {

@@ -1,11 +1,11 @@
 // Frames in the light of an atlas: baked once, lit anew for every frame. [Schaerfig16, section 6.2]
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <clgi/bake_layout.hpp>
 #include <clgi/error.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
 #include <optional>
+#include <utility>
 
 #include "report/picture_methods.hpp"
 #include "report/preview.hpp"
@@ -19,26 +19,6 @@ struct AtlasPicture : SweepSetting {
     std::uint32_t vpls = 1600;
     int size = 256;
 };
-
-std::vector<AtlasPicture> settings_of(bool quick) {
-    std::vector<AtlasPicture> out;
-    const auto add = [&](AtlasPicture one, const std::string& series) {
-        one.method = light_atlas_method;
-        one.series = series + ", atlas";
-        one.knobs = {{"vpls", std::to_string(one.vpls)}, {"atlas-size", std::to_string(one.size)}};
-        out.push_back(std::move(one));
-    };
-    AtlasPicture base;
-    if (quick) base = {{}, 400, 64};
-    vary(
-        base, "vpls",
-        quick ? std::vector<std::uint32_t>{50, 400} : std::vector<std::uint32_t>{100, 400, 1600},
-        [](AtlasPicture& to, std::uint32_t n) { to.vpls = n; }, add);
-    vary(
-        base, "atlas-size", quick ? std::vector<int>{32, 64} : std::vector<int>{64, 128, 256, 512},
-        [](AtlasPicture& to, int n) { to.size = n; }, add);
-    return out;
-}
 
 // Scenes of many small charts need larger pages than others.
 bool fits(const Scene& scene, const AtlasPicture& one) {
@@ -54,7 +34,35 @@ bool fits(const Scene& scene, const AtlasPicture& one) {
     return true;
 }
 
-Measured measure(const PictureTask& task, const AtlasPicture& one, SweepPoint* result,
+// The settings whose charts fit. Where those of the usual page do not, all pages are larger.
+std::vector<AtlasPicture> settings_of(const Scene& scene, bool quick) {
+    constexpr int largest_page = 4096;
+    AtlasPicture base;
+    if (quick) base = {{}, 400, 64};
+    while (base.size < largest_page && !fits(scene, base)) base.size *= 2;
+    std::vector<AtlasPicture> out;
+    const auto add = [&](AtlasPicture one, const std::string& series) {
+        if (!fits(scene, one)) return;
+        one.method = light_atlas_method;
+        one.series = series + ", atlas";
+        one.knobs = {{"vpls", std::to_string(one.vpls)}, {"atlas-size", std::to_string(one.size)}};
+        out.push_back(std::move(one));
+    };
+    vary(
+        base, "vpls",
+        quick ? std::vector<std::uint32_t>{50, 400} : std::vector<std::uint32_t>{100, 400, 1600},
+        [](AtlasPicture& to, std::uint32_t n) { to.vpls = n; }, add);
+    const int page = base.size;
+    vary(
+        base, "atlas-size",
+        quick ? std::vector<int>{page / 2, page}
+              : std::vector<int>{page / 4, page / 2, page, 2 * page},
+        [](AtlasPicture& to, int n) { to.size = n; }, add);
+    return out;
+}
+
+// warm: kernels have been built and run once.
+Measured measure(const PictureTask& task, const AtlasPicture& one, bool warm, SweepPoint* result,
                  const Progress& part) {
     constexpr double slow = 1000.0;  // milliseconds
     const cl::CommandQueue& queue = task.setup.queue;
@@ -69,16 +77,25 @@ Measured measure(const PictureTask& task, const AtlasPicture& one, SweepPoint* r
     });
     LightAtlasOptions options;
     options.build = task.setup.build;
-    LightAtlasSolver solver(task.programs, queue, task.scene, layout->vpls, layout->atlas, options);
+    const auto make = [&] {
+        return LightAtlasSolver(task.programs, queue, task.scene, layout->vpls, layout->atlas,
+                                options);
+    };
+    const auto bake = [&](LightAtlasSolver& solver) {
+        if (!solver.run(part)) throw_cancelled();
+    };
+    if (!warm) {
+        LightAtlasSolver first = make();
+        bake(first);
+    }
+    LightAtlasSolver solver = make();
     LightAtlasViewOptions shown;
     shown.width = task.width;
     shown.height = task.height;
-    shown.emitters.shadow_size = 1024;
+    shown.emitters.shadow_size = task.shadow_size;
     shown.build = task.setup.build;
     LightAtlasView view(task.programs, queue, task.scene, layout->atlas, shown);
-    *out.once += time_frame(queue, [&] {
-        if (!solver.run(part)) throw_cancelled();
-    });
+    *out.once += time_frame(queue, [&] { bake(solver); });
     const auto picture = [&] {
         return view.render(task.camera, solver.irradiance_planes(), solver.stride());
     };
@@ -103,17 +120,13 @@ Measured measure(const PictureTask& task, const AtlasPicture& one, SweepPoint* r
 }  // namespace
 
 PictureMethod light_atlas_pictures(const PictureTask& task) {
-    std::vector<AtlasPicture> settings = settings_of(task.setup.quick);
-    settings.erase(std::remove_if(settings.begin(), settings.end(),
-                                  [&](const AtlasPicture& one) {
-                                      return !fits(task.setup.scene, one);
-                                  }),
-                   settings.end());
+    const std::vector<AtlasPicture> settings = settings_of(task.setup.scene, task.setup.quick);
     PictureMethod out;
     out.knobs = {"vpls", "atlas-size"};
     out.settings = names_of(settings);
-    out.measure = [&task, settings](std::size_t i, SweepPoint* result, const Progress& part) {
-        return measure(task, settings[i], result, part);
+    out.measure = [&task, settings, warm = false](std::size_t i, SweepPoint* result,
+                                                  const Progress& part) mutable {
+        return measure(task, settings[i], std::exchange(warm, true), result, part);
     };
     return out;
 }

@@ -31,6 +31,8 @@ struct PictureTask {
     const DeviceScene& scene;
     const Programs& programs;
     const std::vector<SweepTruth>& truths;
+    bool alone;       // one method: with all of its settings, and the error that it tells of itself
+    int shadow_size;  // alike for all, but for second-order illumination, which varies it
 };
 
 struct PictureMethod {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,13 @@ struct Raster {
             pixel[c] =
                 static_cast<std::uint8_t>(std::lround(pixel[c] + coverage * (color[c] - pixel[c])));
         }
+    }
+    // A picture that lies within this one, its corner at left, top.
+    void put(const Raster& picture, int left, int top) {
+        const std::size_t row_bytes = 4 * static_cast<std::size_t>(picture.width);
+        for (int y = 0; y < picture.height; ++y)
+            std::copy_n(picture.rgba.data() + row_bytes * static_cast<std::size_t>(y), row_bytes,
+                        at(left, top + y));
     }
     void fill(int x, int y, int w, int h, const Color& color) {
         for (int row = y; row < y + h; ++row) {

@@ -34,15 +34,6 @@ struct Layout {
     int below = 0;  // all that is added below the picture
 };
 
-void copy(const Raster& picture, Raster& canvas, int left) {
-    const std::size_t row_bytes = 4 * static_cast<std::size_t>(picture.width);
-    for (int y = 0; y < picture.height; ++y) {
-        const auto row = picture.rgba.begin() +
-                         static_cast<std::ptrdiff_t>(row_bytes * static_cast<std::size_t>(y));
-        std::copy_n(row, row_bytes, canvas.at(left, y));
-    }
-}
-
 double at(const Scale& scale, double share) { return scale.from + (scale.to - scale.from) * share; }
 
 // Where ticks stand, 0 to 1: as many as leave their labels apart. A scale of one number has it in
@@ -83,7 +74,7 @@ double round_up(double value) {
 Raster with_scale_bar(const Raster& picture, const Scale& scale) {
     const Layout layout(picture.width);
     Raster canvas(layout.width, picture.height + layout.below, paper);
-    copy(picture, canvas, (layout.width - picture.width) / 2);
+    canvas.put(picture, (layout.width - picture.width) / 2, 0);
 
     // The caption, then the bar with room for half a label at both ends.
     const double widest = std::max(text_width(tick_label(scale.from), layout.text),

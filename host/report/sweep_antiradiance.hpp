@@ -8,12 +8,14 @@
 
 namespace clgi::report {
 
-// By series: the knob that is varied alone, from the least accurate value on, or "grid".
+// By series: the knob that is varied alone, from the least accurate value on, or "grid". Those of a
+// sweep of antiradiance alone, or quick ones beside other systems.
 struct AntiradianceSettings : SweepSetting {
     AntiradianceOptions options;
     bool estimate = false;  // its error, from a picture with twice as many bins
 };
-std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildOptions& build = {});
+std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildOptions& build = {},
+                                                        bool alone = true);
 
 // How the estimated errors of settings with different numbers of bins compare with the true ones:
 // the least and the greatest ratio of estimated to true error. Zeros where there are none.

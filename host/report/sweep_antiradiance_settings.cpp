@@ -33,14 +33,16 @@ AntiradianceSettings named(AntiradianceSettings one, const std::string& series) 
 
 }  // namespace
 
-std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildOptions& build) {
+std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildOptions& build,
+                                                        bool alone) {
+    const bool few = quick || !alone;  // of each knob
     std::vector<AntiradianceSettings> out;
     const auto add = [&](AntiradianceSettings one, const std::string& series) {
         out.push_back(named(std::move(one), series));
     };
     AntiradianceSettings base;
-    base.options.bins = quick ? 64 : 128;
-    base.options.elements.wished = quick ? 1000 : 8192;
+    base.options.bins = few ? 64 : 128;
+    base.options.elements.wished = few ? 1000 : 8192;
     base.options.emitters.shadow_size = 1024;
     base.options.build = build;
     const auto bins = [](AntiradianceSettings& to, int n) { to.options.bins = n; };
@@ -49,8 +51,8 @@ std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildO
     };
     const auto steps = [](AntiradianceSettings& to, int n) { to.options.steps = n; };
     using Values = std::vector<int>;
-    vary(base, "bins", quick ? Values{32, 64, 128} : Values{64, 128, 208, 512, 1024}, bins, add);
-    vary(base, "elements", quick ? Values{250, 1000} : Values{500, 2000, 8192, 32768}, elements,
+    vary(base, "bins", few ? Values{32, 64, 128} : Values{64, 128, 208, 512, 1024}, bins, add);
+    vary(base, "elements", few ? Values{250, 1000} : Values{500, 2000, 8192, 32768}, elements,
          add);
     vary(
         base, "iteration",
@@ -58,23 +60,24 @@ std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildO
         [](AntiradianceSettings& to, Iteration kind) { to.options.iteration = kind; }, add);
     AntiradianceSettings symmetric = base;
     symmetric.options.iteration = Iteration::symmetric;
-    vary(symmetric, "steps", quick ? Values{1, 4, 0} : Values{1, 2, 4, 8, 16, 0}, steps, add);
+    vary(symmetric, "steps", few ? Values{1, 4, 0} : Values{1, 2, 4, 8, 16, 0}, steps, add);
     vary(
         base, "spread", std::vector<Spread>{Spread::none, Spread::precise},
         [](AntiradianceSettings& to, Spread kind) { to.options.links.spread = kind; }, add);
     vary(
         base, "bin-share",
-        quick ? std::vector<double>{1.0, 0.5} : std::vector<double>{2.0, 1.0, 0.5, 0.25},
+        few ? std::vector<double>{1.0, 0.5} : std::vector<double>{2.0, 1.0, 0.5, 0.25},
         [](AntiradianceSettings& to, double share) { to.options.links.bin_share = share; }, add);
     vary(
         base, "storage", std::vector<Storage>{Storage::half, Storage::full},
         [](AntiradianceSettings& to, Storage kind) { to.options.build.storage = kind; }, add);
     if (quick) return out;
-    // Together. Rows of many elements with many bins would fill the memory of most devices.
-    constexpr int most_numbers = 1 << 23;
-    for (const int m : {64, 128, 208, 512})
-        for (const int n : {2000, 8192, 32768})
-            for (const int k : {4, 0}) {
+    // Together. Rows of many elements with many bins would fill the memory of most devices, and
+    // take longer than what other systems are compared at.
+    const int most_numbers = alone ? 1 << 23 : 1 << 20;
+    for (const int m : alone ? Values{64, 128, 208, 512} : Values{64, 128, 256})
+        for (const int n : alone ? Values{2000, 8192, 32768} : Values{500, 2000, 8192})
+            for (const int k : alone ? Values{4, 0} : Values{4, 8, 0}) {
                 if (m * n > most_numbers) continue;
                 AntiradianceSettings one = base;
                 bins(one, m);

@@ -125,8 +125,12 @@ private:
         const cl::Device device = setup_.queue.getInfo<CL_QUEUE_DEVICE>();
         const DeviceScene scene(context, device, setup_.scene);
         const Programs programs(context, device);
-        const PictureTask task{setup_, camera_,  options_.width, options_.height,
-                               scene,  programs, out_.truths};
+        // Beside each other systems should not differ in direct light. An environment has many
+        // maps.
+        const bool alone = out_.methods.size() == 1;
+        const int shadow_size = alone || setup_.scene.environment ? 1024 : 2048;
+        const PictureTask task{setup_,   camera_,     options_.width, options_.height, scene,
+                               programs, out_.truths, alone,          shadow_size};
         std::vector<PictureMethod> methods;
         std::vector<SweepSetting> settings;
         struct Place {
