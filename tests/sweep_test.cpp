@@ -198,7 +198,16 @@ TEST_F(SmallSweep, WritesFilesThatStandAlone) {
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
     if (!why.empty()) GTEST_SKIP() << why;
     EXPECT_NE(page.find("<svg"), std::string::npos);
-    EXPECT_NE(text(out.path() / "error-full.svg").find("</svg>"), std::string::npos);
+    const std::string plot = text(out.path() / "error-full.svg");
+    EXPECT_NE(plot.find("</svg>"), std::string::npos);
+    EXPECT_EQ(plot.find("left out"), std::string::npos);
+    // A setting that diverged does not press the others to the floor.
+    Sweep diverged = made();
+    diverged.points.back().error[all_light] = 1e36;
+    std::string reason;
+    const std::string beside = error_plot(diverged, all_light, out.path(), reason);
+    EXPECT_NE(beside.find("1 above 1000 % left out"), std::string::npos) << reason;
+    EXPECT_EQ(beside.find("10000000"), std::string::npos);
 }
 
 TEST_F(SmallSweep, ComparesMathAndStorage) {
