@@ -25,13 +25,17 @@ PlanWish wish_of(const RenderFlags& flags) {
     return out;
 }
 
-// Emitters keep what flags say of them; the plan only says whether anything is in their light.
+// Emitters keep what flags say of them.
 void take_settings(RenderFlags& flags, const Plan& plan) {
     flags.method = name_of(plan.method);
     if (flags.no_direct && plan.method == Method::dynamic_transfer)
         throw Error("render: --no-direct goes not with --method transfer, which the plan takes");
     const bool shadows = plan.on(Effect::direct_shadows);
     flags.options.emitters.shadows = shadows;
+    if (flags.options.emitters.shadow_size == EmitterOptions().shadow_size)
+        flags.options.emitters.shadow_size = plan.picture.emitters.shadow_size;
+    if (flags.options.emitters.area_samples == EmitterOptions().area_samples)
+        flags.options.emitters.area_samples = plan.picture.emitters.area_samples;
     flags.atlas.bake.emitters.shadows = shadows;
     switch (plan.method) {
         case Method::direct:

@@ -140,6 +140,25 @@ double unknown_last(const std::optional<double>& error) {
     return error ? *error : std::numeric_limits<double>::max();
 }
 
+// What is left of the time goes to the edges of direct shadows: finer maps of spots and directions,
+// more points on emissive surfaces.
+void spend_rest(const cl::Device& device, Plan& plan, double milliseconds) {
+    if (plan.method == Method::second_order) return;  // its VPLs are placed through these maps
+    const auto try_with = [&](auto&& change) {
+        Plan finer = plan;
+        for (EmitterOptions* options :
+             {&finer.picture.emitters, &finer.second_order.emitters, &finer.antiradiance.emitters})
+            change(*options);
+        finer.transfer_view.picture = finer.picture;
+        finer.cost = cost_of(device, finer);
+        const double time = plan.wish.animated ? finer.cost.frame_ms : finer.cost.total_ms();
+        if (time <= milliseconds) plan = std::move(finer);
+    };
+    for (const int size : {1024, 2048})
+        try_with([&](EmitterOptions& options) { options.shadow_size = size; });
+    try_with([](EmitterOptions& options) { options.area_samples = 64; });
+}
+
 }  // namespace
 
 const char* name_of(Method method) {
@@ -210,6 +229,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
     const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), better);
 
     plan = best.plan;
+    if (wish.seconds || !wish.error) spend_rest(device, plan, milliseconds);
     plan.why = choice.why;
     plan.error = best.error;
     if (best.error) plan.error_ground = std::string("measured in ") + name_of(kind) + " scenes";
