@@ -40,7 +40,8 @@ TEST_F(GlProgram, GivesThePictureOfTheOpenClRasteriser) {
     for (const std::string name : {"box", "cornell", "corridor"}) {
         const std::string scene = make(name);
         for (const std::string by : {"cl", "gl"})
-            ASSERT_EQ(run("render " + scene + " --size 160x120 --full --quiet --gbuffer " + by +
+            ASSERT_EQ(run("render " + scene +
+                          " --method second-order --size 160x120 --full --quiet --gbuffer " + by +
                           " -o " + file(by + ".exr").string())
                           .code,
                       0);
@@ -62,7 +63,8 @@ TEST_F(GlProgram, StoresHalvesAsTheOpenClRasteriserDoes) {
     const std::string scene = make("cornell");
     for (const std::string by : {"cl", "gl"}) {
         const Outcome outcome =
-            run("render " + scene + " --size 160x120 --full --quiet --storage half --gbuffer " +
+            run("render " + scene +
+                " --method second-order --size 160x120 --full --quiet --storage half --gbuffer " +
                 by + " -o " + file(by + ".exr").string());
         ASSERT_EQ(outcome.code, 0) << outcome.err;
     }
@@ -77,7 +79,8 @@ TEST_F(GlProgram, FollowsCameraAndLightsAndSaysWhatItUsed) {
     const std::string scene = make("cornell --light spot");
     const auto turning = [&](const std::string& by) {
         const Outcome outcome =
-            run("render " + scene + " --size 64x48 --full --frames 3 --orbit --spin-light " +
+            run("render " + scene +
+                " --method second-order --size 64x48 --full --frames 3 --orbit --spin-light " +
                 "--gbuffer " + by + " --stats " + file(by + ".json").string() + " -o " +
                 file(by + ".exr").string());
         EXPECT_EQ(outcome.code, 0) << outcome.err;
