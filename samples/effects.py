@@ -8,7 +8,8 @@ saving: each scene is rendered by its plan, and with every effect on, for the sa
 what is off, what the plan says that this changes at most, what it does change, and both times.
 race: the error of --method auto after 0.1, 1 and 10 s beside that of the path tracer after the same
 times, against a picture of the path tracer with --truth samples a pixel.
-Times are of a picture with all that is done before it but loading, upload and building kernels.
+Times are of a picture with facts, plan and all that is done before it but loading, upload and
+building kernels.
 SPDX-License-Identifier: MIT
 """
 import argparse
@@ -30,7 +31,7 @@ def run(*command):
 
 def picture_ms(stats):
     """Of what was done before the first picture, and of one picture."""
-    once = 0.0
+    once = stats["plan"]["ms"]
     if "bake" in stats:
         once += stats["bake"]["layout_ms"] + stats["bake"]["bake_ms"]
     if "antiradiance" in stats:
@@ -38,9 +39,9 @@ def picture_ms(stats):
     return once + stats["frame_ms"]["median"]
 
 
-def render(clgi, scene, name, *flags, frames=3):
+def render(clgi, scene, name, *flags):
     """The statistics of a picture by a plan."""
-    run(clgi, "render", scene, "--quiet", "--full", "--size", SIZE, "--frames", frames,
+    run(clgi, "render", scene, "--quiet", "--full", "--size", SIZE,
         "-o", name + ".exr", "--stats", name + ".json", *flags)
     with open(name + ".json") as file:
         return json.load(file)
@@ -71,11 +72,10 @@ def saving(options):
         lean, full = sorted(lean)[len(lean) // 2], sorted(full)[len(full) // 2]
         off = [e["name"] for e in a["plan"]["effects"]
                if not e["on"] and e["ground"] in ("proven", "measured")]
-        # The same method with all effects tells what was left out; another one has its own error.
-        same = render(options.clgi, scene, name + "-same", *wish, "--with", "all", frames=1) \
-            if a["method"] == b["method"] else None
+        # The same method with the same settings and all effects tells what was left out.
+        same = a["method"] == b["method"] and a["plan"]["settings"] == b["plan"]["settings"]
         changed = percent(difference(options.clgi, name + "-plan", name + "-all")) \
-            if same else "another method"
+            if same else "other settings"
         print(f"| {os.path.basename(name)} | {a['method']}, {b['method']} | {', '.join(off) or 'nothing'} "
               f"| {percent(a['plan']['bound'] or 0)} | {changed} | {lean:.1f} | {full:.1f} "
               f"| {full / lean:.1f} |", flush=True)

@@ -21,6 +21,7 @@ SceneFacts everything() {
     out.surfaces.mean_albedo = {0.5, 0.2, 0.1};
     out.surfaces.largest_albedo = 0.5;
     out.surfaces.gloss = 0.1;
+    out.surfaces.glossy_area = 0.5;
     out.surfaces.textures = out.surfaces.cutouts = true;
     out.motion.geometry = true;
     return out;
@@ -65,7 +66,7 @@ TEST(Effects, AreOffWhereTheSceneHasNothingOfThem) {
         {Effect::spot_light, [](SceneFacts& f) { f.lights.spots = 0; }},
         {Effect::directional_light, [](SceneFacts& f) { f.lights.directional = 0; }},
         {Effect::area_light, [](SceneFacts& f) { f.lights.emissive_power = 0.0; }},
-        {Effect::gloss, [](SceneFacts& f) { f.surfaces.gloss = 0.0; }},
+        {Effect::gloss, [](SceneFacts& f) { f.surfaces.glossy_area = 0.0; }},
         {Effect::textures, [](SceneFacts& f) { f.surfaces.textures = false; }},
         {Effect::cutouts, [](SceneFacts& f) { f.surfaces.cutouts = false; }},
         {Effect::moving_geometry, [](SceneFacts& f) { f.motion.geometry = false; }},
@@ -125,12 +126,11 @@ TEST(Effects, AreOffWhereProofsSayThatTheyChangeNothing) {
     }
 }
 
-// The brightest channel, 0.5, times the share of directions that end on surfaces: q = 0.1. All
-// bounces together are 1 / (1 - q) of the first one, the further ones q / (1 - q), and the margin
-// is two.
+// Surfaces reflect q = 0.1 at most. All bounces together are 1 / (1 - q) of the first one, the
+// further ones q / (1 - q), and the margin is two.
 TEST(Effects, AreLeftOutWhereAProbeBoundsThem) {
     SceneFacts facts = everything();
-    facts.openness = 0.8;
+    facts.surfaces.largest_albedo = 0.1;
     ProbeFacts probe;
     probe.first_bounce = 0.018;
     EffectChoices choices = choose_effects(facts, 0.01, probe);
@@ -148,8 +148,7 @@ TEST(Effects, AreLeftOutWhereAProbeBoundsThem) {
     expect_choice(choices, Effect::indirect_occlusion, false, Ground::measured);
     EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.04, 1e-12);
 
-    // What rays do not know well counts twice: q = 0.2.
-    facts.openness_error = 0.1;
+    facts.surfaces.largest_albedo = 0.2;
     choices = choose_effects(facts, 0.05, probe);
     EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.045, 1e-12);
     // A camera that sees nothing lit says nothing.

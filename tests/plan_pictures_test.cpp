@@ -226,6 +226,35 @@ std::vector<Whole> wholes() {
     out.push_back({Effect::environment_shadows, cellar,
                    test::camera_at({0.1, 0.8, 0.3}, {0, 0, 0}, 0.5f), 0.05});
 
+    // A room with a small window: the sky comes in through it alone, by any method.
+    Scene window = test::plain_scene({0.0f, 0.0f, 0.0f});
+    for (const double z : {-1.0, 1.0})  // two walls, of which one has the window
+        for (const double side : {-1.0, 1.0})
+            test::add_box(window, {side > 0 ? 0.3 : -1.1, -0.1, z - 0.1},
+                          {side > 0 ? 1.1 : (z > 0 ? -0.3 : 0.3), 1.1, z + 0.1}, 1);
+    test::add_box(window, {-1.1, -0.1, -1.1}, {1.1, 0.0, 1.1}, 1);
+    test::add_box(window, {-1.1, 1.0, -1.1}, {1.1, 1.1, 1.1}, 1);
+    for (const double x : {-1.05, 1.05})
+        test::add_box(window, {x - 0.05, 0, -1}, {x + 0.05, 1, 1}, 1);
+    Material floor;
+    floor.base_color = {0.6f, 0.5f, 0.2f, 1.0f};
+    test::add_quad(window, {glm::dvec3(-1, 0.01, 1), {1, 0.01, 1}, {1, 0.01, -1}, {-1, 0.01, -1}},
+                   test::add_material(window, floor));
+    window.environment = Environment();
+    out.push_back({Effect::environment_shadows, window,
+                   test::camera_at({0.1, 0.8, -0.3}, {0, 0, -0.5}, 0.5f), 0.08});
+
+    // Leaves that are all hole under a sky.
+    Scene leaves = test::plain_scene({0.6f, 0.5f, 0.2f});
+    test::add_floor(leaves, 1.0);
+    Material gap;
+    gap.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 0.1f);
+    gap.alpha_mode = AlphaMode::mask;
+    gap.double_sided = true;
+    test::add_floor(leaves, 1.5, 0.3, test::add_material(leaves, gap));
+    leaves.environment = Environment();
+    out.push_back({Effect::cutouts, leaves, down, 0.12});
+
     // The ceiling over a floor that a spot lights.
     Scene ceiling = test::plain_scene({0.7f, 0.5f, 0.3f});
     test::add_box(ceiling, {-1, 0, -1}, {1, 2, 1}, -1);
@@ -314,6 +343,10 @@ TEST(Plan, SaysWhatIsWrongWithAWish) {
     refused([](PlanWish& w) { w.tolerance = NAN; });
     refused([](PlanWish& w) { w.seconds = 0.0; });
     refused([](PlanWish& w) { w.error = -1.0; });
+    refused([](PlanWish& w) {
+        w.with = {Effect::further_bounces};
+        w.without = {Effect::first_bounce};
+    });
     refused([](PlanWish& w) {
         w.with = {Effect::gloss};
         w.without = {Effect::gloss};

@@ -296,8 +296,10 @@ void add_render(CLI::App& app) {
         flags->second_order_only =
             given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates"});
         flags->second_order_asked = flags->second_order_only;
-        for (const std::string& flag : given(*command, {"--vpls", "--environment-lights"}))
+        for (const std::string& flag : given(*command, {"--vpls", "--environment-lights", "--no-direct"}))
             flags->second_order_asked.push_back(flag);
+        flags->shadow_size_given = command->count("--shadow-size") > 0;
+        flags->area_samples_given = command->count("--area-samples") > 0;
         flags->asked = given(*command, {"--target-error", "--time-budget"});
         flags->auto_only = given(*command, {"--tolerance", "--with", "--without"});
         flags->atlas_only = given(*command, {"--bounces", "--atlas-size", "--hemicube-size",

@@ -21,6 +21,8 @@ PlanWish wish_of(const RenderFlags& flags) {
     if (!flags.ask.time_budget.empty())
         out.seconds = 1e-3 * parse_milliseconds("render", "--time-budget", flags.ask.time_budget);
     out.animated = flags.fps.has_value();
+    out.lights_change = flags.spin_light;
+    out.camera_moves = flags.orbit;
     out.build = build_of(flags.device);
     return out;
 }
@@ -28,21 +30,17 @@ PlanWish wish_of(const RenderFlags& flags) {
 // Emitters keep what flags say of them.
 void take_settings(RenderFlags& flags, const Plan& plan) {
     flags.method = name_of(plan.method);
-    if (flags.no_direct && plan.method == Method::dynamic_transfer)
-        throw Error("render: --no-direct goes not with --method transfer, which the plan takes");
-    const bool shadows = plan.on(Effect::direct_shadows);
-    flags.options.emitters.shadows = shadows;
-    if (flags.options.emitters.shadow_size == EmitterOptions().shadow_size)
-        flags.options.emitters.shadow_size = plan.picture.emitters.shadow_size;
-    if (flags.options.emitters.area_samples == EmitterOptions().area_samples)
-        flags.options.emitters.area_samples = plan.picture.emitters.area_samples;
-    flags.atlas.bake.emitters.shadows = shadows;
+    EmitterOptions& emitters = flags.options.emitters;
+    emitters.shadows = plan.picture.emitters.shadows;
+    if (!flags.shadow_size_given) emitters.shadow_size = plan.picture.emitters.shadow_size;
+    if (!flags.area_samples_given) emitters.area_samples = plan.picture.emitters.area_samples;
+    flags.atlas.bake.emitters.shadows = plan.light_atlas.emitters.shadows;
     switch (plan.method) {
         case Method::direct:
             break;
         case Method::second_order:
-            flags.options.emitters.shadows = true;  // VPLs are placed through the lights' views
-            flags.options.emitters.vpls = plan.second_order.emitters.vpls;
+            emitters.shadows = plan.second_order.emitters.shadows;
+            emitters.vpls = plan.second_order.emitters.vpls;
             flags.options.negative_vpls = plan.second_order.negative_vpls;
             break;
         case Method::light_atlas:
@@ -73,7 +71,8 @@ std::string unmet(const Plan& plan) {
         out = fmt::format(
             "the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of "
             "--time-budget",
-            plan.cost.total_ms(), 1e3 * *plan.wish.seconds);
+            plan.wish.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
+            1e3 * *plan.wish.seconds);
     if (!plan.meets_error)
         out += fmt::format("{}no method is known to reach the error of {:.3g} % in such scenes",
                            out.empty() ? "" : "; ", 100.0 * *plan.wish.error);

@@ -79,17 +79,23 @@ PlanCost second_order(const Plan& plan) {
     return {0.0, frame.ms, 1e-6 * frame.bytes};
 }
 
+// Of what is done before the first picture: once, whenever things move, and for each picture.
+PlanCost added(const Plan& plan, const Amount& once, const Amount& moved, const Amount& picture) {
+    PlanCost out{once.ms, picture.ms, 1e-6 * (once.bytes + moved.bytes + picture.bytes)};
+    (plan.wish.animated ? out.frame_ms : out.once_ms) += moved.ms;
+    return out;
+}
+
 PlanCost light_atlas(const Plan& plan) {
     const double vpls = plan.vpls.count;
     const double texels = 0.75 * plan.layout.size * plan.layout.size;
-    Amount once{40.0 + vpls * (0.15 + 5e-5 * triangles(plan)) + 8e-5 * vpls * vpls +
-                    1.3e-6 * vpls * texels + 2e-3 * triangles(plan),
-                2.0 * vpls * vpls + texels * (vpls / 8.0 + 150.0)};
+    const Amount bake{40.0 + vpls * (0.15 + 5e-5 * triangles(plan)) + 8e-5 * vpls * vpls +
+                          1.3e-6 * vpls * texels + 2e-3 * triangles(plan),
+                      2.0 * vpls * vpls + texels * (vpls / 8.0 + 150.0)};
     const bool environment = plan.on(Effect::environment_light);
-    once += shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
-                        plan.light_atlas.emitters.shadows);
-    const Amount frame = picture(plan, environment);
-    return {once.ms, frame.ms, 1e-6 * (once.bytes + frame.bytes)};
+    const Amount maps = shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
+                                    plan.light_atlas.emitters.shadows);
+    return added(plan, bake, maps, picture(plan, environment));
 }
 
 PlanCost antiradiance(const Plan& plan) {
@@ -97,35 +103,33 @@ PlanCost antiradiance(const Plan& plan) {
     const double wished = static_cast<double>(options.elements.wished);
     const double leaves = std::max(wished, 0.6 * triangles(plan));
     const double links = 2.2 * leaves * options.bins * std::pow(leaves / 1000.0, -0.2);
-    const double steps = options.steps > 0                  ? options.steps
-                         : plan.on(Effect::further_bounces) ? 20.0
-                                                            : 2.0;
+    const double steps = options.steps > 0 ? options.steps : 20.0;
     const Lamps lamps = lamps_of(plan, options.emitters, false);
-    Amount once{1.7e-4 * links + 2e-3 * leaves, 16.0 * links};
+    const Amount linking{1.7e-4 * links + 2e-3 * leaves, 16.0 * links};
     // Rows, of antiradiance and of intensities, where something may lie between.
     const bool rows = plan.on(Effect::indirect_occlusion);
     const double step = links * (rows ? 2.4e-6 : 1.6e-6);
-    once += {steps * step + 1e-4 * leaves * lamps.emitters,
-             leaves * options.bins * 12.0 * (rows ? 2.0 : 1.0)};
+    Amount exchange{steps * step + 1e-4 * leaves * lamps.emitters,
+                    leaves * options.bins * 12.0 * (rows ? 2.0 : 1.0)};
     if (plan.on(Effect::gloss))
-        once +=
+        exchange +=
             {steps * plan.facts.surfaces.glossy_area * leaves * options.bins * options.bins * 1e-7,
              plan.facts.surfaces.glossy_area * leaves * options.bins * 24.0};
-    once += shadow_maps(plan, lamps, options.emitters.shadows);
-    const Amount frame = picture(plan, false);
-    return {once.ms, frame.ms, 1e-6 * (once.bytes + frame.bytes)};
+    exchange += shadow_maps(plan, lamps, options.emitters.shadows);
+    if (plan.wish.animated && plan.on(Effect::moving_geometry))
+        exchange += {2.8e-5 * links, 8.0 * links};  // links follow
+    return added(plan, linking, exchange, picture(plan, false));
 }
 
 PlanCost dynamic_transfer(const Plan& plan) {
     const double receivers = 0.6 * triangles(plan);
     const double terms = 25.0;
-    Amount once{2.0, receivers * 40.0};
+    Amount vectors{2.0, receivers * 40.0};
     if (plan.transfer.shadowed) {
         const double masks = receivers * triangles(plan) * 2e-6 + receivers * 8e-3;
-        once += {masks * (1 + plan.transfer.bounces), receivers * (terms * 4.0 + 128.0)};
+        vectors += {masks * (1 + plan.transfer.bounces), receivers * (terms * 4.0 + 128.0)};
     }
-    const Amount frame = picture(plan, false);
-    return {once.ms, frame.ms, 1e-6 * (once.bytes + frame.bytes)};
+    return added(plan, {}, vectors, picture(plan, false));
 }
 
 }  // namespace

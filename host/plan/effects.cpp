@@ -148,7 +148,7 @@ EffectChoices choose_effects(const SceneFacts& facts, double tolerance,
     put(Effect::first_bounce, first);
     put(Effect::further_bounces, further_bounces(facts, tolerance, first, probe));
     put(Effect::indirect_occlusion, indirect_occlusion(facts, first));
-    put(Effect::gloss, has(facts.surfaces.gloss > 0.0, "glossy surfaces"));
+    put(Effect::gloss, has(facts.surfaces.glossy_area > 0.0, "glossy surfaces"));
     put(Effect::textures, has(facts.surfaces.textures, "textures of more than one colour"));
     put(Effect::cutouts, has(facts.surfaces.cutouts, "alpha masks with holes"));
     put(Effect::moving_geometry, has(facts.motion.geometry, "geometry that moves"));

@@ -5,6 +5,7 @@
 #include <clgi/error.hpp>
 #include <limits>
 
+#include "plan/choice.hpp"
 #include "plan/rungs.hpp"
 
 namespace clgi {
@@ -12,12 +13,6 @@ namespace {
 
 constexpr double default_seconds = 1.0;        // of a picture
 constexpr double default_frame_seconds = 0.1;  // of one of an animation
-constexpr double mostly = 0.5;
-// Beyond so many triangles, links for all poses take minutes.
-constexpr std::size_t most_moving_triangles = 30000;
-// And glossy leaves as many as triangles take seconds a picture.
-constexpr std::size_t most_glossy_triangles = 20000;
-
 struct Named {
     Method method;
     const char* name;
@@ -28,47 +23,15 @@ constexpr Named names[] = {{Method::direct, "direct"},
                            {Method::antiradiance, "antiradiance"},
                            {Method::dynamic_transfer, "transfer"}};
 
-bool lamps(const Plan& plan) {
-    return plan.on(Effect::point_light) || plan.on(Effect::spot_light) ||
-           plan.on(Effect::directional_light) || plan.on(Effect::area_light);
-}
-
-struct Choice {
-    std::vector<Method> methods;
-    std::string why;
-};
-
-// The methods that bring the effects of a plan.
-Choice methods_for(const Plan& plan) {
-    if (plan.wish.method) return {{*plan.wish.method}, "asked for"};
-    const bool sky = plan.on(Effect::environment_light);
-    if (plan.facts.surfaces.triangles == 0) return {{Method::direct}, "there are no surfaces"};
-    if (!plan.on(Effect::first_bounce)) {
-        if (!sky) return {{Method::direct}, "there is no indirect light"};
-        return {{Method::dynamic_transfer, Method::direct},
-                "the environment is the only light that "
-                "does not come from a point"};
-    }
-    if (plan.wish.animated) {
-        if (sky && !lamps(plan) && plan.facts.openness > mostly)
-            return {{Method::dynamic_transfer}, "the environment lights what moves"};
-        if (plan.facts.surfaces.triangles <= most_moving_triangles)
-            return {{Method::antiradiance, Method::second_order}, "light follows what moves"};
-        return {{Method::second_order}, "nothing is made before, and there are many triangles"};
-    }
-    if (sky && !lamps(plan) && plan.facts.openness > mostly)
-        return {{Method::dynamic_transfer, Method::antiradiance},
-                "the environment is the light, and most of it is seen"};
-    if (plan.on(Effect::gloss) && plan.facts.surfaces.triangles <= most_glossy_triangles)
-        return {{Method::antiradiance}, "glossy surfaces reflect indirect light"};
-    return {{Method::second_order, Method::antiradiance, Method::light_atlas},
-            "light goes on between surfaces"};
-}
-
 // Brings the settings to the effects: what is off is switched off.
 void apply_effects(Plan& plan) {
     const BuildOptions& build = plan.wish.build;
-    const bool shadows = plan.on(Effect::direct_shadows);
+    // The sky of these methods is a few directional lights, with shadow maps as others have.
+    const bool sky = plan.method == Method::direct || plan.method == Method::second_order ||
+                     plan.method == Method::light_atlas;
+    const bool shadows =
+        plan.on(Effect::direct_shadows) ||
+        (sky && plan.on(Effect::environment_light) && plan.on(Effect::environment_shadows));
     const auto emitters = [&](EmitterOptions& options) { options.shadows = shadows; };
 
     emitters(plan.picture.emitters);
@@ -136,6 +99,21 @@ struct Candidate {
     std::optional<double> error;
 };
 
+// Direct light of points and directions has no error but that of shadow maps.
+bool is_exact(const Plan& plan) {
+    return plan.method == Method::direct && !plan.on(Effect::first_bounce) &&
+           !plan.on(Effect::area_light) && !plan.on(Effect::environment_light);
+}
+
+// Those that the device has no memory for, unless none remained.
+void drop_too_large(const cl::Device& device, std::vector<Candidate>& candidates) {
+    constexpr double share = 0.8;  // the scene is there as well
+    const double most = 1e-6 * share * device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    const auto large = [&](const Candidate& one) { return one.plan.cost.megabytes > most; };
+    if (std::all_of(candidates.begin(), candidates.end(), large)) return;
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), large), candidates.end());
+}
+
 double unknown_last(const std::optional<double>& error) {
     return error ? *error : std::numeric_limits<double>::max();
 }
@@ -194,17 +172,15 @@ void choose_method(const cl::Device& device, Plan& plan) {
         if (std::find(choice.methods.begin(), choice.methods.end(), rung.method) ==
             choice.methods.end())
             continue;
-        // It places VPLs through shadow maps, so it cannot do without them.
-        if (rung.method == Method::second_order && !plan.wish.method &&
-            !plan.on(Effect::direct_shadows) && plan.on(Effect::first_bounce))
-            continue;
         Candidate one{plan, std::nullopt};
         set(one.plan, rung);
         one.plan.cost = cost_of(device, one.plan);
         const double error = rung.error[static_cast<std::size_t>(kind)];
         if (error > 0.0) one.error = error;
+        if (is_exact(one.plan)) one.error = 0.0;
         candidates.push_back(std::move(one));
     }
+    drop_too_large(device, candidates);
 
     const PlanWish& wish = plan.wish;
     const double milliseconds =
@@ -216,7 +192,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
     const auto right = [&](const Candidate& one) { return one.error && *one.error <= *wish.error; };
 
     // With an error the cheapest that reaches it, within the time if that can be; without one the
-    // most accurate within the time. What nothing reaches is come near to.
+    // most accurate within the time. Where nothing reaches that, the nearest.
     const auto better = [&](const Candidate& a, const Candidate& b) {
         const bool hurried = wish.seconds || !wish.error;
         if (hurried && quick(a) != quick(b)) return quick(a);
@@ -234,7 +210,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
     plan.error = best.error;
     if (best.error) plan.error_ground = std::string("measured in ") + name_of(kind) + " scenes";
     plan.meets_time = !wish.seconds || quick(best);
-    plan.meets_error = !wish.error || right(best);
+    plan.meets_error = !wish.error || !best.error || right(best);
 }
 
 }  // namespace clgi

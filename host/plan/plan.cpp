@@ -26,6 +26,12 @@ void check(const PlanWish& wish) {
          "seconds is not above 0 or not finite");
     need(!wish.error || (*wish.error > 0.0 && std::isfinite(*wish.error)),
          "error is not above 0 or not finite");
+    const auto asked = [](const std::vector<Effect>& list, Effect effect) {
+        return std::find(list.begin(), list.end(), effect) != list.end();
+    };
+    for (const Effect effect : {Effect::further_bounces, Effect::indirect_occlusion})
+        need(!asked(wish.with, effect) || !asked(wish.without, Effect::first_bounce),
+             std::string(name_of(effect)) + " is with, but its first-bounce is without");
     for (const Effect effect : wish.with)
         need(std::find(wish.without.begin(), wish.without.end(), effect) == wish.without.end(),
              std::string(name_of(effect)) + " is both with and without");
@@ -75,8 +81,9 @@ Plan planned(const cl::Device& device, const SceneFacts& facts, const PlanWish& 
     Plan plan;
     plan.wish = wish;
     plan.facts = facts;
+    if (wish.lights_change) plan.facts.proof.lights_open = false;
     plan.probe = probed;
-    plan.effects = choose_effects(facts, wish.tolerance, probed);
+    plan.effects = choose_effects(plan.facts, wish.tolerance, probed);
     overrule(plan.effects, wish);
     plan.bound = largest_bound(plan.effects);
     choose_method(device, plan);
@@ -98,7 +105,8 @@ Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Sc
     const SceneFacts facts = scene_facts(scene);
     std::optional<ProbeFacts> probed;
     const auto first = static_cast<std::size_t>(Effect::first_bounce);
-    if (choose_effects(facts, wish.tolerance)[first].on && worth_probing(facts)) {
+    const bool one_picture = !wish.animated && !wish.lights_change && !wish.camera_moves;
+    if (one_picture && choose_effects(facts, wish.tolerance)[first].on && worth_probing(facts)) {
         const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device, scene);
         probed = probe(queue, programs, uploaded, camera, wish);
     }

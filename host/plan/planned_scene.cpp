@@ -1,5 +1,6 @@
 // What a plan renders, as a scene: the light, gloss, textures, holes and motion whose effects are
-// off are not in it, so no kernel, buffer or pass for them is made. SPDX-License-Identifier: MIT
+// off are not in it, so no kernel, buffer or pass for them is made.
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/plan/plan.hpp>
 
@@ -10,7 +11,7 @@ namespace clgi {
 namespace {
 
 bool kept(const Light& light, const Plan& plan) {
-    if (light.intensity == glm::vec3(0.0f)) return false;
+    if (light.intensity == glm::vec3(0.0f)) return plan.wish.lights_change;
     switch (light.kind) {
         case Light::Kind::point:
             return plan.on(Effect::point_light);
@@ -83,6 +84,17 @@ void drop_textures(Material& material, const Plan& plan, const MeanColours& colo
     material.base_texture = TextureSlot();
 }
 
+// Cameras go on moving, and a clip that is asked for stays one.
+void drop_motion(Scene& scene, const Plan& plan) {
+    if (!scene.animation) return;
+    Animation& animation = *scene.animation;
+    if (!plan.on(Effect::moving_geometry)) animation.ranges.clear();
+    if (!plan.on(Effect::moving_lights)) animation.lights.clear();
+    const bool moves = !animation.ranges.empty() || !animation.lights.empty() ||
+                       !animation.cameras.empty() || plan.wish.animated;
+    if (!moves) scene.animation.reset();
+}
+
 }  // namespace
 
 Scene planned_scene(const Scene& scene, const Plan& plan) {
@@ -99,8 +111,7 @@ Scene planned_scene(const Scene& scene, const Plan& plan) {
         if (!plan.on(Effect::cutouts)) material.alpha_mode = AlphaMode::opaque;
         drop_textures(material, plan, colours);
     }
-    const bool moves = plan.on(Effect::moving_geometry) || plan.on(Effect::moving_lights);
-    if (!moves && out.animation && out.animation->cameras.empty()) out.animation.reset();
+    drop_motion(out, plan);
     return out;
 }
 

@@ -13,7 +13,7 @@ namespace clgi {
 bool worth_probing(const SceneFacts& facts);
 
 // One picture with direct light alone, and one with a bounce that nothing shadows.
-ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs,
-                 const DeviceScene& scene, const Camera& camera, const PlanWish& wish);
+ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
+                 const Camera& camera, const PlanWish& wish);
 
 }  // namespace clgi

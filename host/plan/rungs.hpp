@@ -1,5 +1,6 @@
 // Settings of each method that are on its front of time against error, and the error that they
-// reach on scenes of a kind. SPDX-License-Identifier: MIT
+// reach on scenes of a kind.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/plan/plan.hpp>

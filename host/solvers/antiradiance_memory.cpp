@@ -86,7 +86,7 @@ BufferTable AntiradianceBuffers::table(std::size_t link_count, std::uint32_t row
     points.stride = static_cast<std::uint32_t>(plane_stride(point_count));
     point_params = {links.leaf_count, leaf_samples, points.stride, made.first_back};
     const std::size_t narrow = options.build.storage == Storage::half ? 2 : 1;
-    const std::size_t intensities = std::max<std::size_t>(row_count, 1) * m * color / narrow;
+    const std::size_t intensities = row_count * m * color / narrow;
     BufferTable t(antiradiance_owner);
     emitters.add_to(t);
     if (emitters.casts_shadows()) add_raster_lists(t, lists, scene);

@@ -71,7 +71,7 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
     int bins() const { return bins_; }
-    std::size_t intensity_bytes(std::size_t rows) const;  // of one at least
+    std::size_t intensity_bytes(std::size_t rows) const;
 
     // Inner elements of `list` [params.first + params.count] uint, whose parents are done.
     cl::Event global(const cl::CommandQueue& queue, const ElementParams& params,

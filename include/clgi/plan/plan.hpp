@@ -40,6 +40,9 @@ struct PlanWish {
     // The scene moves from picture to picture, as its animation says: what is done before may not
     // depend on where things are.
     bool animated = false;
+    bool lights_change = false;  // set_light() will be called: nothing is proven of lights, and
+                                 // dark ones stay
+    bool camera_moves = false;   // no probe: it would hold for one picture alone
     std::vector<Effect> with, without;  // overrule what is decided; without first
     std::optional<Method> method;       // overrules the choice
     BuildOptions build;

@@ -9,8 +9,9 @@
 
 namespace clgi {
 
-// Owns its buffers, works on the given queue, never finishes it. The device scene must outlive this
-// object. One thread at a time.
+// Pictures of geometry that stands still; what moves is for the method's own solver, with the
+// settings of the plan. Owns its buffers, works on the given queue, never finishes it. The device
+// scene must outlive this object. One thread at a time.
 class CLGI_API PlannedRenderer {
 public:
     // Builds kernels and allocates, for what the plan has and nothing else. scene: planned_scene(),

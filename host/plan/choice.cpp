@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "plan/choice.hpp"
+
+#include <algorithm>
+
+namespace clgi {
+namespace {
+
+constexpr double mostly = 0.5;       // of directions in which nothing is seen
+constexpr double noticeable = 0.02;  // of the light that surfaces reflect, as gloss
+constexpr double few_backs = 0.05;   // of the area, double-sided
+// Beyond so many triangles, links for all poses take minutes.
+constexpr std::size_t most_moving_triangles = 30000;
+// And glossy leaves as many as triangles take seconds a picture.
+constexpr std::size_t most_glossy_triangles = 20000;
+
+// Lights that are no environment.
+bool other_lights(const SceneFacts& facts) {
+    const LightFacts& lights = facts.lights;
+    return lights.points + lights.spots + lights.directional > 0 || lights.emissive_power > 0.0;
+}
+
+Choice candidates_for(const Plan& plan) {
+    const SceneFacts& facts = plan.facts;
+    const bool sky = plan.on(Effect::environment_light) && facts.lights.environment;
+    const bool sky_alone = sky && !other_lights(facts) && facts.openness > mostly;
+    if (facts.surfaces.triangles == 0) return {{Method::direct}, "there are no surfaces"};
+    if (!plan.on(Effect::first_bounce)) {
+        if (!sky) return {{Method::direct}, "there is no indirect light"};
+        return {{Method::dynamic_transfer, Method::direct}, "there is the sky's light alone"};
+    }
+    if (plan.wish.animated) {
+        if (sky_alone) return {{Method::dynamic_transfer}, "the environment lights what moves"};
+        if (facts.surfaces.triangles <= most_moving_triangles)
+            return {{Method::antiradiance, Method::second_order}, "light follows what moves"};
+        return {{Method::second_order}, "nothing is made before, and there are many triangles"};
+    }
+    if (sky_alone)
+        return {{Method::dynamic_transfer, Method::antiradiance},
+                "the environment is the light, and most of it is seen"};
+    if (facts.surfaces.gloss > noticeable && plan.on(Effect::gloss) &&
+        facts.surfaces.triangles <= most_glossy_triangles)
+        return {{Method::antiradiance}, "glossy surfaces reflect indirect light"};
+    return {{Method::second_order, Method::antiradiance, Method::light_atlas},
+            "light goes on between surfaces"};
+}
+
+bool left_out(const Plan& plan, Effect effect) {
+    const EffectChoice& choice = plan.effects[static_cast<std::size_t>(effect)];
+    return !choice.on && choice.ground == Ground::wished;
+}
+
+// Whether a method can do what is on, and without what is off.
+bool suits(Method method, const Plan& plan) {
+    const bool indirect = plan.on(Effect::first_bounce);
+    switch (method) {
+        case Method::direct:
+            return true;
+        case Method::second_order:  // places VPLs through the shadow maps
+            return !indirect || plan.on(Effect::direct_shadows) || !other_lights(plan.facts);
+        case Method::light_atlas:  // has one light for both sides of a surface
+            return plan.facts.surfaces.double_sided_area <= few_backs &&
+                   !left_out(plan, Effect::indirect_occlusion);
+        case Method::antiradiance:  // masked surfaces block as a whole; all bounces come together
+            return !plan.on(Effect::cutouts) && !left_out(plan, Effect::indirect_occlusion) &&
+                   (!indirect || plan.on(Effect::further_bounces));
+        case Method::dynamic_transfer:
+            return !plan.on(Effect::cutouts);
+    }
+    return true;
+}
+
+}  // namespace
+
+Choice methods_for(const Plan& plan) {
+    if (plan.wish.method) return {{*plan.wish.method}, "asked for"};
+    Choice out = candidates_for(plan);
+    std::vector<Method> suitable;
+    for (const Method method : out.methods)
+        if (suits(method, plan)) suitable.push_back(method);
+    // What no candidate can do, one of the others may.
+    const bool indirect = plan.on(Effect::first_bounce);
+    if (suitable.empty() && indirect && !plan.wish.animated && suits(Method::light_atlas, plan))
+        suitable = {Method::light_atlas};
+    if (suitable.empty()) suitable = {indirect ? Method::second_order : Method::direct};
+    out.methods = std::move(suitable);
+    return out;
+}
+
+}  // namespace clgi
