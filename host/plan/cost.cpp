@@ -89,7 +89,7 @@ PlanCost added(const Plan& plan, const Amount& once, const Amount& moved, const 
 PlanCost light_atlas(const Plan& plan) {
     const double vpls = plan.vpls.count;
     const double texels = 0.75 * plan.layout.size * plan.layout.size;
-    const Amount bake{40.0 + vpls * (0.15 + 5e-5 * triangles(plan)) + 8e-5 * vpls * vpls +
+    const Amount bake{40.0 + vpls * (0.25 + 4e-5 * triangles(plan)) + 3e-5 * vpls * vpls +
                           1.3e-6 * vpls * texels + 2e-3 * triangles(plan),
                       2.0 * vpls * vpls + texels * (vpls / 8.0 + 150.0)};
     const bool environment = plan.on(Effect::environment_light);
@@ -101,14 +101,18 @@ PlanCost light_atlas(const Plan& plan) {
 PlanCost antiradiance(const Plan& plan) {
     const AntiradianceOptions& options = plan.antiradiance;
     const double wished = static_cast<double>(options.elements.wished);
-    const double leaves = std::max(wished, 0.6 * triangles(plan));
-    const double links = 2.2 * leaves * options.bins * std::pow(leaves / 1000.0, -0.2);
+    // Small triangles are leaves, and each has links of its own to all that is near.
+    const bool fine = triangles(plan) > wished;
+    const double leaves = fine ? wished + triangles(plan) : wished;
+    const double links =
+        leaves * options.bins * (fine ? 3.0 : 2.2 * std::pow(leaves / 1000.0, -0.2));
     const double steps = options.steps > 0 ? options.steps : 20.0;
     const Lamps lamps = lamps_of(plan, options.emitters, false);
-    const Amount linking{1.7e-4 * links + 2e-3 * leaves, 16.0 * links};
+    const Amount linking{2e-4 * links + 2e-3 * leaves, 16.0 * links};
     // Rows, of antiradiance and of intensities, where something may lie between.
     const bool rows = plan.on(Effect::indirect_occlusion);
-    const double step = links * (rows ? 2.4e-6 : 1.6e-6);
+    const double beyond_cache = 1.0 + std::min(links / 5e6, 1.6);
+    const double step = links * (rows ? 2.4e-6 : 1.6e-6) * beyond_cache;
     Amount exchange{steps * step + 1e-4 * leaves * lamps.emitters,
                     leaves * options.bins * 12.0 * (rows ? 2.0 : 1.0)};
     if (plan.on(Effect::gloss))

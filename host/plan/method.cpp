@@ -121,7 +121,6 @@ double unknown_last(const std::optional<double>& error) {
 // What is left of the time goes to the edges of direct shadows: finer maps of spots and directions,
 // more points on emissive surfaces.
 void spend_rest(const cl::Device& device, Plan& plan, double milliseconds) {
-    if (plan.method == Method::second_order) return;  // its VPLs are placed through these maps
     const auto try_with = [&](auto&& change) {
         Plan finer = plan;
         for (EmitterOptions* options :
