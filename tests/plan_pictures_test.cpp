@@ -4,12 +4,10 @@
 #include <clgi/plan/renderer.hpp>
 #include <clgi/reference.hpp>
 #include <cmath>
-#include <functional>
 #include <set>
 
 #include "device.hpp"
 #include "frames.hpp"
-#include "rooms.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -328,60 +326,6 @@ TEST(Plan, KeepsWhatIsTheWholePicture) {
         EXPECT_LT(distance(kept, truth), whole.error * level);
         EXPECT_GT(distance(left, truth), 0.5 * level);
     }
-}
-
-TEST(Plan, SaysWhatIsWrongWithAWish) {
-    const SceneFacts facts = scene_facts(slanted_room());
-    const auto refused = [&](const std::function<void(PlanWish&)>& change) {
-        PlanWish wish;
-        change(wish);
-        EXPECT_THROW(make_plan(test::device().device, facts, wish), Error);
-    };
-    refused([](PlanWish& w) { w.width = 0; });
-    refused([](PlanWish& w) { w.height = 16385; });
-    refused([](PlanWish& w) { w.tolerance = -0.1; });
-    refused([](PlanWish& w) { w.tolerance = NAN; });
-    refused([](PlanWish& w) { w.seconds = 0.0; });
-    refused([](PlanWish& w) { w.error = -1.0; });
-    refused([](PlanWish& w) {
-        w.with = {Effect::further_bounces};
-        w.without = {Effect::first_bounce};
-    });
-    refused([](PlanWish& w) {
-        w.with = {Effect::gloss};
-        w.without = {Effect::gloss};
-    });
-}
-
-// Predicted, not measured.
-TEST(Plan, TakesTheBestWithinATimeAndTheCheapestWithinAnError) {
-    const SceneFacts facts = scene_facts(test::furnished_room(3));
-    const cl::Device& device = test::device().device;
-    double last_ms = 0.0, last_error = 1e9;
-    for (const double seconds : {0.1, 1.0, 10.0, 100.0}) {
-        PlanWish wish;
-        wish.seconds = seconds;
-        const Plan plan = make_plan(device, facts, wish);
-        EXPECT_EQ(plan.meets_time, plan.cost.total_ms() <= 1e3 * seconds);
-        EXPECT_GE(plan.cost.total_ms(), last_ms);
-        ASSERT_TRUE(plan.error);
-        EXPECT_LE(*plan.error, last_error);
-        last_ms = plan.cost.total_ms();
-        last_error = *plan.error;
-
-        PlanWish right;
-        right.error = *plan.error;
-        const Plan cheap = make_plan(device, facts, right);
-        EXPECT_TRUE(cheap.meets_error);
-        EXPECT_LE(cheap.cost.total_ms(), plan.cost.total_ms());
-        EXPECT_LE(*cheap.error, *plan.error);
-    }
-    PlanWish wish;
-    wish.error = 1e-6;
-    EXPECT_FALSE(make_plan(device, facts, wish).meets_error);
-    wish.error.reset();
-    wish.seconds = 1e-6;
-    EXPECT_FALSE(make_plan(device, facts, wish).meets_time);
 }
 
 }  // namespace

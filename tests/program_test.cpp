@@ -32,7 +32,8 @@ TEST_F(Program, RendersEveryProceduralSceneToAFinitePicture) {
         const std::string scene = make(name);
         const fs::path exr = file(name + ".exr");
         const Outcome outcome = run("render " + scene + " -o " + exr.string() + " --png " +
-                                    file(name + ".png").string() + " --size 64x48 --quiet");
+                                    file(name + ".png").string() +
+                                    " --time-budget 0.1s --size 64x48 --quiet");
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         clgi::io::LoadReport report;
         const clgi::io::Image image = clgi::io::load_image(exr, &report);

@@ -16,6 +16,10 @@ void need(bool right, const std::string& what) {
     if (!right) throw Error("plan: " + what);
 }
 
+bool asked(const std::vector<Effect>& list, Effect effect) {
+    return std::find(list.begin(), list.end(), effect) != list.end();
+}
+
 void check(const PlanWish& wish) {
     need(wish.width >= 1 && wish.width <= 16384 && wish.height >= 1 && wish.height <= 16384,
          "width and height are " + std::to_string(wish.width) + " and " +
@@ -26,9 +30,6 @@ void check(const PlanWish& wish) {
          "seconds is not above 0 or not finite");
     need(!wish.error || (*wish.error > 0.0 && std::isfinite(*wish.error)),
          "error is not above 0 or not finite");
-    const auto asked = [](const std::vector<Effect>& list, Effect effect) {
-        return std::find(list.begin(), list.end(), effect) != list.end();
-    };
     for (const Effect effect : {Effect::further_bounces, Effect::indirect_occlusion})
         need(!asked(wish.with, effect) || !asked(wish.without, Effect::first_bounce),
              std::string(name_of(effect)) + " is with, but its first-bounce is without");
@@ -37,7 +38,7 @@ void check(const PlanWish& wish) {
              std::string(name_of(effect)) + " is both with and without");
 }
 
-void overrule(EffectChoices& effects, const PlanWish& wish) {
+void overrule(EffectChoices& effects, const SceneFacts& facts, const PlanWish& wish) {
     const auto set = [&](Effect effect, bool on) {
         EffectChoice& choice = effects[static_cast<std::size_t>(effect)];
         if (choice.on == on) return;
@@ -46,15 +47,17 @@ void overrule(EffectChoices& effects, const PlanWish& wish) {
         choice.why = std::string(on ? "asked for; without: " : "left out by wish; ") + choice.why;
     };
     for (const Effect effect : wish.without) set(effect, false);
-    const auto first = static_cast<std::size_t>(Effect::first_bounce);
-    // What is left of indirect light needs its first bounce.
-    if (!effects[first].on && effects[first].ground == Ground::wished)
-        for (const Effect effect : {Effect::further_bounces, Effect::indirect_occlusion})
-            set(effect, false);
     for (const Effect effect : wish.with) set(effect, true);
-    for (const Effect effect : wish.with)
-        if (effect == Effect::further_bounces || effect == Effect::indirect_occlusion)
-            set(Effect::first_bounce, true);
+    // What is left of indirect light needs its first bounce, and follows where it is asked for.
+    const Effect rest[] = {Effect::further_bounces, Effect::indirect_occlusion};
+    for (const Effect effect : rest)
+        if (asked(wish.with, effect)) set(Effect::first_bounce, true);
+    const EffectChoice& first = effects[static_cast<std::size_t>(Effect::first_bounce)];
+    if (first.ground != Ground::wished) return;
+    for (const Effect effect : rest) {
+        const bool nothing = effect == Effect::indirect_occlusion && facts.proof.surfaces_open;
+        if (!first.on || (!asked(wish.without, effect) && !nothing)) set(effect, first.on);
+    }
 }
 
 // What is left out for the tolerance: indirect light, and its further bounces, which are a part of
@@ -84,7 +87,7 @@ Plan planned(const cl::Device& device, const SceneFacts& facts, const PlanWish& 
     if (wish.lights_change) plan.facts.proof.lights_open = false;
     plan.probe = probed;
     plan.effects = choose_effects(plan.facts, wish.tolerance, probed);
-    overrule(plan.effects, wish);
+    overrule(plan.effects, plan.facts, wish);
     plan.bound = largest_bound(plan.effects);
     choose_method(device, plan);
     price(device, plan);
@@ -106,7 +109,10 @@ Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Sc
     std::optional<ProbeFacts> probed;
     const auto first = static_cast<std::size_t>(Effect::first_bounce);
     const bool one_picture = !wish.animated && !wish.lights_change && !wish.camera_moves;
-    if (one_picture && choose_effects(facts, wish.tolerance)[first].on && worth_probing(facts)) {
+    const bool open =
+        !asked(wish.with, Effect::first_bounce) && !asked(wish.without, Effect::first_bounce);
+    if (one_picture && open && choose_effects(facts, wish.tolerance)[first].on &&
+        worth_probing(facts)) {
         const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device, scene);
         probed = probe(queue, programs, uploaded, camera, wish);
     }
