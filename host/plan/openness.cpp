@@ -10,7 +10,7 @@
 namespace clgi {
 namespace {
 
-constexpr double wished_tests = 2e7;
+constexpr double wished_tests = 5e6;
 constexpr std::size_t fewest_rays = 64, most_rays = 1024;
 // On barycentric coordinates: rays do not slip between neighbours.
 constexpr double edge = 1e-12;
