@@ -177,6 +177,11 @@ endforeach()
 file(GLOB_RECURSE paths RELATIVE "${SOURCE_DIR}" ${globs})
 foreach(path IN LISTS paths)
     file(READ "${SOURCE_DIR}/${path}" text)
+    # On a line of its own, where tools and readers look for it.
+    if(path MATCHES "\\.(c|h|cpp|hpp|cl|clh)$" AND
+       NOT text MATCHES "(^|\n)(// | *)SPDX-License-Identifier: MIT")
+        fault("${path} has no line with its licence")
+    endif()
     string(REGEX REPLACE "[^\n]" "" breaks "${text}")
     string(LENGTH "${breaks}" lines)
     if(path MATCHES "^tests/mutants/.*\\.txt$")

@@ -169,23 +169,12 @@ TEST(AntiradianceIterationSteps, AreThoseOfLightAloneWhereNothingLiesBetween) {
     EXPECT_TRUE(Solved(test::furnished_room(5), options).solver.status().lets_through);
 }
 
-// Thin shelves across a room. Reflecting and letting light through at once diverges; that is seen,
-// and the asymmetric iteration finds the light.
-Scene shelves(float albedo) {
-    Scene scene = test::plain_scene(glm::vec3(albedo));
-    scene.materials[0].double_sided = true;
-    test::add_box(scene, {0, 0, 0}, {1, 1, 1}, -1);
-    for (const double y : {0.2, 0.4, 0.6, 0.8})
-        test::add_quad(scene,
-                       {glm::dvec3(0.1, y, 0.1), {0.1, y, 0.9}, {0.9, y, 0.9}, {0.9, y, 0.1}});
-    scene.lights = {test::point_light({0.5, 0.9, 0.5})};
-    return scene;
-}
-
+// Reflecting and letting light through at once diverges between thin shelves; that is seen, and the
+// asymmetric iteration finds the light.
 TEST_P(AntiradianceIteration, SeesDivergenceAndConvergesAllTheSame) {
     AntiradianceOptions options = options_of(GetParam(), 128, 2000);
     options.iteration = Iteration::symmetric;
-    const Scene scene = shelves(0.6f);
+    const Scene scene = test::shelves(0.6f);
     const Solved symmetric(scene, options);
     EXPECT_TRUE(symmetric.solver.status().diverged);
     expect_no_light(symmetric);

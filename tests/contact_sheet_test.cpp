@@ -1,5 +1,6 @@
 // The sheet of pictures that a sweep of all systems writes: which picture stands for a method,
-// where it stands, and what stands below it. SPDX-License-Identifier: MIT
+// where it stands, and what stands below it.
+// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <clgi/error.hpp>

@@ -34,18 +34,6 @@ TEST(LeafDifference, IsRelativeAndWeightedByArea) {
     EXPECT_THROW(leaf_difference(other, truth, {1.0}), Error);
 }
 
-// Four double-sided shelves across a room: the symmetric iteration diverges.
-Scene shelves() {
-    Scene scene = test::plain_scene(glm::vec3(0.6f));
-    scene.materials[0].double_sided = true;
-    test::add_box(scene, {0, 0, 0}, {1, 1, 1}, -1);
-    for (const double y : {0.2, 0.4, 0.6, 0.8})
-        test::add_quad(scene,
-                       {glm::dvec3(0.1, y, 0.1), {0.1, y, 0.9}, {0.9, y, 0.9}, {0.9, y, 0.1}});
-    scene.lights = {test::point_light({0.5, 0.9, 0.5})};
-    return scene;
-}
-
 ConvergenceSetup setup_of(const Scene& scene, int steps) {
     ConvergenceSetup out{test::device().queue, scene};
     out.options.bins = 64;
@@ -61,7 +49,7 @@ const Convergence& of_a_room() {
 }
 
 const Convergence& of_shelves() {
-    static const Scene scene = shelves();
+    static const Scene scene = test::shelves(0.6f);
     static const Convergence found = measure_convergence(setup_of(scene, 60));
     return found;
 }

@@ -1,6 +1,7 @@
 // What a scene does not call for costs nothing in second-order illumination: kernels are not built,
 // passes not enqueued, buffers not allocated; and the picture is the same where an effect is
-// nothing. SPDX-License-Identifier: MIT
+// nothing.
+// SPDX-License-Identifier: MIT
 #include <clgi/error.hpp>
 
 #include "effect_cost.hpp"

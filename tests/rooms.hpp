@@ -35,4 +35,15 @@ inline Scene chambers() {
     return scene;
 }
 
+// Four double-sided shelves across a room: reflecting light and letting it through at once diverges.
+inline Scene shelves(float albedo) {
+    Scene scene = plain_scene(glm::vec3(albedo));
+    scene.materials[0].double_sided = true;
+    add_box(scene, {0, 0, 0}, {1, 1, 1}, -1);
+    for (const double y : {0.2, 0.4, 0.6, 0.8})
+        add_quad(scene, {glm::dvec3(0.1, y, 0.1), {0.1, y, 0.9}, {0.9, y, 0.9}, {0.9, y, 0.1}});
+    scene.lights = {point_light({0.5, 0.9, 0.5})};
+    return scene;
+}
+
 }  // namespace clgi::test

@@ -1,6 +1,7 @@
 // An element that holds s of S sampled leaves, and n of all N, stands for N s / (S n) elements: one
 // on average over all samples, so the sum over links is right on average. [derived:
-// Horvitz-Thompson] SPDX-License-Identifier: MIT
+// Horvitz-Thompson]
+// SPDX-License-Identifier: MIT
 #include "antiradiance/link_sample.hpp"
 
 #include <algorithm>

@@ -4,7 +4,8 @@
 // this lies above the surface, each direction by (n + 2) / (n + 1) times its cosine with the
 // normal: turned about the mirrored direction this cosine is A + B cos phi, A = cos a cos t, B =
 // sin a sin t, and the mean of its positive part has a closed form. What is left is an integral
-// over u = cos^(n + 1) a, from 0 to 1. [derived] SPDX-License-Identifier: MIT
+// over u = cos^(n + 1) a, from 0 to 1. [derived]
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <clgi/passes/antiradiance_gloss.hpp>

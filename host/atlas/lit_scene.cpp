@@ -3,7 +3,8 @@
 //
 // A black metal without gloss reflects nothing (a black dielectric would mirror 4 % of what a
 // viewer puts around it), so what a texel emits is all that is seen. [docs/cli.md, "The GLB of a
-// bake"] SPDX-License-Identifier: MIT
+// bake"]
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
 #include <clgi/atlas_light.hpp>

@@ -1,5 +1,6 @@
 // What the methods of render have in common that bring irradiance to a Picture: its options from
-// the flags, and what --stats says of it. SPDX-License-Identifier: MIT
+// the flags, and what --stats says of it.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/kit/picture.hpp>

@@ -58,6 +58,11 @@ void Emitters::accept(Recorder& record, const LightPasses& passes, const cl::Buf
     }
 }
 
+void Emitters::build(const GBufferPasses& gbuffer) const {
+    if (casts_shadows())
+        gbuffer.build({"clear", "raster", "raster_large", "raster_views"}, buffers_.kind);
+}
+
 void Emitters::draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const {
     lists.pixels = buffers_.visibility;
     lists.kind = buffers_.kind;

@@ -57,8 +57,7 @@ void Picture::allocate(const BufferTable& table, std::size_t taken) {
     table.allocate(record_);
     bytes_ = table.bytes();
     build_draw(gbuffer_, scene_, emitters_.set().views.size());
-    if (emitters_.casts_shadows())
-        gbuffer_.build({"clear", "raster", "raster_large", "raster_views"}, Pixels::depth);
+    emitters_.build(gbuffer_);
     image_.build({"combine"});
     if (options_.direct && scene_.environment()) image_.build({"environment"});
     emitters_.write(record_);

@@ -21,25 +21,20 @@ struct Atlas {
     LightAtlasView view;
 };
 
-struct Elements {
-    Elements(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
-             const DeviceScene& device, const Plan& plan)
-        : solver(programs, queue, scene, device, plan.antiradiance),
-          view(programs, queue, device, solver, plan.picture) {}
+// A solver, and what shows its light.
+template <typename Solver, typename View>
+struct Shown {
+    template <typename SolverOptions, typename ViewOptions>
+    Shown(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+          const DeviceScene& device, const SolverOptions& options, const ViewOptions& shown)
+        : solver(programs, queue, scene, device, options),
+          view(programs, queue, device, solver, shown) {}
 
-    AntiradianceSolver solver;
-    AntiradianceView view;
+    Solver solver;
+    View view;
 };
-
-struct Transfer {
-    Transfer(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
-             const DeviceScene& device, const Plan& plan)
-        : solver(programs, queue, scene, device, plan.transfer),
-          view(programs, queue, device, solver, plan.transfer_view) {}
-
-    DynamicTransferSolver solver;
-    DynamicTransferView view;
-};
+using Elements = Shown<AntiradianceSolver, AntiradianceView>;
+using Transfer = Shown<DynamicTransferSolver, DynamicTransferView>;
 
 }  // namespace
 
@@ -74,10 +69,12 @@ PlannedRenderer::PlannedRenderer(const Programs& programs, const cl::CommandQueu
             s.atlas = std::make_unique<Atlas>(programs, queue, scene, device_scene, plan);
             break;
         case Method::antiradiance:
-            s.elements = std::make_unique<Elements>(programs, queue, scene, device_scene, plan);
+            s.elements = std::make_unique<Elements>(programs, queue, scene, device_scene,
+                                                    plan.antiradiance, plan.picture);
             break;
         case Method::dynamic_transfer:
-            s.transfer = std::make_unique<Transfer>(programs, queue, scene, device_scene, plan);
+            s.transfer = std::make_unique<Transfer>(programs, queue, scene, device_scene,
+                                                    plan.transfer, plan.transfer_view);
             break;
     }
 }
@@ -95,18 +92,14 @@ bool PlannedRenderer::prepare(const Progress& progress) {
 void PlannedRenderer::lights_changed() {
     State& s = *state_;
     if (s.second_order) s.second_order->lights_changed();
-    if (s.atlas) {
-        s.atlas->solver.lights_changed();
-        s.atlas->view.lights_changed();
-    }
-    if (s.elements) {
-        s.elements->solver.lights_changed();
-        s.elements->view.lights_changed();
-    }
-    if (s.transfer) {
-        s.transfer->solver.lights_changed();
-        s.transfer->view.lights_changed();
-    }
+    const auto tell = [](auto& shown) {
+        if (!shown) return;
+        shown->solver.lights_changed();
+        shown->view.lights_changed();
+    };
+    tell(s.atlas);
+    tell(s.elements);
+    tell(s.transfer);
 }
 
 cl::Event PlannedRenderer::render(const Camera& camera, const WaitList& wait) {

@@ -63,8 +63,7 @@ void AntiradianceSolver::State::build() const {
     lights.build({"direct"});
     parallel.build({"sum_tiles", "sum_merge"});
     if (motion) motion->build();
-    if (emitters.casts_shadows())
-        gbuffer.build({"clear", "raster", "raster_large", "raster_views"}, Pixels::depth);
+    emitters.build(gbuffer);
 }
 
 void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& between) {

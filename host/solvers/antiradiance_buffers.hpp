@@ -1,5 +1,6 @@
 // What AntiradianceSolver allocates, and what its size follows from. Without links, kernels and
-// queue. SPDX-License-Identifier: MIT
+// queue.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/kit/emitters.hpp>

@@ -7,7 +7,8 @@
 //
 // In those frames the masks are the same, bit for bit, with EdgePlanes::exact. In others they miss
 // what comes into view only there. For sets that depend on time, clear the buffer before each
-// frame. SPDX-License-Identifier: MIT
+// frame.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/export.hpp>

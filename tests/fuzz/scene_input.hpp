@@ -23,12 +23,11 @@ public:
     Scratch() {
         std::error_code none;
         const std::filesystem::path memory = "/dev/shm";
-        std::string name =
+        folder_ =
             (std::filesystem::is_directory(memory, none) ? memory
                                                          : std::filesystem::temp_directory_path()) /
-            "clgi_fuzz_XXXXXX";
-        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder " + name);
-        folder_ = name;
+            ("clgi_fuzz_" + std::to_string(::getpid()));
+        std::filesystem::create_directory(folder_);
     }
     ~Scratch() {
         std::error_code ignored;

@@ -37,6 +37,9 @@ public:
     // Enqueues the writes of emitters and views to their buffers, without waiting.
     void write(Recorder& record) const;
 
+    // Builds the kernels that draw() takes, none if there are no shadow maps.
+    void build(const GBufferPasses& gbuffer) const;
+
     // Draws the shadow maps; without EmitterOptions::shadows there are none. lists: as for draw();
     // pixels and kind of it are not used.
     void draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const;
