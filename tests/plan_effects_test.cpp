@@ -14,6 +14,7 @@ namespace {
 SceneFacts everything() {
     SceneFacts out;
     out.lights.points = out.lights.spots = out.lights.directional = 1;
+    out.lights.emission = true;
     out.lights.emissive_power = 3.0;
     out.lights.environment = true;
     out.lights.moving = true;
@@ -65,7 +66,7 @@ TEST(Effects, AreOffWhereTheSceneHasNothingOfThem) {
         {Effect::point_light, [](SceneFacts& f) { f.lights.points = 0; }},
         {Effect::spot_light, [](SceneFacts& f) { f.lights.spots = 0; }},
         {Effect::directional_light, [](SceneFacts& f) { f.lights.directional = 0; }},
-        {Effect::area_light, [](SceneFacts& f) { f.lights.emissive_power = 0.0; }},
+        {Effect::area_light, [](SceneFacts& f) { f.lights.emission = false; }},
         {Effect::gloss, [](SceneFacts& f) { f.surfaces.glossy_area = 0.0; }},
         {Effect::textures, [](SceneFacts& f) { f.surfaces.textures = false; }},
         {Effect::cutouts, [](SceneFacts& f) { f.surfaces.cutouts = false; }},
@@ -151,6 +152,13 @@ TEST(Effects, AreLeftOutWhereAProbeBoundsThem) {
     facts.surfaces.largest_albedo = 0.2;
     choices = choose_effects(facts, 0.05, probe);
     EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.045, 1e-12);
+    // The scene reflects ten times as much as the picture shows: what goes on may come later.
+    probe.reflected = 1.0;  // 2 0.2 0.2 / 0.8
+    choices = choose_effects(facts, 0.05, probe);
+    EXPECT_NEAR(of(choices, Effect::further_bounces).bound, 0.1, 1e-12);
+    EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.136, 1e-12);
+    expect_choice(choices, Effect::first_bounce, true, Ground::needed);
+    probe.reflected = 0.0;
     // A camera that sees nothing lit says nothing.
     probe.first_bounce = INFINITY;
     expect_choice(choose_effects(facts, 0.05, probe), Effect::first_bounce, true, Ground::needed);
@@ -211,6 +219,43 @@ TEST(PlannedScene, LosesWhatIsOff) {
     EXPECT_EQ(left.emission, glm::vec3(1.0f, 2.0f, 3.0f));
 }
 
+TEST(PlannedScene, KeepsDarkLightsThatMayChange) {
+    Plan plan = plan_without(Effect::point_light);
+    plan.wish.lights_change = true;
+    Scene scene = full_scene();
+    EXPECT_EQ(planned_scene(scene, plan).lights.size(), 2u);  // the dark one is a point light
+    plan = plan_without(Effect::spot_light);
+    plan.wish.lights_change = true;
+    EXPECT_EQ(planned_scene(scene, plan).lights.size(), 3u);
+}
+
+TEST(PlannedScene, HasTexturesThatAreReadAlone) {
+    Scene scene = full_scene();
+    Plan plan = plan_without(Effect::textures);
+    EXPECT_TRUE(planned_scene(scene, plan).textures.empty());
+    plan = plan_without(Effect::gloss);
+    scene.materials[0].base_texture.texture = 1;  // of one colour
+    scene.materials[0].emission_texture.texture = 0;
+    Scene left = planned_scene(scene, plan);
+    ASSERT_EQ(left.textures.size(), 1u);
+    EXPECT_EQ(left.textures[0].rgba, scene.textures[0].rgba);
+    EXPECT_EQ(left.materials[0].emission_texture.texture, 0);
+    // A slot moves with its texture.
+    std::swap(scene.textures[0], scene.textures[1]);
+    std::swap(scene.materials[0].base_texture, scene.materials[0].emission_texture);
+    scene.materials[0].base_texture.texture = 1;
+    scene.materials[0].emission_texture.texture = -1;
+    left = planned_scene(scene, plan);
+    ASSERT_EQ(left.textures.size(), 1u);
+    EXPECT_EQ(left.textures[0].rgba, scene.textures[1].rgba);
+    EXPECT_EQ(left.materials[0].base_texture.texture, 0);
+    // Nobody has the material.
+    scene.materials.push_back(scene.materials[0]);
+    for (SceneTriangle& triangle : scene.triangles) triangle.material = 1;
+    scene.materials[1].base_texture.texture = 0;
+    EXPECT_TRUE(planned_scene(scene, plan).textures.empty());
+}
+
 TEST(PlannedScene, HasMeansInPlaceOfTextures) {
     Scene scene = full_scene();
     const Material left = planned_scene(scene, plan_without(Effect::textures)).materials[0];
@@ -226,7 +271,7 @@ TEST(PlannedScene, HasMeansInPlaceOfTextures) {
     EXPECT_NEAR(plain.base_color.r, 0.5 * 128.0 / 255.0, 1e-6);
     scene.materials[0].alpha_mode = AlphaMode::mask;
     plain = planned_scene(scene, plan_without(Effect::gloss)).materials[0];
-    EXPECT_EQ(plain.base_texture.texture, 1);
+    EXPECT_EQ(plain.base_texture.texture, 0);  // the only one that is read
     EXPECT_EQ(plain.alpha_mode, AlphaMode::mask);
     plain = planned_scene(scene, plan_without(Effect::cutouts)).materials[0];
     EXPECT_EQ(plain.base_texture.texture, -1);

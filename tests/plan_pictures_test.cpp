@@ -166,6 +166,34 @@ TEST(Plan, HasNoMasksOfOneObjectUnderASky) {
                         1e-3 * sky.factor[c]);
 }
 
+// A dim floor below a lamp as large as itself: light comes back to it by way of the lamp alone, where
+// the camera does not look.
+TEST(Plan, BoundsLightThatComesLate) {
+    Scene scene = test::plain_scene({0.2f, 0.29f, 0.1f});
+    test::add_floor(scene, 5.0);
+    Material lamp = scene.materials[0];
+    lamp.emission = {1.0f, 2.0f, 4.0f};
+    test::add_quad(scene, {glm::dvec3(-5, 0.5, -5), {5, 0.5, -5}, {5, 0.5, 5}, {-5, 0.5, 5}},
+                   test::add_material(scene, lamp));
+    const Camera camera = test::camera_at({0.1, 0.4, 0.1}, {0, 0, 0}, 0.6f);
+    PlanWish wish = quick();
+    wish.tolerance = 1.0;
+    const Plan plan = plan_of(scene, camera, wish);
+    ASSERT_TRUE(plan.probe);
+    EXPECT_FALSE(plan.on(Effect::first_bounce));
+    reference::Options tracing;
+    tracing.width = width;
+    tracing.height = height;
+    tracing.samples = 512;
+    const reference::PathTracer tracer(scene);
+    const Pixels all = tracer.render(camera, tracing).radiance;
+    tracing.effects.last_bounce = 0;
+    const Pixels direct = tracer.render(camera, tracing).radiance;
+    const double lost = distance(direct, all) / mean(all);
+    EXPECT_GT(lost, 0.03);
+    EXPECT_LT(lost, plan.bound);
+}
+
 // ---- what matters is not left out --------------------------------------------------------------
 
 // A scene whose picture is one effect alone.

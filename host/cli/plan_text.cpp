@@ -15,6 +15,12 @@ std::string bound_text(const EffectChoice& choice) {
     return std::isinf(choice.bound) ? "unknown" : fmt::format("{:.2g} %", 100.0 * choice.bound);
 }
 
+ordered_json effect_names(const std::vector<Effect>& effects) {
+    ordered_json out = ordered_json::array();
+    for (const Effect effect : effects) out.push_back(name_of(effect));
+    return out;
+}
+
 // JSON has no infinity.
 ordered_json number(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json();
@@ -53,13 +59,26 @@ ordered_json settings_json(const Plan& plan) {
         case Method::antiradiance:
             return {{"bins", plan.antiradiance.bins},
                     {"elements", plan.antiradiance.elements.wished},
-                    {"iterations", plan.antiradiance.steps}};
+                    {"iterations", plan.antiradiance.steps},
+                    {"occlusion", plan.antiradiance.occlusion == Occlusion::always},
+                    {"gloss", plan.antiradiance.least_gloss < 1.0}};
         case Method::dynamic_transfer:
             return {{"bands", plan.transfer.masks.bands},
                     {"interreflections", plan.transfer.bounces},
-                    {"shadowed", plan.on(Effect::environment_shadows)}};
+                    {"gloss", plan.transfer.gloss},
+                    {"shadowed", plan.transfer.shadowed}};
     }
     return ordered_json::object();
+}
+
+// Of direct light in the picture.
+ordered_json emitters_json(const Plan& plan) {
+    const EmitterOptions& options =
+        plan.method == Method::second_order ? plan.second_order.emitters : plan.picture.emitters;
+    return {{"shadows", options.shadows},
+            {"shadow_size", options.shadow_size},
+            {"face_size", options.face_size},
+            {"area_samples", options.area_samples}};
 }
 
 ordered_json effects_json(const Plan& plan) {
@@ -69,6 +88,7 @@ ordered_json effects_json(const Plan& plan) {
                        {"on", choice.on},
                        {"ground", name_of(choice.ground)},
                        {"why", choice.why},
+                       {"by", choice.by},
                        {"ms", choice.milliseconds},
                        {"mb", choice.megabytes},
                        {"bound", number(choice.bound)}});
@@ -128,14 +148,18 @@ std::string plan_line(const Plan& plan) {
 }
 
 std::string plan_text(const Plan& plan) {
-    std::string out = fmt::format("{:<20} {:>4} {:>8} {:>7} {:>8}  {}\n", "effect", "", "ms", "MB",
-                                  "bound", "why");
+    const auto line = [](const char* effect, const char* on, const std::string& ms,
+                         const std::string& mb, const std::string& bound, const std::string& by,
+                         const std::string& why) {
+        return fmt::format("{:<20} {:>4} {:>8} {:>7} {:>8}  {:<27} {}\n", effect, on, ms, mb, bound,
+                           by, why);
+    };
+    std::string out = line("effect", "", "ms", "MB", "bound", "by", "why");
     for (const EffectChoice& choice : plan.effects)
-        out += fmt::format("{:<20} {:>4} {:>8} {:>7} {:>8}  {}\n", name_of(choice.effect),
-                           choice.on ? "on" : "off",
-                           choice.on ? fmt::format("{:.1f}", choice.milliseconds) : "",
-                           choice.on ? fmt::format("{:.1f}", choice.megabytes) : "",
-                           bound_text(choice), choice.why);
+        out += line(name_of(choice.effect), choice.on ? "on" : "off",
+                    choice.on ? fmt::format("{:.1f}", choice.milliseconds) : "",
+                    choice.on ? fmt::format("{:.1f}", choice.megabytes) : "", bound_text(choice),
+                    choice.by, choice.why);
     return out + plan_line(plan) + "\n";
 }
 
@@ -145,6 +169,10 @@ ordered_json plan_json(const Plan& plan) {
                          {"tolerance", plan.wish.tolerance}};
     if (plan.wish.seconds) wish["seconds"] = *plan.wish.seconds;
     if (plan.wish.error) wish["error"] = *plan.wish.error;
+    if (plan.wish.method) wish["method"] = name_of(*plan.wish.method);
+    if (plan.wish.animated) wish["animated"] = true;
+    if (!plan.wish.with.empty()) wish["with"] = effect_names(plan.wish.with);
+    if (!plan.wish.without.empty()) wish["without"] = effect_names(plan.wish.without);
     ordered_json out = {{"wish", wish},
                         {"facts", facts_json(plan.facts)},
                         {"effects", effects_json(plan)},
@@ -152,6 +180,7 @@ ordered_json plan_json(const Plan& plan) {
                         {"method", name_of(plan.method)},
                         {"why", plan.why},
                         {"settings", settings_json(plan)},
+                        {"direct_light", emitters_json(plan)},
                         {"once_ms", plan.cost.once_ms},
                         {"frame_ms", plan.cost.frame_ms},
                         {"memory_mb", plan.cost.megabytes},
@@ -161,8 +190,10 @@ ordered_json plan_json(const Plan& plan) {
         out["error"] = *plan.error;
         out["error_ground"] = plan.error_ground;
     }
+    if (!plan.unavoidable.empty()) out["unavoidable"] = effect_names(plan.unavoidable);
     if (plan.probe)
         out["probe"] = {{"first_bounce", number(plan.probe->first_bounce)},
+                        {"reflected", number(plan.probe->reflected)},
                         {"ms", plan.probe->milliseconds}};
     return out;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <clgi/error.hpp>
 
 #include "cli/percent.hpp"
@@ -18,21 +19,37 @@ std::string all_names() {
     return out;
 }
 
-std::vector<Effect> effects_of(const std::string& command, const char* flag,
-                               const std::vector<std::string>& names) {
-    std::vector<Effect> out;
+struct Effects {
+    std::vector<Effect> named;
+    bool all = false;
+};
+
+Effects effects_of(const std::string& command, const char* flag,
+                   const std::vector<std::string>& names) {
+    Effects out;
     for (const std::string& name : names) {
         if (name == "all") {
-            for (std::size_t k = 0; k < effect_count; ++k) out.push_back(static_cast<Effect>(k));
+            out.all = true;
             continue;
         }
         const std::optional<Effect> effect = effect_of(name);
         if (!effect)
             throw Error(fmt::format("{}: {} is '{}'; effects are {} and all", command, flag, name,
                                     all_names()));
-        out.push_back(*effect);
+        out.named.push_back(*effect);
     }
     return out;
+}
+
+// "all" are those that the other flag does not name.
+void add_rest(std::vector<Effect>& effects, const std::vector<Effect>& others) {
+    const auto has = [](const std::vector<Effect>& list, Effect effect) {
+        return std::find(list.begin(), list.end(), effect) != list.end();
+    };
+    for (std::size_t k = 0; k < effect_count; ++k) {
+        const auto effect = static_cast<Effect>(k);
+        if (!has(effects, effect) && !has(others, effect)) effects.push_back(effect);
+    }
 }
 
 }  // namespace
@@ -58,8 +75,12 @@ void add_plan_flags(CLI::App& command, PlanFlags& flags) {
 PlanWish wish_of(const std::string& command, const PlanFlags& flags) {
     PlanWish out;
     out.tolerance = parse_percent(command, "--tolerance", flags.tolerance);
-    out.with = effects_of(command, "--with", flags.with);
-    out.without = effects_of(command, "--without", flags.without);
+    const Effects with = effects_of(command, "--with", flags.with);
+    const Effects without = effects_of(command, "--without", flags.without);
+    out.with = with.named;
+    out.without = without.named;
+    if (with.all) add_rest(out.with, without.named);
+    if (without.all) add_rest(out.without, with.named);
     return out;
 }
 

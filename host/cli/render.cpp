@@ -299,6 +299,7 @@ void add_render(CLI::App& app) {
         for (const std::string& flag : given(*command, {"--vpls", "--environment-lights", "--no-direct"}))
             flags->second_order_asked.push_back(flag);
         flags->shadow_size_given = command->count("--shadow-size") > 0;
+        flags->face_size_given = command->count("--face-size") > 0;
         flags->area_samples_given = command->count("--area-samples") > 0;
         flags->asked = given(*command, {"--target-error", "--time-budget"});
         flags->auto_only = given(*command, {"--tolerance", "--with", "--without"});

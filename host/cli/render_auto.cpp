@@ -23,17 +23,21 @@ PlanWish wish_of(const RenderFlags& flags) {
     out.animated = flags.fps.has_value();
     out.lights_change = flags.spin_light;
     out.camera_moves = flags.orbit;
+    const EmitterOptions& emitters = flags.options.emitters;
+    if (flags.shadow_size_given) out.shadow_size = emitters.shadow_size;
+    if (flags.face_size_given) out.face_size = emitters.face_size;
+    if (flags.area_samples_given) out.area_samples = emitters.area_samples;
     out.build = build_of(flags.device);
     return out;
 }
 
-// Emitters keep what flags say of them.
 void take_settings(RenderFlags& flags, const Plan& plan) {
     flags.method = name_of(plan.method);
     EmitterOptions& emitters = flags.options.emitters;
     emitters.shadows = plan.picture.emitters.shadows;
-    if (!flags.shadow_size_given) emitters.shadow_size = plan.picture.emitters.shadow_size;
-    if (!flags.area_samples_given) emitters.area_samples = plan.picture.emitters.area_samples;
+    emitters.shadow_size = plan.picture.emitters.shadow_size;
+    emitters.face_size = plan.picture.emitters.face_size;
+    emitters.area_samples = plan.picture.emitters.area_samples;
     flags.atlas.bake.emitters.shadows = plan.light_atlas.emitters.shadows;
     switch (plan.method) {
         case Method::direct:
@@ -73,9 +77,14 @@ std::string unmet(const Plan& plan) {
             "--time-budget",
             plan.wish.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
             1e3 * *plan.wish.seconds);
-    if (!plan.meets_error)
-        out += fmt::format("{}no method is known to reach the error of {:.3g} % in such scenes",
-                           out.empty() ? "" : "; ", 100.0 * *plan.wish.error);
+    const auto add = [&](const std::string& more) { out += (out.empty() ? "" : "; ") + more; };
+    if (!plan.meets_error && plan.error)
+        add(fmt::format("no method is known to reach the error of {:.3g} % in such scenes",
+                        100.0 * *plan.wish.error));
+    else if (!plan.meets_error)
+        add("the error of the method in such scenes is not known");
+    for (const Effect effect : plan.unavoidable)
+        add(fmt::format("no method that suits can leave out {}: it is rendered", name_of(effect)));
     return out;
 }
 

@@ -68,8 +68,8 @@ struct RenderFlags {
     bool orbit = false;
     bool spin_light = false;
     bool no_direct = false;
-    bool shadow_size_given = false;  // by a flag, so no plan changes it
-    bool area_samples_given = false;
+    // By a flag, so no plan changes it.
+    bool shadow_size_given = false, face_size_given = false, area_samples_given = false;
     SecondOrderOptions options;
     AtlasFlags atlas;
     TransferFlags transfer;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "plan/carrier.hpp"
+
 namespace clgi {
 namespace {
 
@@ -11,19 +13,13 @@ constexpr double noticeable = 0.02;  // of the light that surfaces reflect, as g
 constexpr double few_backs = 0.05;   // of the area, double-sided
 // Beyond so many triangles, links for all poses take minutes.
 constexpr std::size_t most_moving_triangles = 30000;
-// And glossy leaves as many as triangles take seconds a picture.
+// With more glossy triangles, each of which is a leaf, a picture takes seconds.
 constexpr std::size_t most_glossy_triangles = 20000;
-
-// Lights that are no environment.
-bool other_lights(const SceneFacts& facts) {
-    const LightFacts& lights = facts.lights;
-    return lights.points + lights.spots + lights.directional > 0 || lights.emissive_power > 0.0;
-}
 
 Choice candidates_for(const Plan& plan) {
     const SceneFacts& facts = plan.facts;
     const bool sky = plan.on(Effect::environment_light) && facts.lights.environment;
-    const bool sky_alone = sky && !other_lights(facts) && facts.openness > mostly;
+    const bool sky_alone = sky && !facts.lights.any_direct() && facts.openness > mostly;
     if (facts.surfaces.triangles == 0) return {{Method::direct}, "there are no surfaces"};
     if (!plan.on(Effect::first_bounce)) {
         if (!sky) return {{Method::direct}, "there is no indirect light"};
@@ -45,25 +41,18 @@ Choice candidates_for(const Plan& plan) {
             "light goes on between surfaces"};
 }
 
-bool left_out(const Plan& plan, Effect effect) {
-    const EffectChoice& choice = plan.effects[static_cast<std::size_t>(effect)];
-    return !choice.on && choice.ground == Ground::wished;
-}
-
-// Whether a method can do what is on, and without what is off.
+// Whether a method can do what is on, and without what is off by wish.
 bool suits(Method method, const Plan& plan) {
-    const bool indirect = plan.on(Effect::first_bounce);
+    if (!unavoidable(plan, method).empty()) return false;
     switch (method) {
         case Method::direct:
+        case Method::second_order:
             return true;
-        case Method::second_order:  // places VPLs through the shadow maps
-            return !indirect || plan.on(Effect::direct_shadows) || !other_lights(plan.facts);
         case Method::light_atlas:  // has one light for both sides of a surface
-            return plan.facts.surfaces.double_sided_area <= few_backs &&
-                   !left_out(plan, Effect::indirect_occlusion);
+            return plan.facts.surfaces.double_sided_area <= few_backs;
         case Method::antiradiance:  // masked surfaces block as a whole; all bounces come together
-            return !plan.on(Effect::cutouts) && !left_out(plan, Effect::indirect_occlusion) &&
-                   (!indirect || plan.on(Effect::further_bounces));
+            return !plan.on(Effect::cutouts) &&
+                   (!plan.on(Effect::first_bounce) || plan.on(Effect::further_bounces));
         case Method::dynamic_transfer:
             return !plan.on(Effect::cutouts);
     }

@@ -22,6 +22,10 @@ void operator+=(Amount& a, const Amount& b) {
     a.bytes += b.bytes;
 }
 
+bool has_sky(const Plan& plan) {
+    return plan.on(Effect::environment_light) && plan.facts.lights.environment;
+}
+
 double triangles(const Plan& plan) { return static_cast<double>(plan.facts.surfaces.triangles); }
 
 // Those that direct light comes from, and the views of their shadow maps.
@@ -70,7 +74,7 @@ Amount picture(const Plan& plan, bool environment) {
 PlanCost second_order(const Plan& plan) {
     const SecondOrderOptions& options = plan.second_order;
     const double pixels = static_cast<double>(options.width) * options.height;
-    Amount frame = picture(plan, plan.on(Effect::environment_light));
+    Amount frame = picture(plan, has_sky(plan));
     if (options.indirect) {
         const double lights = options.emitters.vpls + 2.0 * options.negative_vpls;
         const double share = 1.0 / (options.low_resolution_step * options.low_resolution_step);
@@ -92,7 +96,7 @@ PlanCost light_atlas(const Plan& plan) {
     const Amount bake{40.0 + vpls * (0.25 + 4e-5 * triangles(plan)) + 3e-5 * vpls * vpls +
                           1.3e-6 * vpls * texels + 2e-3 * triangles(plan),
                       2.0 * vpls * vpls + texels * (vpls / 8.0 + 150.0)};
-    const bool environment = plan.on(Effect::environment_light);
+    const bool environment = has_sky(plan);
     const Amount maps = shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
                                     plan.light_atlas.emitters.shadows);
     return added(plan, bake, maps, picture(plan, environment));

@@ -29,7 +29,7 @@ constexpr std::array<const char*, effect_count> names = {"point-light",
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 // What a probe of a few thousand pixels, one bounce and no shadows of it tells may be so many times
-// too small (docs/effects.md).
+// too small: a margin, not a proof (docs/effects.md).
 constexpr double probe_margin = 2.0;
 
 struct Decision {
@@ -48,12 +48,8 @@ Decision has(bool present, const char* what) {
                    : absent(std::string("the scene has no ") + what);
 }
 
-bool lit_directly(const LightFacts& lights) {
-    return lights.points + lights.spots + lights.directional > 0 || lights.emissive_power > 0.0;
-}
-
 Decision direct_shadows(const SceneFacts& facts) {
-    if (!lit_directly(facts.lights)) return absent("no light but the environment");
+    if (!facts.lights.any_direct()) return absent("no light but the environment");
     if (facts.proof.lights_open)
         return proven("the surfaces are convex: nothing lies between them and the lights");
     return needed("something may lie between a light and a surface");
@@ -66,13 +62,21 @@ Decision environment_shadows(const SceneFacts& facts) {
     return needed("something may lie before a surface");
 }
 
+// All bounces but the first: what the picture shows of the first one, or what the scene reflects
+// once, whichever is more, reflected again and again by q at most. Light may come late to what the
+// camera sees: from surfaces behind it, by way of others.
+double further_bound(const SceneFacts& facts, const ProbeFacts& probe) {
+    const double q = survival(facts);
+    return probe_margin * std::max(probe.first_bounce, q * probe.reflected) * q / (1.0 - q);
+}
+
 Decision first_bounce(const SceneFacts& facts, double tolerance,
                       const std::optional<ProbeFacts>& probe) {
-    if (!lit_directly(facts.lights) && !facts.lights.environment) return absent("no light");
+    if (!facts.lights.any_direct() && !facts.lights.environment) return absent("no light");
     if (facts.surfaces.largest_albedo <= 0.0) return proven("no surface reflects light");
     if (facts.proof.surfaces_apart) return proven("no surface faces another");
     if (!probe) return needed("surfaces that reflect light face each other");
-    const double bound = probe_margin * probe->first_bounce / (1.0 - survival(facts));
+    const double bound = probe_margin * probe->first_bounce + further_bound(facts, *probe);
     Decision out = needed("surfaces that reflect light face each other");
     out.bound = bound;
     if (bound <= tolerance)
@@ -85,8 +89,7 @@ Decision further_bounces(const SceneFacts& facts, double tolerance, const Decisi
     if (!first.on) return {false, first.ground, 0.0, first.why};
     Decision out = needed("light that was reflected once is reflected again");
     if (!probe) return out;
-    const double q = survival(facts);
-    out.bound = probe_margin * probe->first_bounce * q / (1.0 - q);
+    out.bound = further_bound(facts, *probe);
     if (out.bound <= tolerance) {
         out.on = false;
         out.ground = Ground::measured;
@@ -133,14 +136,14 @@ EffectChoices choose_effects(const SceneFacts& facts, double tolerance,
     EffectChoices out;
     const auto put = [&](Effect effect, Decision decision) {
         out[static_cast<std::size_t>(effect)] = {
-            effect, decision.on, decision.ground, decision.bound, std::move(decision.why),
+            effect, decision.on, decision.ground, decision.bound, std::move(decision.why), "",
             0.0,    0.0};
     };
     const LightFacts& lights = facts.lights;
     put(Effect::point_light, has(lights.points > 0, "point lights"));
     put(Effect::spot_light, has(lights.spots > 0, "spots"));
     put(Effect::directional_light, has(lights.directional > 0, "directional lights"));
-    put(Effect::area_light, has(lights.emissive_power > 0.0, "emissive surfaces"));
+    put(Effect::area_light, has(lights.emission, "emissive surfaces"));
     put(Effect::environment_light, has(lights.environment, "environment"));
     put(Effect::direct_shadows, direct_shadows(facts));
     put(Effect::environment_shadows, environment_shadows(facts));

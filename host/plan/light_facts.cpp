@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <numbers>
 
 #include "plan/moving_parts.hpp"
@@ -16,16 +17,16 @@ bool has_power(const Light& light) { return luminance(light.intensity) > 0.0f; }
 
 void add_lights(const Scene& scene, LightFacts& out) {
     for (const Light& light : scene.lights) {
-        if (!has_power(light)) continue;
+        const bool lit = has_power(light);
         switch (light.kind) {
             case Light::Kind::point:
-                ++out.points;
+                ++(lit ? out.points : out.dark_points);
                 break;
             case Light::Kind::spot:
-                ++out.spots;
+                ++(lit ? out.spots : out.dark_spots);
                 break;
             case Light::Kind::directional:
-                ++out.directional;
+                ++(lit ? out.directional : out.dark_directional);
                 break;
         }
     }
@@ -36,12 +37,33 @@ void add_lights(const Scene& scene, LightFacts& out) {
             out.moving = true;
 }
 
+// Whether some texel of a material emits.
+bool emits(const Scene& scene, const Material& material) {
+    if (!(luminance(material.emission) > 0.0f)) return false;
+    if (material.emission_texture.texture < 0) return true;
+    const auto& rgba =
+        scene.textures[static_cast<std::size_t>(material.emission_texture.texture)].rgba;
+    for (std::size_t i = 0; i + 3 < rgba.size(); i += 4)
+        for (std::size_t c = 0; c < 3; ++c)
+            if (rgba[i + c] > 0) return true;
+    return false;
+}
+
+bool emits(const Scene& scene) {
+    std::vector<bool> emitting(scene.materials.size());
+    for (std::size_t m = 0; m < emitting.size(); ++m)
+        emitting[m] = emits(scene, scene.materials[m]);
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const SceneTriangle& one) { return emitting[one.material]; });
+}
+
 }  // namespace
 
 LightsFound light_facts(const Scene& scene) {
     LightsFound out;
     LightFacts& facts = out.facts;
     add_lights(scene, facts);
+    facts.emission = emits(scene);
     const EmissionMeans emission(scene);
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         const SceneTriangle& triangle = scene.triangles[t];

@@ -5,6 +5,7 @@
 #include <clgi/error.hpp>
 #include <limits>
 
+#include "plan/carrier.hpp"
 #include "plan/choice.hpp"
 #include "plan/rungs.hpp"
 
@@ -66,10 +67,25 @@ void apply_effects(Plan& plan) {
     plan.transfer_view.picture = plan.picture;
 }
 
+// Those of the methods that draw direct light in the picture.
+template <typename Change>
+void change_emitters(Plan& plan, const Change& change) {
+    for (EmitterOptions* options :
+         {&plan.picture.emitters, &plan.second_order.emitters, &plan.antiradiance.emitters})
+        change(*options);
+    plan.transfer_view.picture = plan.picture;
+}
+
 // The settings of a rung.
 void set(Plan& plan, const Rung& rung) {
     plan.method = rung.method;
     plan.picture = PictureOptions();
+    change_emitters(plan, [&](EmitterOptions& options) {
+        const PlanWish& wish = plan.wish;
+        if (wish.shadow_size) options.shadow_size = *wish.shadow_size;
+        if (wish.face_size) options.face_size = *wish.face_size;
+        if (wish.area_samples) options.area_samples = *wish.area_samples;
+    });
     plan.picture.width = plan.second_order.width = plan.wish.width;
     plan.picture.height = plan.second_order.height = plan.wish.height;
     switch (rung.method) {
@@ -99,17 +115,23 @@ struct Candidate {
     std::optional<double> error;
 };
 
-// Direct light of points and directions has no error but that of shadow maps.
+// Direct light of points and directions where there is no other, and nothing that shadows it.
 bool is_exact(const Plan& plan) {
-    return plan.method == Method::direct && !plan.on(Effect::first_bounce) &&
+    const EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
+    const bool no_bounce =
+        !first.on && (first.ground == Ground::absent || first.ground == Ground::proven);
+    return plan.method == Method::direct && no_bounce && !plan.on(Effect::direct_shadows) &&
            !plan.on(Effect::area_light) && !plan.on(Effect::environment_light);
 }
 
-// Those that the device has no memory for, unless none remained.
-void drop_too_large(const cl::Device& device, std::vector<Candidate>& candidates) {
+bool fits(const cl::Device& device, const Plan& plan) {
     constexpr double share = 0.8;  // the scene is there as well
-    const double most = 1e-6 * share * device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
-    const auto large = [&](const Candidate& one) { return one.plan.cost.megabytes > most; };
+    return plan.cost.megabytes <= 1e-6 * share * device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+}
+
+// Removes those that the device has no memory for, unless it has none for any.
+void drop_too_large(const cl::Device& device, std::vector<Candidate>& candidates) {
+    const auto large = [&](const Candidate& one) { return !fits(device, one.plan); };
     if (std::all_of(candidates.begin(), candidates.end(), large)) return;
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), large), candidates.end());
 }
@@ -123,17 +145,16 @@ double unknown_last(const std::optional<double>& error) {
 void spend_rest(const cl::Device& device, Plan& plan, double milliseconds) {
     const auto try_with = [&](auto&& change) {
         Plan finer = plan;
-        for (EmitterOptions* options :
-             {&finer.picture.emitters, &finer.second_order.emitters, &finer.antiradiance.emitters})
-            change(*options);
-        finer.transfer_view.picture = finer.picture;
+        change_emitters(finer, change);
         finer.cost = cost_of(device, finer);
         const double time = plan.wish.animated ? finer.cost.frame_ms : finer.cost.total_ms();
-        if (time <= milliseconds) plan = std::move(finer);
+        if (time <= milliseconds && fits(device, finer)) plan = std::move(finer);
     };
-    for (const int size : {1024, 2048})
-        try_with([&](EmitterOptions& options) { options.shadow_size = size; });
-    try_with([](EmitterOptions& options) { options.area_samples = 64; });
+    if (!plan.wish.shadow_size)
+        for (const int size : {1024, 2048})
+            try_with([&](EmitterOptions& options) { options.shadow_size = size; });
+    if (!plan.wish.area_samples)
+        try_with([](EmitterOptions& options) { options.area_samples = 64; });
 }
 
 }  // namespace
@@ -207,9 +228,15 @@ void choose_method(const cl::Device& device, Plan& plan) {
     if (wish.seconds || !wish.error) spend_rest(device, plan, milliseconds);
     plan.why = choice.why;
     plan.error = best.error;
-    if (best.error) plan.error_ground = std::string("measured in ") + name_of(kind) + " scenes";
+    if (is_exact(plan))
+        plan.error_ground = "there is direct light alone, and nothing that shadows it";
+    else if (best.error)
+        plan.error_ground = std::string("measured in ") + name_of(kind) + " scenes";
     plan.meets_time = !wish.seconds || quick(best);
-    plan.meets_error = !wish.error || !best.error || right(best);
+    plan.meets_error = !wish.error || right(best);
+    plan.unavoidable = unavoidable(plan, plan.method);
+    for (EffectChoice& effect : plan.effects)
+        effect.by = effect.on ? carrier_of(plan, plan.method, effect.effect).by : "";
 }
 
 }  // namespace clgi

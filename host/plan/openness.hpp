@@ -15,7 +15,7 @@ struct Openness {
 };
 
 // Cosine-weighted rays from points spread evenly over the sides of triangles with a weight above 0:
-// the front, and the back of double-sided ones. If there are none, from all. Compares some 2e7
+// the front, and the back of double-sided ones. If there are none, from all. Compares some 5e6
 // pairs of a ray and a triangle, by 64 to 1024 rays. The same scene gives the same rays.
 Openness estimate_openness(const std::vector<LocalTriangle>& triangles,
                            const std::vector<double>& weights);

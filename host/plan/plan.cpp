@@ -8,6 +8,7 @@
 
 #include "plan/method.hpp"
 #include "plan/probe.hpp"
+#include "plan/wished_facts.hpp"
 
 namespace clgi {
 namespace {
@@ -38,7 +39,9 @@ void check(const PlanWish& wish) {
              std::string(name_of(effect)) + " is both with and without");
 }
 
-void overrule(EffectChoices& effects, const SceneFacts& facts, const PlanWish& wish) {
+// called: what the whole scene calls for.
+void overrule(EffectChoices& effects, const EffectChoices& called, const SceneFacts& facts,
+              const PlanWish& wish) {
     const auto set = [&](Effect effect, bool on) {
         EffectChoice& choice = effects[static_cast<std::size_t>(effect)];
         if (choice.on == on) return;
@@ -46,7 +49,12 @@ void overrule(EffectChoices& effects, const SceneFacts& facts, const PlanWish& w
         choice.ground = Ground::wished;
         choice.why = std::string(on ? "asked for; without: " : "left out by wish; ") + choice.why;
     };
-    for (const Effect effect : wish.without) set(effect, false);
+    for (const Effect effect : wish.without) {
+        // The facts no longer have what is left out, so it would count as absent.
+        EffectChoice& choice = effects[static_cast<std::size_t>(effect)];
+        if (!choice.on) choice = called[static_cast<std::size_t>(effect)];
+        set(effect, false);
+    }
     for (const Effect effect : wish.with) set(effect, true);
     // What is left of indirect light needs its first bounce, and follows where it is asked for.
     const Effect rest[] = {Effect::further_bounces, Effect::indirect_occlusion};
@@ -83,11 +91,10 @@ Plan planned(const cl::Device& device, const SceneFacts& facts, const PlanWish& 
              const std::optional<ProbeFacts>& probed) {
     Plan plan;
     plan.wish = wish;
-    plan.facts = facts;
-    if (wish.lights_change) plan.facts.proof.lights_open = false;
+    plan.facts = wished_facts(facts, wish);
     plan.probe = probed;
     plan.effects = choose_effects(plan.facts, wish.tolerance, probed);
-    overrule(plan.effects, plan.facts, wish);
+    overrule(plan.effects, choose_effects(facts, wish.tolerance, probed), plan.facts, wish);
     plan.bound = largest_bound(plan.effects);
     choose_method(device, plan);
     price(device, plan);
@@ -106,17 +113,14 @@ Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Sc
     check(wish);
     const auto device = queue.getInfo<CL_QUEUE_DEVICE>();
     const SceneFacts facts = scene_facts(scene);
-    std::optional<ProbeFacts> probed;
-    const auto first = static_cast<std::size_t>(Effect::first_bounce);
+    const Plan unprobed = planned(device, facts, wish, std::nullopt);
     const bool one_picture = !wish.animated && !wish.lights_change && !wish.camera_moves;
-    const bool open =
-        !asked(wish.with, Effect::first_bounce) && !asked(wish.without, Effect::first_bounce);
-    if (one_picture && open && choose_effects(facts, wish.tolerance)[first].on &&
-        worth_probing(facts)) {
-        const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device, scene);
-        probed = probe(queue, programs, uploaded, camera, wish);
-    }
-    return planned(device, facts, wish, probed);
+    const bool undecided = unprobed.on(Effect::first_bounce) &&
+                           !asked(wish.with, Effect::first_bounce) && worth_probing(unprobed.facts);
+    if (!one_picture || !undecided) return unprobed;
+    const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device,
+                               planned_scene(scene, unprobed));
+    return planned(device, facts, wish, probe(queue, programs, uploaded, camera, unprobed));
 }
 
 }  // namespace clgi

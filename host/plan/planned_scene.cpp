@@ -11,7 +11,7 @@ namespace clgi {
 namespace {
 
 bool kept(const Light& light, const Plan& plan) {
-    if (light.intensity == glm::vec3(0.0f)) return plan.wish.lights_change;
+    if (light.intensity == glm::vec3(0.0f) && !plan.wish.lights_change) return false;
     switch (light.kind) {
         case Light::Kind::point:
             return plan.on(Effect::point_light);
@@ -72,6 +72,7 @@ void drop_textures(Material& material, const Plan& plan, const MeanColours& colo
     const auto dropped = [&](const TextureSlot& slot) {
         return slot.texture >= 0 && (all || colours.plain(slot.texture));
     };
+    if (material.emission == glm::vec3(0.0f)) material.emission_texture = TextureSlot();
     if (dropped(material.emission_texture)) {
         material.emission *= colours.of(material.emission_texture.texture);
         material.emission_texture = TextureSlot();
@@ -82,6 +83,28 @@ void drop_textures(Material& material, const Plan& plan, const MeanColours& colo
     const glm::vec3 colour = colours.of(texture);
     for (int c = 0; c < 3; ++c) material.base_color[c] *= colour[c];
     material.base_texture = TextureSlot();
+}
+
+// Textures that no material in use reads are not uploaded.
+void drop_unread(Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (const SceneTriangle& triangle : scene.triangles) used[triangle.material] = true;
+    std::vector<int> place(scene.textures.size(), -1);
+    std::vector<Texture> kept;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        Material& material = scene.materials[m];
+        for (TextureSlot* slot : {&material.base_texture, &material.emission_texture}) {
+            if (!used[m]) *slot = TextureSlot();
+            if (slot->texture < 0) continue;
+            const auto texture = static_cast<std::size_t>(slot->texture);
+            if (place[texture] < 0) {
+                place[texture] = static_cast<int>(kept.size());
+                kept.push_back(std::move(scene.textures[texture]));
+            }
+            slot->texture = place[texture];
+        }
+    }
+    scene.textures = std::move(kept);
 }
 
 // Cameras go on moving, and a clip that is asked for stays one.
@@ -111,6 +134,7 @@ Scene planned_scene(const Scene& scene, const Plan& plan) {
         if (!plan.on(Effect::cutouts)) material.alpha_mode = AlphaMode::opaque;
         drop_textures(material, plan, colours);
     }
+    drop_unread(out);
     drop_motion(out, plan);
     return out;
 }

@@ -6,6 +6,7 @@
 #include <clgi/solvers/second_order.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "plan/survival.hpp"
 #include "scene/luminance.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double little = 0.3;     // of light survives a bounce
 constexpr int longest_side = 160;  // pixels
-constexpr int lights = 256;        // VPLs
+constexpr int probe_vpls = 256;
 
 std::vector<double> luminances(const cl::CommandQueue& queue, const SecondOrderSolver& solver,
                                const cl::Event& done) {
@@ -32,24 +33,38 @@ std::vector<double> luminances(const cl::CommandQueue& queue, const SecondOrderS
     return out;
 }
 
+// lumen that surfaces reflect of direct light
+double reflected_flux(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
+    std::vector<Vpl> vpls(solver.emitters().vpl_count);
+    if (vpls.empty()) return 0.0;
+    queue.enqueueReadBuffer(solver.vpls(), CL_TRUE, 0, vpls.size() * sizeof(Vpl), vpls.data());
+    double out = 0.0;
+    for (const Vpl& vpl : vpls) out += luminance(glm::dvec3(vpl.flux.x, vpl.flux.y, vpl.flux.z));
+    return out;
+}
+
 }  // namespace
 
-bool worth_probing(const SceneFacts& facts) { return survival(facts) < little; }
+bool worth_probing(const SceneFacts& facts) {
+    return survival(facts) < little && !(facts.surfaces.glossy_area > 0.0);
+}
 
 ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
-                 const Camera& camera, const PlanWish& wish) {
+                 const Camera& camera, const Plan& plan) {
+    const PlanWish& wish = plan.wish;
     const auto start = std::chrono::steady_clock::now();
     SecondOrderOptions options;
     const double shrink =
         std::min(1.0, static_cast<double>(longest_side) / std::max(wish.width, wish.height));
     options.width = std::max(1, static_cast<int>(std::lround(wish.width * shrink)));
     options.height = std::max(1, static_cast<int>(std::lround(wish.height * shrink)));
-    options.emitters.vpls = lights;
+    options.emitters.vpls = probe_vpls;
     options.negative_vpls = 0;
     options.low_resolution_step = 1;
     options.build = wish.build;
     SecondOrderSolver solver(programs, queue, scene, options);
     const std::vector<double> lit = luminances(queue, solver, solver.render(camera));
+    const double flux = reflected_flux(queue, solver);
     options.indirect = false;
     solver.reconfigure(options);
     const std::vector<double> direct = luminances(queue, solver, solver.render(camera));
@@ -60,10 +75,16 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
         sum += lit[k];
     }
     const double count = static_cast<double>(lit.size());
+    const SceneFrame& frame = scene.frame();
+    const double lumen = flux * frame.exposure / (frame.scale * frame.scale);
+    const double radiance = lumen / (std::numbers::pi * plan.facts.surfaces.area);
     ProbeFacts out;
     // A picture without light tells nothing about light that arrives over more bounces.
-    out.first_bounce = sum > 0.0 ? std::sqrt(squares / count) / (sum / count)
-                                 : std::numeric_limits<double>::infinity();
+    out.first_bounce = out.reflected = std::numeric_limits<double>::infinity();
+    if (sum > 0.0) {
+        out.first_bounce = std::sqrt(squares / count) / (sum / count);
+        out.reflected = radiance / (sum / count);
+    }
     out.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return out;

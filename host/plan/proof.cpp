@@ -48,10 +48,26 @@ std::vector<Source> sources_of(const Scene& scene) {
     return out;
 }
 
+constexpr double flat_cosine = 0.99985;  // of a degree
+
+// Whether the normals of vertices are those of their triangles.
+bool shaded_flat(const Scene& scene, const std::vector<LocalTriangle>& triangles) {
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (triangles[t].is_line()) continue;
+        for (const std::uint32_t vertex : scene.triangles[t].vertex)
+            if (!(glm::dot(glm::dvec3(scene.normals[vertex]), triangles[t].normal) >= flat_cosine))
+                return false;
+    }
+    return true;
+}
+
 class Prover {
 public:
     Prover(const Scene& scene, const std::vector<LocalTriangle>& triangles)
-        : sources_(sources_of(scene)), triangles_(triangles), planes_(triangles) {
+        : sources_(sources_of(scene)),
+          triangles_(triangles),
+          planes_(triangles),
+          shaded_flat_(shaded_flat(scene, triangles)) {
         order_.resize(triangles.size());
         std::iota(order_.begin(), order_.end(), 0u);
         // Large ones first: their planes are told best, and others lie in them.
@@ -67,8 +83,7 @@ public:
             out.surfaces_open && std::all_of(order_.begin(), order_.end(), [&](std::uint32_t t) {
                 return triangles_[t].is_line() || sees_nothing(t);
             });
-        // What has no surface before it has nothing between it and the environment either.
-        out.environment_open = out.surfaces_apart;
+        out.environment_open = out.surfaces_apart && shaded_flat_;
         out.lights_open = lights_open(out.surfaces_open, emissive);
         return out;
     }
@@ -93,7 +108,7 @@ private:
             if (!(surfaces_open && inside(source)) && !before_all(source)) return false;
         if (surfaces_open) return true;  // between points of emissive surfaces and others as well
         for (const std::uint32_t t : emissive)
-            if (!triangles_[t].is_line() && !sees_nothing(t)) return false;
+            if (triangles_[t].is_line() || !sees_nothing(t)) return false;
         return !planes_.overlap();
     }
 
@@ -126,6 +141,7 @@ private:
     std::vector<Source> sources_;
     const std::vector<LocalTriangle>& triangles_;
     SupportingPlanes planes_;
+    bool shaded_flat_;
     std::vector<std::uint32_t> order_;
 };
 

@@ -50,7 +50,10 @@ struct EffectChoice {
     // What a picture without it differs by at most: root of the mean squared difference of
     // luminance over the mean luminance. Infinite where nothing bounds it.
     double bound = 0.0;
-    std::string why;            // a sentence
+    std::string why;  // a sentence
+    // What brings it with the method of a plan, such as "shadow maps"; "nothing" where it is on and
+    // the method cannot, empty where it is off or no method is chosen yet.
+    std::string by;
     double milliseconds = 0.0;  // that it adds to a picture and what is done before, predicted
     double megabytes = 0.0;     // and to the buffers
 };
@@ -61,6 +64,9 @@ struct ProbeFacts {
     // Root of the mean squared luminance that one bounce, unshadowed, adds to the camera's picture,
     // over the mean luminance of that picture.
     double first_bounce = 0.0;
+    // Mean luminance of surfaces by what they reflect of direct light, over all of the scene and
+    // over the mean luminance of that picture.
+    double reflected = 0.0;
     double milliseconds = 0.0;
 };
 

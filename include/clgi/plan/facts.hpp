@@ -25,18 +25,25 @@ struct OpennessProof {
     // surface, and a point of a surface that it lights. Lights stand still, strictly inside a
     // convex room or before the whole scene; cones and ranges are not considered.
     bool lights_open = false;
-    bool environment_open = false;  // nor between a surface and any part of the sky before it; the
-                                    // same as surfaces_apart
+    // Nor between a surface and any part of the sky: surfaces_apart, and the normals that light is
+    // shaded by are those of triangles, to within a degree. Others look below the surface.
+    bool environment_open = false;
 };
 
 struct LightFacts {
     std::size_t points = 0, spots = 0, directional = 0;  // with power: intensity above 0
+    std::size_t dark_points = 0, dark_spots = 0, dark_directional = 0;  // without
     bool moving = false;                 // a clip moves a node that carries one of them
     std::size_t emissive_triangles = 0;  // with radiance: of texels that no mask cuts out
     double emissive_area = 0.0;          // m^2
     double emissive_power = 0.0;         // lumen, luminance: pi L A summed, both sides if they are
-    bool environment = false;            // with radiance
-    double environment_mean = 0.0;       // mean luminance over the sphere, cd/m^2
+    bool emission =
+        false;  // some surface may be seen to emit; its power may be too little to count
+    bool environment = false;       // with radiance
+    double environment_mean = 0.0;  // mean luminance over the sphere, cd/m^2
+
+    // Whether any light is not the environment.
+    bool any_direct() const { return points + spots + directional > 0 || emissive_power > 0.0; }
 };
 
 // Of all that triangles reflect, weighted by area. Textures count by nine points of each triangle,

@@ -41,10 +41,12 @@ struct PlanWish {
     // depend on where things are.
     bool animated = false;
     bool lights_change = false;  // set_light() will be called: nothing is proven of lights, and
-                                 // dark ones stay
+                                 // dark ones count as lights
     bool camera_moves = false;   // no probe: it would hold for one picture alone
-    std::vector<Effect> with, without;  // overrule what is decided; without first
+    std::vector<Effect> with, without;  // overrule what is decided; no effect is in both
     std::optional<Method> method;       // overrules the choice
+    // Of EmitterOptions, for direct light. None: the plan chooses.
+    std::optional<int> shadow_size, face_size, area_samples;
     BuildOptions build;
 };
 
@@ -58,18 +60,21 @@ struct PlanCost {
 
 struct Plan {
     PlanWish wish;
-    SceneFacts facts;
+    SceneFacts facts;  // of the scene without the lights and the gloss that the wish leaves out
     std::optional<ProbeFacts> probe;
     EffectChoices effects;
     double bound = 0.0;  // what all effects that are left out for the tolerance change at most
 
     Method method = Method::direct;
     std::string why;  // a sentence: the method
+    // Off by wish, but the method cannot do without: they are rendered all the same.
+    std::vector<Effect> unavoidable;
     PlanCost cost;
     // Error against all light that the method reaches with such settings on scenes of this kind, as
     // measured, and where; none where nothing was measured.
     std::optional<double> error;
     std::string error_ground;
+    // As predicted; true where nothing was asked for, meets_error false where the error is unknown.
     bool meets_time = true, meets_error = true;
 
     // Settings; those of other methods stay at their defaults.
@@ -95,7 +100,8 @@ CLGI_API Plan make_plan(const cl::CommandQueue& queue, const Programs& programs,
 
 // The scene with what the plan renders alone: without lights, emission, environment, gloss,
 // textures, alpha masks and animation whose effects are off. What is off because it changes nothing
-// (a texture of one colour, a mask without holes) is replaced by what it comes to.
+// (a texture of one colour, a mask without holes) is replaced by what it comes to. Textures that
+// are not read any more are dropped, the others renumbered.
 CLGI_API Scene planned_scene(const Scene& scene, const Plan& plan);
 
 }  // namespace clgi

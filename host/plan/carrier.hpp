@@ -1,0 +1,19 @@
+// Which part of a method brings an effect.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/plan/plan.hpp>
+
+namespace clgi {
+
+struct Carrier {
+    const char* by;       // "nothing": the method cannot
+    bool always = false;  // also where the effect is off
+};
+// Given what else is on in the plan.
+Carrier carrier_of(const Plan& plan, Method method, Effect effect);
+
+// Effects that are off by wish, and that the method renders all the same.
+std::vector<Effect> unavoidable(const Plan& plan, Method method);
+
+}  // namespace clgi

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "plan/wished_facts.hpp"
+
+namespace clgi {
+
+SceneFacts wished_facts(SceneFacts facts, const PlanWish& wish) {
+    LightFacts& lights = facts.lights;
+    if (wish.lights_change) {
+        lights.points += lights.dark_points;
+        lights.spots += lights.dark_spots;
+        lights.directional += lights.dark_directional;
+        facts.proof.lights_open = false;
+    }
+    for (const Effect effect : wish.without) switch (effect) {
+            case Effect::point_light:
+                lights.points = 0;
+                break;
+            case Effect::spot_light:
+                lights.spots = 0;
+                break;
+            case Effect::directional_light:
+                lights.directional = 0;
+                break;
+            case Effect::area_light:
+                lights.emission = false;
+                lights.emissive_triangles = 0;
+                lights.emissive_area = lights.emissive_power = 0.0;
+                break;
+            case Effect::environment_light:
+                lights.environment = false;
+                lights.environment_mean = 0.0;
+                break;
+            case Effect::gloss:
+                facts.surfaces.gloss = facts.surfaces.glossy_area = 0.0;
+                break;
+            default:
+                break;
+        }
+    if (lights.points + lights.spots + lights.directional == 0) lights.moving = false;
+    return facts;
+}
+
+}  // namespace clgi
