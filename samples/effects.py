@@ -2,10 +2,14 @@
 """What plans save, and how far they get: the tables and the plot of docs/effects.md.
 
     samples/effects.py saving build/clgi out/ SCENE.glb ...
+    samples/effects.py same build/clgi out/ SCENE.glb ...
     samples/effects.py race build/clgi out/ SCENE.glb ...
 
 saving: each scene is rendered by its plan, and with every effect on, for the same error. A row has
 what is off, what the plan says that this changes at most, what it does change, and both times.
+same: each scene is rendered by its plan, and by the plan's method with the same settings and no
+effect left out. A row has what is off, the largest difference that the plan allows, the one that is
+there, and both times. Scenes without light get a sky.
 race: the error of --method auto after 0.1, 1 and 10 s beside that of the path tracer after the same
 times, against a picture of the path tracer with --truth samples a pixel.
 Times are of a picture with facts, plan and all that is done before it but loading, upload and
@@ -31,7 +35,7 @@ def run(*command):
 
 def picture_ms(stats):
     """Of what was done before the first picture, and of one picture."""
-    once = stats["plan"]["ms"]
+    once = stats.get("plan", {}).get("ms", 0)
     if "bake" in stats:
         once += stats["bake"]["layout_ms"] + stats["bake"]["bake_ms"]
     if "antiradiance" in stats:
@@ -79,6 +83,53 @@ def saving(options):
         print(f"| {os.path.basename(name)} | {a['method']}, {b['method']} | {', '.join(off) or 'nothing'} "
               f"| {percent(a['plan']['bound'] or 0)} | {changed} | {lean:.1f} | {full:.1f} "
               f"| {full / lean:.1f} |", flush=True)
+
+
+def whole(stats):
+    """Flags for the method of a plan with its settings, and every effect that the scene has."""
+    plan, out = stats["plan"], []
+    for flag, name in (("--shadow-size", "shadow_size"), ("--face-size", "face_size"),
+                       ("--area-samples", "area_samples")):
+        out += [flag, plan["direct_light"][name]]
+    settings = plan["settings"]
+    if plan["method"] == "antiradiance":
+        return out + ["--method", "antiradiance", "--bins", settings["bins"], "--elements",
+                      settings["elements"]]
+    if plan["method"] == "atlas":
+        return out + ["--method", "atlas", "--vpls", settings["vpls"], "--atlas-size",
+                      settings["atlas_size"], "--bounces", 0]
+    if plan["method"] == "transfer":
+        return out + ["--method", "transfer"]
+    return out + ["--method", "second-order", "--vpls", settings.get("vpls", 1000),
+                  "--negative-vpls", max(settings.get("negative_vpls", 0), 100)]
+
+
+def same(options):
+    print("| scene | triangles | method | off although there is light for it | at most | changed "
+          "| ms | with all, ms | saving |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    for scene in options.scenes:
+        label = os.path.splitext(os.path.basename(scene))[0]
+        name = os.path.join(options.out, label)
+        wish = ["--target-error", options.error]
+        lean, full, sky = [], [], []
+        lights = json.loads(run(options.clgi, "plan", scene, "--quiet", "--size", SIZE,
+                                "--json"))["facts"]["lights"]
+        if not any(lights[kind] for kind in ("points", "spots", "directional", "emissive_power",
+                                             "environment")):
+            sky = ["--environment", "1,0.9,0.7"]
+        for _ in range(options.rounds):
+            a = render(options.clgi, scene, name + "-plan", *wish, *sky)
+            b = render(options.clgi, scene, name + "-all", *whole(a), *sky)
+            lean.append(picture_ms(a))
+            full.append(picture_ms(b))
+        lean, full = sorted(lean)[len(lean) // 2], sorted(full)[len(full) // 2]
+        off = [e["name"] for e in a["plan"]["effects"]
+               if not e["on"] and e["ground"] in ("proven", "measured")]
+        print(f"| {label}{', sky' if sky else ''} | {a['scene']['triangles']} | {a['method']} "
+              f"| {', '.join(off) or 'nothing'} | {percent(a['plan']['bound'])} "
+              f"| {percent(difference(options.clgi, name + '-plan', name + '-all'))} "
+              f"| {lean:.1f} | {full:.1f} | {full / lean:.1f} |", flush=True)
 
 
 def trace(options, scene, name, spp):
@@ -131,16 +182,16 @@ def plot(options, rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("what", choices=["saving", "race"])
+    parser.add_argument("what", choices=["saving", "same", "race"])
     parser.add_argument("clgi", help="the program")
     parser.add_argument("out", help="folder for pictures")
     parser.add_argument("scenes", nargs="+")
-    parser.add_argument("--error", default="0.1", help="saving: of the pictures")
-    parser.add_argument("--rounds", type=int, default=3, help="saving: measurements of each")
+    parser.add_argument("--error", default="0.1", help="saving, same: of the pictures")
+    parser.add_argument("--rounds", type=int, default=3, help="saving, same: measurements of each")
     parser.add_argument("--truth", type=int, default=4096, help="race: samples a pixel of the truth")
     options = parser.parse_args()
     os.makedirs(options.out, exist_ok=True)
-    {"saving": saving, "race": race}[options.what](options)
+    {"saving": saving, "same": same, "race": race}[options.what](options)
 
 
 if __name__ == "__main__":

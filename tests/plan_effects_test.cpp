@@ -132,6 +132,7 @@ TEST(Effects, AreOffWhereProofsSayThatTheyChangeNothing) {
 TEST(Effects, AreLeftOutWhereAProbeBoundsThem) {
     SceneFacts facts = everything();
     facts.surfaces.largest_albedo = 0.1;
+    facts.surfaces.gloss = facts.surfaces.glossy_area = 0.0;
     ProbeFacts probe;
     probe.first_bounce = 0.018;
     EffectChoices choices = choose_effects(facts, 0.01, probe);
@@ -159,6 +160,13 @@ TEST(Effects, AreLeftOutWhereAProbeBoundsThem) {
     EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.136, 1e-12);
     expect_choice(choices, Effect::first_bounce, true, Ground::needed);
     probe.reflected = 0.0;
+    // Nor do pictures without gloss bound what is glossy, or bright surfaces.
+    facts.surfaces.glossy_area = 0.1;
+    expect_choice(choose_effects(facts, 0.05, probe), Effect::first_bounce, true, Ground::needed);
+    facts.surfaces.glossy_area = 0.0;
+    facts.surfaces.largest_albedo = 0.31;
+    EXPECT_TRUE(std::isinf(of(choose_effects(facts, 0.05, probe), Effect::first_bounce).bound));
+    facts.surfaces.largest_albedo = 0.2;
     // A camera that sees nothing lit says nothing.
     probe.first_bounce = INFINITY;
     expect_choice(choose_effects(facts, 0.05, probe), Effect::first_bounce, true, Ground::needed);

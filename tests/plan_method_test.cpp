@@ -200,13 +200,18 @@ TEST(Plan, KnowsErrorsWhereTheyWereMeasuredAlone) {
     wish.without.clear();
     facts.surfaces.largest_albedo = 0.0;
     plan = make_plan(device, facts, wish);
-    EXPECT_FALSE(plan.error);  // shadow maps err
+    ASSERT_TRUE(plan.error);
+    EXPECT_GT(*plan.error, 0.0);  // shadow maps err
     facts.proof.lights_open = true;
     facts.lights.emission = false;
     plan = make_plan(device, facts, wish);
     ASSERT_TRUE(plan.error);
     EXPECT_EQ(*plan.error, 0.0);
     EXPECT_TRUE(plan.meets_error);
+    // The sky's light by a few directions: nobody knows.
+    facts.lights.environment = true;
+    wish.method = Method::direct;
+    EXPECT_FALSE(make_plan(device, facts, wish).error);
 }
 
 TEST(Plan, TakesSettingsOfDirectLightFromTheWish) {

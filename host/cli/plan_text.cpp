@@ -160,6 +160,8 @@ std::string plan_text(const Plan& plan) {
                     choice.on ? fmt::format("{:.1f}", choice.milliseconds) : "",
                     choice.on ? fmt::format("{:.1f}", choice.megabytes) : "", bound_text(choice),
                     choice.by, choice.why);
+    for (const Effect effect : plan.unavoidable)
+        out += fmt::format("{} is rendered all the same\n", name_of(effect));
     return out + plan_line(plan) + "\n";
 }
 
@@ -194,6 +196,7 @@ ordered_json plan_json(const Plan& plan) {
     if (plan.probe)
         out["probe"] = {{"first_bounce", number(plan.probe->first_bounce)},
                         {"reflected", number(plan.probe->reflected)},
+                        {"direct_error", number(plan.probe->direct_error)},
                         {"ms", plan.probe->milliseconds}};
     return out;
 }

@@ -142,6 +142,12 @@ PlanCost dynamic_transfer(const Plan& plan) {
 
 }  // namespace
 
+double shadow_pixels(const Plan& plan) {
+    const bool sky = has_sky(plan) && plan.method != Method::antiradiance &&
+                     plan.method != Method::dynamic_transfer;
+    return lamps_of(plan, plan.picture.emitters, sky).pixels;
+}
+
 PlanCost cost_of(const cl::Device& device, const Plan& plan) {
     PlanCost out;
     switch (plan.method) {

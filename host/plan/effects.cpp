@@ -75,9 +75,9 @@ Decision first_bounce(const SceneFacts& facts, double tolerance,
     if (!facts.lights.any_direct() && !facts.lights.environment) return absent("no light");
     if (facts.surfaces.largest_albedo <= 0.0) return proven("no surface reflects light");
     if (facts.proof.surfaces_apart) return proven("no surface faces another");
-    if (!probe) return needed("surfaces that reflect light face each other");
-    const double bound = probe_margin * probe->first_bounce + further_bound(facts, *probe);
     Decision out = needed("surfaces that reflect light face each other");
+    if (!probe || !bounds_indirect_light(facts)) return out;
+    const double bound = probe_margin * probe->first_bounce + further_bound(facts, *probe);
     out.bound = bound;
     if (bound <= tolerance)
         out = {false, Ground::measured, bound, "a probe finds less indirect light than that"};
@@ -88,7 +88,7 @@ Decision further_bounces(const SceneFacts& facts, double tolerance, const Decisi
                          const std::optional<ProbeFacts>& probe) {
     if (!first.on) return {false, first.ground, 0.0, first.why};
     Decision out = needed("light that was reflected once is reflected again");
-    if (!probe) return out;
+    if (!probe || !bounds_indirect_light(facts)) return out;
     out.bound = further_bound(facts, *probe);
     if (out.bound <= tolerance) {
         out.on = false;

@@ -9,10 +9,10 @@ namespace clgi {
 // Sets the method, its settings, cost and error.
 void choose_method(const cl::Device& device, Plan& plan);
 
-// The plan with one effect less: its settings as they are, without what that effect alone needs.
-Plan without_effect(const Plan& plan, Effect effect);
-
 // Of the plan's method with its settings and effects.
 PlanCost cost_of(const cl::Device& device, const Plan& plan);
+
+// Of all shadow maps of direct light in the picture, predicted.
+double shadow_pixels(const Plan& plan);
 
 }  // namespace clgi

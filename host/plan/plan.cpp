@@ -8,6 +8,7 @@
 
 #include "plan/method.hpp"
 #include "plan/probe.hpp"
+#include "plan/settings.hpp"
 #include "plan/wished_facts.hpp"
 
 namespace clgi {
@@ -115,9 +116,8 @@ Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Sc
     const SceneFacts facts = scene_facts(scene);
     const Plan unprobed = planned(device, facts, wish, std::nullopt);
     const bool one_picture = !wish.animated && !wish.lights_change && !wish.camera_moves;
-    const bool undecided = unprobed.on(Effect::first_bounce) &&
-                           !asked(wish.with, Effect::first_bounce) && worth_probing(unprobed.facts);
-    if (!one_picture || !undecided) return unprobed;
+    const bool open = unprobed.on(Effect::first_bounce) || unprobed.on(Effect::direct_shadows);
+    if (!one_picture || !open) return unprobed;
     const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device,
                                planned_scene(scene, unprobed));
     return planned(device, facts, wish, probe(queue, programs, uploaded, camera, unprobed));

@@ -8,15 +8,14 @@
 #include <limits>
 #include <numbers>
 
-#include "plan/survival.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr double little = 0.3;     // of light survives a bounce
 constexpr int longest_side = 160;  // pixels
 constexpr int probe_vpls = 256;
+constexpr double coarse = 0.25;  // direct light, against the defaults
 
 std::vector<double> luminances(const cl::CommandQueue& queue, const SecondOrderSolver& solver,
                                const cl::Event& done) {
@@ -33,6 +32,20 @@ std::vector<double> luminances(const cl::CommandQueue& queue, const SecondOrderS
     return out;
 }
 
+// Root of the mean squared difference.
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+    double squares = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) squares += (a[k] - b[k]) * (a[k] - b[k]);
+    return std::sqrt(squares / static_cast<double>(a.size()));
+}
+
+void make_fine(EmitterOptions& options, double fineness) {
+    const EmitterOptions usual;
+    options.shadow_size = static_cast<int>(usual.shadow_size * fineness);
+    options.face_size = static_cast<int>(usual.face_size * fineness);
+    options.area_samples = static_cast<int>(usual.area_samples * fineness);
+}
+
 // lumen that surfaces reflect of direct light
 double reflected_flux(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
     std::vector<Vpl> vpls(solver.emitters().vpl_count);
@@ -45,44 +58,44 @@ double reflected_flux(const cl::CommandQueue& queue, const SecondOrderSolver& so
 
 }  // namespace
 
-bool worth_probing(const SceneFacts& facts) {
-    return survival(facts) < little && !(facts.surfaces.glossy_area > 0.0);
-}
-
 ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
                  const Camera& camera, const Plan& plan) {
     const PlanWish& wish = plan.wish;
-    const auto start = std::chrono::steady_clock::now();
     SecondOrderOptions options;
     const double shrink =
         std::min(1.0, static_cast<double>(longest_side) / std::max(wish.width, wish.height));
     options.width = std::max(1, static_cast<int>(std::lround(wish.width * shrink)));
     options.height = std::max(1, static_cast<int>(std::lround(wish.height * shrink)));
     options.emitters.vpls = probe_vpls;
+    make_fine(options.emitters, coarse);
     options.negative_vpls = 0;
     options.low_resolution_step = 1;
     options.build = wish.build;
+    options.indirect = plan.on(Effect::first_bounce);
     SecondOrderSolver solver(programs, queue, scene, options);
+    const auto start = std::chrono::steady_clock::now();  // kernels are built
     const std::vector<double> lit = luminances(queue, solver, solver.render(camera));
-    const double flux = reflected_flux(queue, solver);
+    const double flux = options.indirect ? reflected_flux(queue, solver) : 0.0;
     options.indirect = false;
     solver.reconfigure(options);
     const std::vector<double> direct = luminances(queue, solver, solver.render(camera));
 
-    double squares = 0.0, sum = 0.0;
-    for (std::size_t k = 0; k < lit.size(); ++k) {
-        squares += (lit[k] - direct[k]) * (lit[k] - direct[k]);
-        sum += lit[k];
-    }
+    make_fine(options.emitters, 2.0 * coarse);
+    solver.reconfigure(options);
+    const std::vector<double> finer = luminances(queue, solver, solver.render(camera));
+
+    double sum = 0.0;
+    for (const double one : lit) sum += one;
     const double count = static_cast<double>(lit.size());
     const SceneFrame& frame = scene.frame();
     const double lumen = flux * frame.exposure / (frame.scale * frame.scale);
     const double radiance = lumen / (std::numbers::pi * plan.facts.surfaces.area);
     ProbeFacts out;
     // A picture without light tells nothing about light that arrives over more bounces.
-    out.first_bounce = out.reflected = std::numeric_limits<double>::infinity();
+    out.first_bounce = out.reflected = out.direct_error = std::numeric_limits<double>::infinity();
     if (sum > 0.0) {
-        out.first_bounce = std::sqrt(squares / count) / (sum / count);
+        out.first_bounce = distance(lit, direct) / (sum / count);
+        out.direct_error = std::sqrt(coarse) * distance(direct, finer) / (sum / count);
         out.reflected = radiance / (sum / count);
     }
     out.milliseconds =

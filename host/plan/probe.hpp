@@ -9,12 +9,8 @@
 
 namespace clgi {
 
-// Whether indirect light may be little enough to be left out, and pictures tell it: they have no
-// indirect gloss.
-bool worth_probing(const SceneFacts& facts);
-
-// One picture with direct light alone, and one with a bounce that nothing shadows. scene: the
-// planned_scene() of the plan so far.
+// A picture with a bounce that nothing shadows, one with direct light alone, and one with finer
+// direct light. scene: the planned_scene() of the plan so far.
 ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
                  const Camera& camera, const Plan& plan);
 

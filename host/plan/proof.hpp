@@ -11,8 +11,8 @@
 
 namespace clgi {
 
-// triangles: those of the scene, which stands still. emissive: those of them that emit. `lights_open`
-// is for lights that stand still.
+// triangles: those of the scene, which stands still. emissive: those of them that emit.
+// `lights_open` is for lights that stand still.
 OpennessProof prove_openness(const Scene& scene, const std::vector<LocalTriangle>& triangles,
                              const std::vector<std::uint32_t>& emissive);
 

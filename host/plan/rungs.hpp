@@ -13,8 +13,11 @@ enum class SceneKind {
     convex,     // nothing lies between surfaces, or what does is left out
     furnished,  // large surfaces, things between them
     fine,       // tens of thousands of triangles
-    outdoors,   // much light leaves
+    open,       // much light leaves
+    indirect,   // most of what the camera sees is lit by other surfaces
 };
+// Root mean square of indirect light over the mean of the picture, by the probe; 1 without one.
+double indirect_share(const Plan& plan);
 SceneKind kind_of(const Plan& plan);
 const char* name_of(SceneKind kind);
 
@@ -22,8 +25,9 @@ struct Rung {
     Method method;
     int directions;  // bins; atlas: texels, side of a page; 0: none
     int places;      // leaves wished, or VPLs
-    // By kind: error against all light, measured; 0: was not.
-    double error[4];
+    // By kind: error of indirect light, over its share (expected_error.hpp); of transfer, of the
+    // whole picture. Measured; 0: was not.
+    double error[5];
 };
 
 // By method, each from quick to accurate.

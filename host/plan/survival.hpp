@@ -13,4 +13,11 @@ inline double survival(const SceneFacts& facts) {
     return std::min(facts.surfaces.largest_albedo, 0.99);
 }
 
+// Whether a probe bounds indirect light: there may be little of it, and there is no gloss, which
+// the pictures of a probe do not have.
+inline bool bounds_indirect_light(const SceneFacts& facts) {
+    constexpr double little = 0.3;  // survives a bounce
+    return survival(facts) < little && !(facts.surfaces.glossy_area > 0.0);
+}
+
 }  // namespace clgi

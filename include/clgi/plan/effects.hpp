@@ -67,7 +67,12 @@ struct ProbeFacts {
     // Mean luminance of surfaces by what they reflect of direct light, over all of the scene and
     // over the mean luminance of that picture.
     double reflected = 0.0;
-    double milliseconds = 0.0;
+    // What direct light with the defaults of EmitterOptions errs by, about: root of the mean squared
+    // difference of luminance over the mean luminance. From pictures with shadow maps of a quarter
+    // and of half the pixels along a side, and as many points on emissive surfaces: an error of
+    // pixels on edges falls with the square root of these.
+    double direct_error = 0.0;
+    double milliseconds = 0.0;  // that the pictures took, without building kernels
 };
 
 // Decides each effect: off where the scene has nothing of it, where the proofs say that it changes

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "plan/expected_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plan/settings.hpp"
+
+namespace clgi {
+namespace {
+
+// Of direct light where no probe was taken: about what closed rooms have.
+constexpr double usual_direct_error = 0.03;
+
+// Direct light of points and directions with nothing that shadows it is exact.
+bool exact_direct_light(const Plan& plan) {
+    return !plan.on(Effect::direct_shadows) && !plan.on(Effect::area_light) &&
+           !plan.on(Effect::environment_light);
+}
+
+double direct_error(const Plan& plan) {
+    if (exact_direct_light(plan)) return 0.0;
+    const double usual = plan.probe ? plan.probe->direct_error : usual_direct_error;
+    return usual / std::sqrt(fineness_of(plan));
+}
+
+// Indirect light that the plan leaves out: none where that is the caller's wish.
+std::optional<double> left_out(const Plan& plan) {
+    const EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
+    if (first.ground == Ground::wished) return std::nullopt;
+    return first.bound;
+}
+
+std::optional<double> indirect_error(const Plan& plan, const Rung& rung) {
+    if (!plan.on(Effect::first_bounce)) return left_out(plan);
+    const double relative = rung.error[static_cast<std::size_t>(kind_of(plan))];
+    if (!(relative > 0.0)) return std::nullopt;
+    return relative * indirect_share(plan);
+}
+
+}  // namespace
+
+std::optional<double> expected_error(const Plan& plan, const Rung& rung) {
+    if (plan.method == Method::dynamic_transfer) {
+        const double whole = rung.error[static_cast<std::size_t>(kind_of(plan))];
+        return whole > 0.0 ? std::optional(whole) : std::nullopt;
+    }
+    const bool sky = plan.on(Effect::environment_light) && plan.facts.lights.environment;
+    if (plan.method == Method::direct && sky) return std::nullopt;  // a few lights for all of it
+    const std::optional<double> indirect = indirect_error(plan, rung);
+    if (!indirect) return std::nullopt;
+    return std::hypot(*indirect, direct_error(plan));
+}
+
+std::string ground_of_error(const Plan& plan) {
+    const std::string kind = name_of(kind_of(plan));
+    if (plan.method == Method::dynamic_transfer) return "measured in " + kind + " scenes";
+    const std::string direct = exact_direct_light(plan) ? "direct light is exact"
+                               : plan.probe             ? "direct light by a probe"
+                                                        : "direct light as in closed rooms";
+    if (!plan.on(Effect::first_bounce)) return direct;
+    return "indirect light as measured in " + kind + " scenes, " + direct;
+}
+
+}  // namespace clgi

@@ -1,0 +1,22 @@
+// The error that a plan expects of its picture, against all light.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/plan/plan.hpp>
+#include <optional>
+#include <string>
+
+#include "plan/rungs.hpp"
+
+namespace clgi {
+
+// Root of the mean squared difference of luminance over the mean luminance, of indirect and of
+// direct light together: what the rung erred by in scenes of the kind, times the share of indirect
+// light that the probe found; and what the probe found of direct light, by how fine that is. None
+// where nothing was measured. plan: as the rung sets it.
+std::optional<double> expected_error(const Plan& plan, const Rung& rung);
+
+// What the error of a plan stands on.
+std::string ground_of_error(const Plan& plan);
+
+}  // namespace clgi

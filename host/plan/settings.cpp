@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "plan/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clgi {
+namespace {
+
+// Brings the settings to the effects: what is off is switched off.
+void apply_effects(Plan& plan) {
+    const BuildOptions& build = plan.wish.build;
+    // The sky of these methods is a few directional lights, with shadow maps as others have.
+    const bool sky = plan.method == Method::direct || plan.method == Method::second_order ||
+                     plan.method == Method::light_atlas;
+    const bool shadows =
+        plan.on(Effect::direct_shadows) ||
+        (sky && plan.on(Effect::environment_light) && plan.on(Effect::environment_shadows));
+    const auto emitters = [&](EmitterOptions& options) { options.shadows = shadows; };
+
+    emitters(plan.picture.emitters);
+    plan.picture.build = build;
+
+    SecondOrderOptions& second = plan.second_order;
+    second.indirect = plan.method != Method::direct && plan.on(Effect::first_bounce);
+    if (!plan.on(Effect::indirect_occlusion)) second.negative_vpls = 0;
+    // VPLs are placed through the views of lights.
+    second.emitters.shadows = shadows || second.indirect;
+    second.build = build;
+
+    emitters(plan.light_atlas.emitters);
+    // All bounces cost little more than one where the transport is kept.
+    plan.light_atlas.bounces = plan.on(Effect::further_bounces) ? 0 : 1;
+    plan.light_atlas.build = build;
+
+    emitters(plan.antiradiance.emitters);
+    if (!plan.on(Effect::gloss)) plan.antiradiance.least_gloss = 1.0;
+    const EffectChoice& occlusion =
+        plan.effects[static_cast<std::size_t>(Effect::indirect_occlusion)];
+    plan.antiradiance.occlusion = occlusion.on && occlusion.ground == Ground::wished
+                                      ? Occlusion::always
+                                      : Occlusion::automatic;
+    plan.antiradiance.build = build;
+
+    DynamicTransferOptions& transfer = plan.transfer;
+    transfer.shadowed = plan.on(Effect::environment_shadows);
+    transfer.gloss = plan.on(Effect::gloss);
+    transfer.bounces = plan.on(Effect::first_bounce) && transfer.shadowed ? 1 : 0;
+    transfer.build = build;
+    plan.transfer_view.picture = plan.picture;
+}
+
+// Those of the methods that draw direct light in the picture.
+template <typename Change>
+void change_emitters(Plan& plan, const Change& change) {
+    for (EmitterOptions* options :
+         {&plan.picture.emitters, &plan.second_order.emitters, &plan.antiradiance.emitters})
+        change(*options);
+    plan.transfer_view.picture = plan.picture;
+}
+
+// The settings of a rung.
+void set_rung(Plan& plan, const Rung& rung) {
+    plan.picture.width = plan.second_order.width = plan.wish.width;
+    plan.picture.height = plan.second_order.height = plan.wish.height;
+    switch (rung.method) {
+        case Method::direct:
+            plan.second_order.indirect = false;
+            break;
+        case Method::second_order:
+            plan.second_order.emitters.vpls = rung.places;
+            break;
+        case Method::light_atlas:
+            plan.vpls.count = static_cast<std::uint32_t>(rung.places);
+            plan.layout.size = rung.directions;
+            plan.layout.largest_size = 4096;
+            break;
+        case Method::antiradiance:
+            plan.antiradiance.bins = rung.directions;
+            plan.antiradiance.elements.wished = static_cast<std::size_t>(rung.places);
+            break;
+        case Method::dynamic_transfer:
+            break;
+    }
+}
+
+}  // namespace
+
+void set(Plan& plan, const Rung& rung, int fineness) {
+    const PlanWish& wish = plan.wish;
+    plan.method = rung.method;
+    plan.picture = PictureOptions();
+    change_emitters(plan, [&](EmitterOptions& options) {
+        options.shadow_size = wish.shadow_size.value_or(fineness * EmitterOptions().shadow_size);
+        options.face_size = wish.face_size.value_or(fineness * EmitterOptions().face_size);
+        options.area_samples = wish.area_samples.value_or(fineness * EmitterOptions().area_samples);
+    });
+    set_rung(plan, rung);
+    apply_effects(plan);
+}
+
+double fineness_of(const Plan& plan) {
+    const EmitterOptions usual, &options = plan.picture.emitters;
+    double out = std::numeric_limits<double>::infinity();
+    const auto at_most = [&](int is, int was) {
+        out = std::min(out, static_cast<double>(is) / was);
+    };
+    const bool sky = plan.on(Effect::environment_light) && plan.facts.lights.environment;
+    if (plan.on(Effect::spot_light) || plan.on(Effect::directional_light) || sky)
+        at_most(options.shadow_size, usual.shadow_size);
+    if (plan.on(Effect::point_light) || plan.on(Effect::area_light))
+        at_most(options.face_size, usual.face_size);
+    if (plan.on(Effect::area_light)) at_most(options.area_samples, usual.area_samples);
+    return std::isfinite(out) ? out : 1.0;
+}
+
+Plan without_effect(const Plan& plan, Effect effect) {
+    Plan out = plan;
+    const auto off = [&](Effect which) { out.effects[static_cast<std::size_t>(which)].on = false; };
+    off(effect);
+    if (effect == Effect::first_bounce) {
+        off(Effect::further_bounces);
+        off(Effect::indirect_occlusion);
+        if (plan.method != Method::dynamic_transfer) out.method = Method::direct;
+    }
+    apply_effects(out);
+    return out;
+}
+
+}  // namespace clgi

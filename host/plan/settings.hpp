@@ -1,0 +1,22 @@
+// From effects and a rung to the settings of a plan.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/plan/plan.hpp>
+
+#include "plan/rungs.hpp"
+
+namespace clgi {
+
+// The plan's method and all settings. fineness: 1, or how many times as fine direct light is as
+// EmitterOptions has it, where the wish does not say: pixels of shadow maps along a side, and
+// points on emissive surfaces.
+void set(Plan& plan, const Rung& rung, int fineness);
+
+// How fine direct light is for the lights that the plan has: the least of what set() makes finer.
+double fineness_of(const Plan& plan);
+
+// The plan with one effect less: its settings as they are, without what that effect alone needs.
+Plan without_effect(const Plan& plan, Effect effect);
+
+}  // namespace clgi
