@@ -113,11 +113,11 @@ void plan_render(RenderFlags& flags) {
     flags.planned = std::make_shared<Planned>();
     Planned& planned = *flags.planned;
     planned.session = open_session(flags.device);
-    const Stopwatch watch;
     planned.plan =
         make_plan(planned.session.queue, Programs(planned.session.context, planned.session.device),
                   scene, scene.cameras[static_cast<std::size_t>(flags.camera)], wish);
-    planned.milliseconds = 1e3 * watch.seconds();
+    planned.milliseconds = planned.plan.facts.milliseconds;
+    if (planned.plan.probe) planned.milliseconds += planned.plan.probe->milliseconds;
     planned.scene = planned_scene(scene, planned.plan);
     take_settings(flags, planned.plan);
     notice(quiet, "plan: " + plan_line(planned.plan));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <clgi/error.hpp>
+#include <iterator>
 #include <limits>
 
 #include "plan/carrier.hpp"
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double default_seconds = 1.0;        // of a picture
 constexpr double default_frame_seconds = 0.1;  // of one of an animation
+constexpr double patience = 10.0;              // seconds, for an error that nothing reaches
+constexpr double near_enough = 1.05;           // errors that are as good as the least
 
 struct Candidate {
     Plan plan;
@@ -34,10 +37,6 @@ void drop_too_large(const cl::Device& device, std::vector<Candidate>& candidates
     const auto large = [&](const Candidate& one) { return !fits(device, one.plan); };
     if (std::all_of(candidates.begin(), candidates.end(), large)) return;
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), large), candidates.end());
-}
-
-double unknown_last(const std::optional<double>& error) {
-    return error ? *error : std::numeric_limits<double>::max();
 }
 
 }  // namespace
@@ -68,18 +67,31 @@ void choose_method(const cl::Device& device, Plan& plan) {
     const auto quick = [&](const Candidate& one) { return time(one) <= milliseconds; };
     const auto right = [&](const Candidate& one) { return one.error && *one.error <= *wish.error; };
 
-    // With an error the cheapest that reaches it, within the time if that can be; without one the
-    // most accurate within the time. Where nothing reaches that, the nearest.
-    const auto better = [&](const Candidate& a, const Candidate& b) {
-        const bool hurried = wish.seconds || !wish.error;
-        if (hurried && quick(a) != quick(b)) return quick(a);
-        if (wish.error && right(a) != right(b)) return right(a);
-        if (hurried && !quick(a)) return time(a) < time(b);
-        if (wish.error && right(a)) return time(a) < time(b);
-        if (!a.error && !b.error) return time(a) > time(b);  // the more work, the better
-        return unknown_last(a.error) < unknown_last(b.error);
+    const auto quicker = [&](const Candidate& a, const Candidate& b) { return time(a) < time(b); };
+    const auto keep = [&](const auto& wanted) {
+        std::vector<Candidate> out;
+        std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(out), wanted);
+        if (!out.empty()) candidates = std::move(out);
+        return !candidates.empty() && wanted(candidates.front());
     };
-    const Candidate& best = *std::min_element(candidates.begin(), candidates.end(), better);
+    // With an error the cheapest that reaches it, within the time if that can be; without one the
+    // most accurate within the time. Where nothing reaches either, the nearest.
+    const auto choose = [&] {
+        const auto cheapest = [&] {
+            return *std::min_element(candidates.begin(), candidates.end(), quicker);
+        };
+        if ((wish.seconds || !wish.error) && !keep(quick)) return cheapest();
+        if (wish.error && keep(right)) return cheapest();
+        keep([&](const Candidate& one) { return time(one) <= 1e3 * patience; });
+        if (!keep(
+                [](const Candidate& one) { return one.error.has_value(); }))  // more work is better
+            return *std::max_element(candidates.begin(), candidates.end(), quicker);
+        double least = std::numeric_limits<double>::max();
+        for (const Candidate& one : candidates) least = std::min(least, *one.error);
+        keep([&](const Candidate& one) { return *one.error <= near_enough * least; });
+        return cheapest();
+    };
+    const Candidate best = choose();
 
     plan = best.plan;
     plan.why = choice.why;
