@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "plan/picture_luminance.hpp"
 #include "plan/survival.hpp"
 #include "scene/luminance.hpp"
 
@@ -17,21 +18,6 @@ namespace {
 constexpr double little = 0.3;     // of light survives a bounce
 constexpr int longest_side = 160;  // pixels
 constexpr int probe_vpls = 256;
-
-std::vector<double> luminances(const cl::CommandQueue& queue, const SecondOrderSolver& solver,
-                               const cl::Event& done) {
-    const std::size_t pixels =
-        static_cast<std::size_t>(solver.options().width) * solver.options().height;
-    std::vector<float> planes(3 * static_cast<std::size_t>(solver.stride()));
-    const WaitList wait{done};
-    queue.enqueueReadBuffer(solver.radiance(), CL_TRUE, 0, planes.size() * sizeof(float),
-                            planes.data(), &wait);
-    std::vector<double> out(pixels);
-    for (std::size_t k = 0; k < pixels; ++k)
-        out[k] = luminance(glm::dvec3(planes[k], planes[k + solver.stride()],
-                                      planes[k + 2 * static_cast<std::size_t>(solver.stride())]));
-    return out;
-}
 
 // lumen that surfaces reflect of direct light
 double reflected_flux(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
@@ -63,27 +49,22 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
     options.low_resolution_step = 1;
     options.build = wish.build;
     SecondOrderSolver solver(programs, queue, scene, options);
-    const std::vector<double> lit = luminances(queue, solver, solver.render(camera));
+    const std::vector<double> lit = picture_luminance(queue, solver, solver.render(camera));
     const double flux = reflected_flux(queue, solver);
     options.indirect = false;
     solver.reconfigure(options);
-    const std::vector<double> direct = luminances(queue, solver, solver.render(camera));
+    const std::vector<double> direct = picture_luminance(queue, solver, solver.render(camera));
 
-    double squares = 0.0, sum = 0.0;
-    for (std::size_t k = 0; k < lit.size(); ++k) {
-        squares += (lit[k] - direct[k]) * (lit[k] - direct[k]);
-        sum += lit[k];
-    }
-    const double count = static_cast<double>(lit.size());
     const SceneFrame& frame = scene.frame();
     const double lumen = flux * frame.exposure / (frame.scale * frame.scale);
     const double radiance = lumen / (std::numbers::pi * plan.facts.surfaces.area);
     ProbeFacts out;
+    const double level = mean(lit);
     // A picture without light tells nothing about light that arrives over more bounces.
     out.first_bounce = out.reflected = std::numeric_limits<double>::infinity();
-    if (sum > 0.0) {
-        out.first_bounce = std::sqrt(squares / count) / (sum / count);
-        out.reflected = radiance / (sum / count);
+    if (level > 0.0) {
+        out.first_bounce = std::sqrt(mean_square_difference(lit, direct)) / level;
+        out.reflected = radiance / level;
     }
     out.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
