@@ -156,5 +156,23 @@ TEST_F(Tune, RefusesWishesOutOfRange) {
     EXPECT_THROW(tuned(device_, *solver_, camera_, {.frame_ms = 20.0}), Error);
 }
 
+TEST_F(Tune, GivesAPlanWhatItsTimeBuys) {
+    PlanWish wish;
+    wish.width = 64;
+    wish.height = 48;
+    wish.seconds = 1e-6;
+    wish.method = Method::second_order;
+    const Plan plan = make_plan(test::device().device, scene_facts(scene_), wish);
+    PlannedRenderer renderer(test::programs(), test::device().queue, scene_, device_, plan);
+    ASSERT_TRUE(renderer.tune(camera_));
+    const Plan& after = renderer.plan();
+    EXPECT_EQ(after.second_order.emitters.vpls, SecondOrderTuning::fewest_vpls);
+    EXPECT_NE(plan.second_order.emitters.vpls, SecondOrderTuning::fewest_vpls);
+    EXPECT_FALSE(after.meets_time);
+    EXPECT_GT(after.cost.frame_ms, 0.0);
+    EXPECT_NE(after.cost.frame_ms, plan.cost.frame_ms);
+    EXPECT_FALSE(renderer.tune(camera_, [](double) { return false; }));
+}
+
 }  // namespace
 }  // namespace clgi
