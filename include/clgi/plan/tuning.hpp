@@ -23,8 +23,8 @@ CLGI_API SecondOrderOptions with_settings(SecondOrderOptions options,
 
 // What is asked for, one at least. With both, the error counts as far as the time allows.
 struct TuningWish {
-    // Median time of a frame, ms above 0: to be met, not only to stay under. A frame lasts from its
-    // first command to the end of its last one, shadow maps and G-buffer included.
+    // Median time of a frame, ms above 0: to be met, not only to stay under. A frame lasts, on the
+    // host's clock, from render() until the queue is empty, shadow maps and G-buffer included.
     std::optional<double> frame_ms;
     // Root mean squared difference of luminance from the converged picture over the mean luminance
     // of that, above 0. The converged picture has the same effects, SecondOrderTuning's
@@ -44,12 +44,12 @@ struct SecondOrderTuning {
     double milliseconds = 0.0;  // that tuning took
 };
 
-// Renders pictures of different settings, and leaves the solver at the settings found; options that
-// are no part of SecondOrderSettings stay, and without negative VPLs there are none. Waits, for
-// some 0.3 s per setting that is timed; with an error for seconds, as the converged picture is
-// rendered. Nothing if progress cancelled: the solver then has the options that it came with, as
-// after an exception. queue: the solver's. scene: that of the solver. Throws Error for a wish out
-// of range, or where the solver renders no indirect light; otherwise what rendering throws.
+// Renders pictures of different settings, and leaves the solver at the settings found. Its other
+// options stay as they are; if it has no negative VPLs, the settings have none. queue, scene: the
+// solver's. Waits, some 0.3 s for each setting that is timed, and with an error for seconds,
+// because it renders the converged picture. Returns nothing if progress cancelled. The solver then
+// has the options that it had, as after an exception. Throws Error for a wish out of range, or
+// where the solver renders no indirect light; otherwise what the solver throws.
 CLGI_API std::optional<SecondOrderTuning> tune_second_order(
     const cl::CommandQueue& queue, const DeviceScene& scene, SecondOrderSolver& solver,
     const Camera& camera, const TuningWish& wish, const Progress& progress = nullptr);
