@@ -120,6 +120,23 @@ TEST_F(Tune, TakesMoreVplsForALongerTime) {
     EXPECT_GT(found->milliseconds, found->frame_ms);
 }
 
+// With more pixels than errors are sampled at, the last trial picture is not of the settings found.
+TEST_F(Tune, PutsTheTimeBeforeTheError) {
+    SecondOrderOptions options = small_picture();
+    options.width = 161;
+    options.height = 128;
+    solver_->reconfigure(options);
+    const auto found = tuned(device_, *solver_, camera_, {.frame_ms = 1e-3, .error = 0.1});
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->meets_time);
+    EXPECT_FALSE(found->meets_error);
+    EXPECT_EQ(found->settings.vpls, SecondOrderTuning::fewest_vpls);
+    EXPECT_GT(found->error.value(), 0.1);
+    expect_settings(solver_->options(), found->settings);
+    EXPECT_EQ(solver_->options().width, 161);
+    EXPECT_EQ(solver_->options().height, 128);
+}
+
 TEST_F(Tune, PlacesNoNegativeVplsWhereThereAreNone) {
     SecondOrderOptions options = small_picture();
     options.negative_vpls = 0;
