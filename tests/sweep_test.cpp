@@ -115,6 +115,23 @@ TEST(SweepSettings, TurnEachKnobAloneAndAreNoTwoAlike) {
     }
 }
 
+TEST(SweepSettings, HaveThoseOfTheFrontThatTuningUses) {
+    const SecondOrderFront& front = second_order_front(MainLight::point);
+    std::vector<Settings> found;
+    for (const Settings& setting : second_order_settings(64, 48, false, {}, &front))
+        if (setting.series == "front") found.push_back(setting);
+    ASSERT_EQ(found.size(), front.refinements.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const SecondOrderOptions& options = found[i].options;
+        const Refinement& refinement = front.refinements[i];
+        EXPECT_EQ(options.emitters.vpls, refinement.from_vpls);
+        EXPECT_EQ(options.negative_vpls, std::min(refinement.from_vpls, 4096));  // a share of 1
+        EXPECT_EQ(options.low_resolution_step, refinement.step);
+        EXPECT_EQ(options.discontinuity_threshold, refinement.threshold);
+        EXPECT_EQ(options.width, 64);
+    }
+}
+
 class SmallSweep : public testing::Test {
 protected:
     static const Sweep& made() {

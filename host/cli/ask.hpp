@@ -1,12 +1,11 @@
-// --target-error and --time-budget of render: a probe finds the settings.
+// --target-error and --time-budget of render --method second-order: tuning finds the settings.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <CLI/App.hpp>
+#include <clgi/plan/tuning.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-
-#include "report/ask.hpp"
 
 namespace clgi::cli {
 
@@ -17,12 +16,12 @@ struct AskFlags {
 void add_ask_flags(CLI::App& command, AskFlags& flags);
 
 // Throws Error for an invalid share or time.
-report::Wish wish_of(const std::string& command, const AskFlags& flags);
+TuningWish wish_of(const std::string& command, const AskFlags& flags);
 
 // The part "ask" of --stats.
 struct AskRecord {
-    report::Wish wish;
-    report::Answer answer;
+    TuningWish wish;
+    SecondOrderTuning tuning;
 };
 nlohmann::ordered_json ask_json(const AskRecord& record, double delivered_ms);
 

@@ -46,8 +46,8 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderS
 void run_second_order(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     parse_low_res(flags.low_res, flags.options);
-    const report::Wish wish = wish_of("render", flags.ask);
-    const bool asked = wish.budget_ms || wish.target_error;
+    const TuningWish wish = wish_of("render", flags.ask);
+    const bool asked = wish.frame_ms || wish.error;
     if (asked && flags.method == "direct")
         throw Error(
             "render: --method direct has no settings to find; it excludes --target-error and "
@@ -89,15 +89,12 @@ void run_second_order(RenderFlags flags) {
     } else if (!solver.run(camera, [&](double done) { return bar(done); })) {
         throw Interrupted();
     }
-    const auto go_on = [] { return !interrupted(); };
+    const auto go_on = [](double) { return !interrupted(); };
     if (asked) {
-        try {
-            record.ask = AskRecord{
-                wish, report::ask(session.queue, device_scene, solver, camera, wish, go_on)};
-        } catch (const report::Cancelled&) {
-            throw Interrupted();
-        }
-        if (!solver.run(camera, nullptr)) throw Interrupted();
+        const auto found =
+            tune_second_order(session.queue, device_scene, solver, camera, wish, go_on);
+        if (!found || !solver.run(camera, nullptr)) throw Interrupted();
+        record.ask = AskRecord{wish, *found};
     }
     for (int frame = 0; frame < flags.frames; ++frame) {
         Camera at = camera;
@@ -123,12 +120,9 @@ void run_second_order(RenderFlags flags) {
     motion.report();
     record.status = solver.status();
     if (flags.replicates > 1) {
-        try {
-            record.replicates =
-                report::replicate(session.queue, solver, camera, flags.replicates, go_on);
-        } catch (const report::Cancelled&) {
-            throw Interrupted();
-        }
+        record.replicates =
+            report::replicate(session.queue, solver, camera, flags.replicates, go_on);
+        if (!record.replicates) throw Interrupted();
         save_picture(record.replicates->mean, flags.picture);
     } else if (!flags.fps) {
         save_picture(report::radiance_picture(session.queue, solver), flags.picture);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "plan/picture_luminance.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
@@ -16,28 +17,6 @@ namespace {
 constexpr int longest_side = 160;  // pixels
 constexpr int probe_vpls = 256;
 constexpr double coarse = 0.25;  // direct light, against the defaults
-
-std::vector<double> luminances(const cl::CommandQueue& queue, const SecondOrderSolver& solver,
-                               const cl::Event& done) {
-    const std::size_t pixels =
-        static_cast<std::size_t>(solver.options().width) * solver.options().height;
-    std::vector<float> planes(3 * static_cast<std::size_t>(solver.stride()));
-    const WaitList wait{done};
-    queue.enqueueReadBuffer(solver.radiance(), CL_TRUE, 0, planes.size() * sizeof(float),
-                            planes.data(), &wait);
-    std::vector<double> out(pixels);
-    for (std::size_t k = 0; k < pixels; ++k)
-        out[k] = luminance(glm::dvec3(planes[k], planes[k + solver.stride()],
-                                      planes[k + 2 * static_cast<std::size_t>(solver.stride())]));
-    return out;
-}
-
-// Root of the mean squared difference.
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-    double squares = 0.0;
-    for (std::size_t k = 0; k < a.size(); ++k) squares += (a[k] - b[k]) * (a[k] - b[k]);
-    return std::sqrt(squares / static_cast<double>(a.size()));
-}
 
 void make_fine(EmitterOptions& options, double fineness) {
     const EmitterOptions usual;
@@ -74,29 +53,27 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
     options.indirect = plan.on(Effect::first_bounce);
     SecondOrderSolver solver(programs, queue, scene, options);
     const auto start = std::chrono::steady_clock::now();  // kernels are built
-    const std::vector<double> lit = luminances(queue, solver, solver.render(camera));
+    const std::vector<double> lit = picture_luminance(queue, solver, solver.render(camera));
     const double flux = options.indirect ? reflected_flux(queue, solver) : 0.0;
     options.indirect = false;
     solver.reconfigure(options);
-    const std::vector<double> direct = luminances(queue, solver, solver.render(camera));
+    const std::vector<double> direct = picture_luminance(queue, solver, solver.render(camera));
 
     make_fine(options.emitters, 2.0 * coarse);
     solver.reconfigure(options);
-    const std::vector<double> finer = luminances(queue, solver, solver.render(camera));
+    const std::vector<double> finer = picture_luminance(queue, solver, solver.render(camera));
 
-    double sum = 0.0;
-    for (const double one : lit) sum += one;
-    const double count = static_cast<double>(lit.size());
     const SceneFrame& frame = scene.frame();
     const double lumen = flux * frame.exposure / (frame.scale * frame.scale);
     const double radiance = lumen / (std::numbers::pi * plan.facts.surfaces.area);
     ProbeFacts out;
+    const double level = mean(lit);
     // A picture without light tells nothing about light that arrives over more bounces.
     out.first_bounce = out.reflected = out.direct_error = std::numeric_limits<double>::infinity();
-    if (sum > 0.0) {
-        out.first_bounce = distance(lit, direct) / (sum / count);
-        out.direct_error = std::sqrt(coarse) * distance(direct, finer) / (sum / count);
-        out.reflected = radiance / (sum / count);
+    if (level > 0.0) {
+        out.first_bounce = std::sqrt(mean_square_difference(lit, direct)) / level;
+        out.direct_error = std::sqrt(coarse * mean_square_difference(direct, finer)) / level;
+        out.reflected = radiance / level;
     }
     out.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

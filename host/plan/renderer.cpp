@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/bake_layout.hpp>
 #include <clgi/plan/renderer.hpp>
+#include <clgi/plan/tuning.hpp>
 #include <clgi/solvers/antiradiance_view.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
 
@@ -40,6 +41,8 @@ using Transfer = Shown<DynamicTransferSolver, DynamicTransferView>;
 
 // Of the method of the plan; the others are empty.
 struct PlannedRenderer::State {
+    cl::CommandQueue queue;
+    const DeviceScene& scene;
     Plan plan;
     std::unique_ptr<SecondOrderSolver> second_order;
     std::unique_ptr<Atlas> atlas;
@@ -56,9 +59,8 @@ struct PlannedRenderer::State {
 PlannedRenderer::PlannedRenderer(const Programs& programs, const cl::CommandQueue& queue,
                                  const Scene& scene, const DeviceScene& device_scene,
                                  const Plan& plan)
-    : state_(std::make_unique<State>()) {
+    : state_(new State{queue, device_scene, plan, nullptr, nullptr, nullptr, nullptr}) {
     State& s = *state_;
-    s.plan = plan;
     switch (plan.method) {
         case Method::direct:
         case Method::second_order:
@@ -87,6 +89,21 @@ bool PlannedRenderer::prepare(const Progress& progress) {
     if (s.elements) return s.elements->solver.run(progress);
     if (s.transfer) return s.transfer->solver.run(progress);
     return !progress || progress(1.0);
+}
+
+bool PlannedRenderer::tune(const Camera& camera, const Progress& progress) {
+    State& s = *state_;
+    if (s.plan.method != Method::second_order || !s.plan.second_order.indirect ||
+        !s.plan.wish.seconds)
+        return !progress || progress(1.0);
+    TuningWish wish;
+    wish.frame_ms = 1e3 * *s.plan.wish.seconds;
+    const auto found = tune_second_order(s.queue, s.scene, *s.second_order, camera, wish, progress);
+    if (!found) return false;
+    s.plan.second_order = s.second_order->options();
+    s.plan.cost.frame_ms = found->frame_ms;
+    s.plan.meets_time = found->meets_time;
+    return true;
 }
 
 void PlannedRenderer::lights_changed() {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <clgi/io/image.hpp>
-#include <string>
 #include <vector>
 
 #include "scene/luminance.hpp"
@@ -12,14 +11,10 @@ namespace clgi::report {
 
 // Of every pixel. Channels are found by name: files keep them in an order of their own.
 inline std::vector<double> luminance_of(const io::Image& picture) {
-    std::vector<double> out(static_cast<std::size_t>(picture.width) *
-                            static_cast<std::size_t>(picture.height));
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::vector<float>& values = picture.find(std::string(1, "RGB"[c]))->values;
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] += luminance_weights[c] * double{values[i]};
-    }
-    return out;
+    const auto plane = [&](const char* name) { return picture.find(name)->values.data(); };
+    return luminances(
+        {plane("R"), plane("G"), plane("B")},
+        static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
 }
 
 }  // namespace clgi::report

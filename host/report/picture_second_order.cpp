@@ -35,7 +35,8 @@ private:
 
 PictureMethod second_order_pictures(const PictureTask& task) {
     const std::vector<Settings> settings =
-        second_order_settings(task.width, task.height, task.setup.quick, task.setup.build);
+        second_order_settings(task.width, task.height, task.setup.quick, task.setup.build,
+                              &second_order_front(main_light(task.scene)));
     const auto solvers = std::make_shared<Solvers>(task);
     PictureMethod out;
     out.knobs = {"vpls",         "negative-vpls", "low-res", "shadow-size",

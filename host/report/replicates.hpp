@@ -3,10 +3,9 @@
 #pragma once
 
 #include <clgi/io/image.hpp>
+#include <clgi/kit/progress.hpp>
 #include <clgi/solvers/second_order.hpp>
-#include <functional>
-
-#include "report/ask.hpp"
+#include <optional>
 
 namespace clgi::report {
 
@@ -19,9 +18,10 @@ struct Replicates {
     double single_error = 0.0;
 };
 
-// Renders replicates 1 to count, at least 2, and leaves the solver at the one it had. `go_on` is
-// asked before each; throws Cancelled when it says no.
-Replicates replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver, const Camera& camera,
-                     int count, const std::function<bool()>& go_on = nullptr);
+// Renders replicates 1 to count, at least 2, and leaves the solver at the one it had. Nothing if
+// progress cancelled. Throws Error for a smaller count.
+std::optional<Replicates> replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver,
+                                    const Camera& camera, int count,
+                                    const Progress& progress = nullptr);
 
 }  // namespace clgi::report

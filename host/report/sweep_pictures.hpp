@@ -5,6 +5,7 @@
 
 #include <clgi/solvers/second_order.hpp>
 
+#include "plan/second_order_fronts.hpp"
 #include "report/picture_methods.hpp"
 #include "report/sweep.hpp"
 
@@ -31,11 +32,13 @@ Sweep sweep_pictures(const SweepSetup& setup, const PictureSweep& pictures);
 
 // The settings of second-order illumination that such a sweep tries, by series. The first of each
 // series that varies one knob is that knob's least accurate setting; that of "math" is strict math
-// on floats.
+// on floats. front: of the scene's main light; a sweep that is not quick has a series "front" of
+// where each of its refinements begins to pay.
 struct Settings : SweepSetting {
     SecondOrderOptions options;
 };
 std::vector<Settings> second_order_settings(int width, int height, bool quick,
-                                            const BuildOptions& build = {});
+                                            const BuildOptions& build = {},
+                                            const SecondOrderFront* front = nullptr);
 
 }  // namespace clgi::report

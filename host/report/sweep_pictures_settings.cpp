@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "plan/tuning_models.hpp"
 #include "report/sweep_pictures.hpp"
 
 namespace clgi::report {
@@ -29,7 +30,8 @@ Settings settings(const std::string& series, const SecondOrderOptions& options) 
 }  // namespace
 
 std::vector<Settings> second_order_settings(int width, int height, bool quick,
-                                            const BuildOptions& build) {
+                                            const BuildOptions& build,
+                                            const SecondOrderFront* front) {
     SecondOrderOptions base;
     base.build = build;
     base.width = width;
@@ -93,6 +95,10 @@ std::vector<Settings> second_order_settings(int width, int height, bool quick,
             options.build.storage = storage;
             add("math", options);
         }
+    if (!quick && front)
+        for (std::size_t i = 0; i < front->refinements.size(); ++i)
+            add("front",
+                with_settings(base, settings_of(*front, {i, front->refinements[i].from_vpls})));
     // Together: only what lies near the front of the knobs alone.
     if (!quick)
         for (const int count : lights)

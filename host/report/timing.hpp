@@ -3,26 +3,19 @@
 #pragma once
 
 #include <clgi/solvers/second_order.hpp>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "opencl/timing.hpp"
+
 namespace clgi::report {
 
-struct Spread {
-    double min = 0.0;
-    double median = 0.0;
-    double max = 0.0;
-};
+using timing::Spread;
+using timing::spread;
+using timing::time_frame;
 
-// Of any number of values; all zero for none.
-Spread spread(std::vector<double> values);
-
-// Renders one frame and waits for it. Milliseconds on the host's clock, nothing transferred.
+// Renders one frame and waits for it.
 double time_frame(SecondOrderSolver& solver, const cl::CommandQueue& queue, const Camera& camera);
-
-// The same of any frame that `enqueue` puts on the queue.
-double time_frame(const cl::CommandQueue& queue, const std::function<void()>& enqueue);
 
 struct PassTime {
     std::string name;

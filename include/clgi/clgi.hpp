@@ -46,6 +46,7 @@
 #include <clgi/plan/facts.hpp>
 #include <clgi/plan/plan.hpp>
 #include <clgi/plan/renderer.hpp>
+#include <clgi/plan/tuning.hpp>
 #include <clgi/procedural.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>

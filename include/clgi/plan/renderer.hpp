@@ -26,6 +26,12 @@ public:
     // progress cancelled.
     bool prepare(const Progress& progress = nullptr);
 
+    // Second order in a plan with a time: tunes its settings to that time (plan/tuning.hpp), in
+    // place of those that were predicted to take it, and plan() then has them with the time that
+    // was measured; its error stays that of the predicted settings. Does nothing for other plans.
+    // Waits. False if progress cancelled.
+    bool tune(const Camera& camera, const Progress& progress = nullptr);
+
     // Reads the scene's lights again, after DeviceScene::set_light; prepare() follows.
     void lights_changed();
 

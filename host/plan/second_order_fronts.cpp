@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "report/fronts.hpp"
+#include "plan/second_order_fronts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace clgi::report {
+namespace clgi {
 namespace {
 
 constexpr float none = INFINITY;  // no pixel is lit in full
@@ -17,7 +17,7 @@ constexpr float none = INFINITY;  // no pixel is lit in full
 // With a few hundred VPLs, sampling errs so much more than interpolation that lighting any pixel
 // in full is wasted. Half as many points across come to pay before low thresholds at a quarter do.
 // Point lights reach the backs of everything: they need as many negative VPLs as others.
-const Front fronts[] = {
+const SecondOrderFront fronts[] = {
     // spot: cornell, box with the bunny, corridor
     {0.2, {{4, none, 16}, {4, 0.2f, 700}, {2, 0.05f, 3000}, {2, 0.02f, 10000}, {1, 0.0f, 30000}}},
     // directional: sponza
@@ -36,21 +36,21 @@ const Front fronts[] = {
 
 }  // namespace
 
-SceneClass classify(const DeviceScene& scene) {
-    if (!scene.emissive().empty()) return SceneClass::area;
+MainLight main_light(const DeviceScene& scene) {
+    if (!scene.emissive().empty()) return MainLight::area;
     std::array<int, 3> counts{};
     for (const Light& light : scene.lights()) {
-        const SceneClass kind = light.kind == Light::Kind::spot          ? SceneClass::spot
-                                : light.kind == Light::Kind::directional ? SceneClass::directional
-                                                                         : SceneClass::point;
+        const MainLight kind = light.kind == Light::Kind::spot          ? MainLight::spot
+                               : light.kind == Light::Kind::directional ? MainLight::directional
+                                                                        : MainLight::point;
         ++counts[static_cast<std::size_t>(kind)];
     }
-    if (scene.environment()) ++counts[static_cast<std::size_t>(SceneClass::directional)];
-    return static_cast<SceneClass>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+    if (scene.environment()) ++counts[static_cast<std::size_t>(MainLight::directional)];
+    return static_cast<MainLight>(std::max_element(counts.begin(), counts.end()) - counts.begin());
 }
 
-const Front& second_order_front(SceneClass scene_class) {
-    return fronts[static_cast<std::size_t>(scene_class)];
+const SecondOrderFront& second_order_front(MainLight light) {
+    return fronts[static_cast<std::size_t>(light)];
 }
 
-}  // namespace clgi::report
+}  // namespace clgi
