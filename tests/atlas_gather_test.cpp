@@ -83,8 +83,10 @@ struct Filled {
 };
 
 // Batches of VPLs after what was there before, 0.25 times the channel's number.
+// open: to all whom nothing hides, which bits do not say.
 Filled gather(const Crowd& crowd, std::uint32_t batch, std::uint32_t flags,
-              const AtlasPasses& passes = test::atlas_passes(), std::uint32_t first_texel = 0) {
+              const AtlasPasses& passes = test::atlas_passes(), std::uint32_t first_texel = 0,
+              bool open = false, float lift = 0.0f) {
     const test::Sites sites = crowd.sites();
     const SiteBuffers& b = sites.buffers;
     Filled out;
@@ -94,13 +96,19 @@ Filled gather(const Crowd& crowd, std::uint32_t batch, std::uint32_t flags,
         before[k] = 0.25f * static_cast<float>(k / out.stride);
     const cl::Buffer gathered = test::upload(before);
     const cl::Buffer filled = test::upload(std::vector<float>(out.stride, 0.5f));
-    const cl::Buffer planes = test::upload_points(crowd.texels, out.stride, GBUFFER_NORMAL + 3);
+    const cl::Buffer planes = test::upload_points(crowd.texels, out.stride,
+                                                  (open ? GBUFFER_GEOMETRIC : GBUFFER_NORMAL) + 3);
     for (std::uint32_t first = 0; first < site_count; first += batch) {
         const std::uint32_t count = std::min(batch, site_count - first);
-        passes.gather(
-            test::device().queue,
-            {first, count, b.stride, b.sample_stride, texel_count, out.stride, first_texel, flags},
-            b, planes, crowd.seen(first, count, (flags & FILL_KEPT) != 0), gathered, filled);
+        const FillParams params{first,       count,      b.stride,    b.sample_stride,
+                                texel_count, out.stride, first_texel, flags,
+                                lift,        0,          0,           0};
+        const cl::CommandQueue& queue = test::device().queue;
+        if (open)
+            passes.gather_open(queue, params, b, planes, gathered, filled);
+        else
+            passes.gather(queue, params, b, planes,
+                          crowd.seen(first, count, (flags & FILL_KEPT) != 0), gathered, filled);
     }
     out.gathered = test::download<float>(gathered, before.size());
     out.filled = test::download<float>(filled, out.stride);
@@ -173,6 +181,67 @@ TEST_P(Gather, AddsWhatEveryListedVplSendsInEveryChannel) {
         }
     EXPECT_GT(near_by, 400);
     EXPECT_GT(far, 1200);
+}
+
+// The same crowd with geometric normals beside the shading ones: a VPL behind a texel's triangle
+// lights it as little as one that looks away from it.
+TEST_P(Gather, WithoutOcclusionAddsWhatFacesEachOther) {
+    Crowd crowd;
+    test::Random random(77);
+    for (SurfacePlace& texel : crowd.texels)
+        texel.geometric = glm::normalize(texel.normal + 0.3f * test::direction(random));
+    constexpr float lift = 0.01f;
+    int lit = 0, behind = 0;
+    for (const std::uint32_t batch : {23u, 9u}) {
+        const Filled found =
+            gather(crowd, batch, FILL_FORM_FACTORS, test::atlas_passes(GetParam()), 0, true, lift);
+        for (std::size_t t = 0; t < crowd.texels.size(); ++t) {
+            glm::dvec4 sum(0.0, 0.25, 0.5, 0.5), condition = sum;
+            bool doubtful = false;
+            for (std::uint32_t k = 0; k < listed_count; ++k) {
+                const SitePlace& site = crowd.places[crowd.order[k]];
+                const SurfacePlace& texel = crowd.texels[t];
+                const glm::dvec3 d = glm::dvec3(texel.position) - glm::dvec3(site.position);
+                const double above = glm::dot(d, glm::dvec3(site.normal)) - double{lift};
+                const double back = glm::dot(d, glm::dvec3(texel.geometric));
+                doubtful |= std::abs(above) < 1e-6 || std::abs(back) < 1e-6;
+                const Lit term = lit_by(site, texel);
+                if (!(above > 0.0 && back < 0.0)) {
+                    behind += term.value.w > 0.0;
+                    continue;
+                }
+                sum += term.value;
+                condition += term.condition;
+                doubtful |= term.doubtful;
+                lit += term.value.w > 0.0;
+            }
+            if (doubtful) continue;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(found.gathered[c * found.stride + t], sum[c], 3e-6 * condition[c]) << t;
+            EXPECT_NEAR(found.filled[t], sum.w, 3e-6 * condition.w) << t;
+        }
+    }
+    EXPECT_GT(lit, 1000);
+    EXPECT_GT(behind, 50);
+}
+
+TEST(Gather, WithoutOcclusionIsTheSameForEveryWidthGroupAndPart) {
+    Crowd crowd;
+    for (SurfacePlace& texel : crowd.texels) texel.geometric = texel.normal;
+    const Filled usual = gather(crowd, 23, FILL_FORM_FACTORS, test::atlas_passes(), 0, true);
+    for (const int width : {1, 4, 8, 16}) {
+        BuildOptions build;
+        build.packet_width = width;
+        build.local_size = width == 4 ? 1 : 0;
+        const Filled part =
+            gather(crowd, 7, FILL_FORM_FACTORS, AtlasPasses(test::programs(), build), 96, true);
+        for (std::size_t t = 0; t < texel_count; ++t)
+            for (std::size_t c = 0; c < 3; ++c)
+                EXPECT_EQ(
+                    part.gathered[c * usual.stride + t],
+                    t < 96 ? 0.25f * static_cast<float>(c) : usual.gathered[c * usual.stride + t])
+                    << width;
+    }
 }
 
 TEST(Gather, IsTheSameInBatchesOfAnySizeKeptOrNot) {

@@ -96,7 +96,8 @@ TEST(WithoutShadows, ALightAtlasHasTheSameDirectLight) {
     ASSERT_TRUE(with.run() && without.run());
     test::expect_no_less(with.irradiance(), without.irradiance(), 0.05);
     const EmitterRoom room = make_emitters(bakery.on_device, test::small_maps(true)).room;
-    EXPECT_EQ(with.bytes() - without.bytes(),
+    // And lists of large triangles.
+    EXPECT_GT(with.bytes() - without.bytes(),
               room.views * sizeof(View) + room.pixels * sizeof(std::uint32_t) - 32);
 }
 

@@ -108,7 +108,7 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
               Method::dynamic_transfer);
     EXPECT_EQ(method([](SceneFacts& f, PlanWish&) { f.surfaces.triangles = 0; }), Method::direct);
     EXPECT_EQ(method([](SceneFacts&, PlanWish& w) { w.without = {Effect::indirect_occlusion}; }),
-              Method::second_order);
+              Method::light_atlas);
     for (const Method wished : {Method::direct, Method::second_order, Method::light_atlas,
                                 Method::antiradiance, Method::dynamic_transfer})
         EXPECT_EQ(method([&](SceneFacts&, PlanWish& w) { w.method = wished; }), wished);
@@ -171,6 +171,7 @@ TEST(Plan, SaysWhatBringsEachEffect) {
     EXPECT_EQ(by(Method::second_order, Effect::further_bounces), "nothing");
     EXPECT_EQ(by(Method::light_atlas, Effect::further_bounces), "baked VPLs");
     EXPECT_EQ(by(Method::antiradiance, Effect::indirect_occlusion), "antiradiance");
+    EXPECT_EQ(by(Method::light_atlas, Effect::indirect_occlusion), "hemicubes");
     EXPECT_EQ(by(Method::direct, Effect::first_bounce), "nothing");
     EXPECT_EQ(by(Method::direct, Effect::textures), "");  // off
 
@@ -179,8 +180,11 @@ TEST(Plan, SaysWhatBringsEachEffect) {
     wish.without = {Effect::indirect_occlusion};
     EXPECT_EQ(make_plan(device, facts, wish).unavoidable,
               std::vector<Effect>{Effect::indirect_occlusion});
+    for (const Method able : {Method::second_order, Method::light_atlas}) {
+        wish.method = able;
+        EXPECT_TRUE(make_plan(device, facts, wish).unavoidable.empty());
+    }
     wish.method = Method::second_order;
-    EXPECT_TRUE(make_plan(device, facts, wish).unavoidable.empty());
     // VPLs are placed through shadow maps.
     wish.without = {Effect::direct_shadows};
     EXPECT_EQ(make_plan(device, facts, wish).unavoidable,
@@ -234,6 +238,25 @@ TEST(Plan, TakesSettingsOfDirectLightFromTheWish) {
             EXPECT_EQ(options.area_samples, 5);
         }
     }
+}
+
+// Whether by proof or by wish, a light atlas draws no hemicubes then, and costs less.
+TEST(Plan, SwitchesTheOcclusionOfLightAtlasesOff) {
+    const cl::Device& device = test::device().device;
+    SceneFacts facts = scene_facts(test::furnished_room(3));
+    PlanWish wish;
+    wish.method = Method::light_atlas;
+    const Plan hidden = make_plan(device, facts, wish);
+    EXPECT_TRUE(hidden.light_atlas.occlusion);
+    wish.without = {Effect::indirect_occlusion};
+    EXPECT_FALSE(make_plan(device, facts, wish).light_atlas.occlusion);
+    wish.without = {};
+    facts.proof.surfaces_open = true;
+    wish.error = 0.034;  // the settings of which both kinds of scene are known
+    const Plan open = make_plan(device, facts, wish);
+    EXPECT_FALSE(open.light_atlas.occlusion);
+    EXPECT_GT(hidden.effects[static_cast<std::size_t>(Effect::indirect_occlusion)].milliseconds,
+              0.0);
 }
 
 // Predicted, not measured.

@@ -6,7 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "math_modes.hpp"
-#include "vpl_tools.hpp"
+#include "vpl_crowd.hpp"
 
 namespace clgi {
 namespace {
@@ -14,91 +14,18 @@ namespace {
 using test::Hemicubes;
 using test::SitePlace;
 using test::Sites;
-
-constexpr double half_rounding = 0x1p-11, smallest_half = 0x1p-25;
-
-// Sites of all sizes close together, their samples about a disc that is not quite flat.
-std::vector<SitePlace> crowd(int count) {
-    test::Random random(4711);
-    std::vector<SitePlace> out;
-    for (int i = 0; i < count; ++i) {
-        SitePlace site;
-        site.position = glm::vec3(random(-1, 1), random(-1, 1), random(-1, 1));
-        site.normal = test::direction(random);
-        site.area = static_cast<float>(std::exp(random(std::log(0.003), std::log(0.3))));
-        const float radius = std::sqrt(site.area / CLGI_PI);
-        const int samples = random.integer(1, 21);
-        for (int k = 0; k < samples; ++k) {
-            glm::vec3 across = test::direction(random) * radius;
-            across -= 0.97f * glm::dot(across, site.normal) * site.normal;
-            site.samples.push_back({site.position + across,
-                                    glm::normalize(site.normal + 0.3f * test::direction(random)),
-                                    glm::normalize(site.normal + 0.1f * test::direction(random))});
-        }
-        out.push_back(site);
-    }
-    return out;
-}
+using test::half_rounding;
 
 CLGI_IN_BOTH_MATHS(Exchange);
 
-// Every pair of a crowd in which nothing hides anything: far and near, facing each other or not.
-// most: samples of a receiver that are looked at, the first of its own.
-void expect_means(const VplPasses& passes, std::size_t most) {
-    const Sites sites(crowd(61));
-    const float scale = 0.37f;
-    const auto rows = test::transport_rows(sites, test::hemicubes(sites, nullptr), true, scale,
-                                           passes, static_cast<std::uint32_t>(most));
-    int far = 0, near_by = 0, hidden = 0;
-    for (std::size_t i = 0; i < sites.places.size(); ++i)
-        for (std::size_t j = 0; j < sites.places.size(); ++j) {
-            const SitePlace &from = sites.places[i], &to = sites.places[j];
-            double wanted = 0.0, condition = 0.0;
-            bool doubtful = false, close = false;
-            const std::size_t samples = std::min(most, to.samples.size());
-            for (std::size_t k = 0; k < samples; ++k) {
-                const test::SurfacePlace& sample = to.samples[k];
-                const glm::dvec3 p(sample.position), d = p - glm::dvec3(from.position);
-                const double back = glm::dot(d, glm::dvec3(sample.geometric));
-                const double above = glm::dot(d, glm::dvec3(from.normal));
-                doubtful |= std::abs(back) < 1e-6 || std::abs(above) < 1e-6;
-                if (!(back < 0.0 && above > 0.0)) continue;
-                const test::Exchanged e = test::exchange(from, p, glm::dvec3(sample.normal));
-                doubtful |= e.doubtful;
-                close |= e.near_by;
-                wanted += e.factor;
-                condition += e.condition;
-            }
-            const double found = glm::unpackHalf1x16(rows[i * sites.buffers.stride + j]);
-            if (i == j) {
-                EXPECT_EQ(found, 0.0) << "a site lights itself";
-                continue;
-            }
-            if (doubtful) continue;
-            const double share = scale / (test::pi * static_cast<double>(samples));
-            wanted *= share;
-            condition *= share;
-            // Rounded dot products of three terms, twice, and to half.
-            EXPECT_NEAR(found, wanted, half_rounding * wanted + 2e-6 * condition + smallest_half)
-                << i << " to " << j;
-            EXPECT_TRUE(condition > 0.0 || found == 0.0);
-            hidden += condition == 0.0;
-            far += wanted > 0.0 && !close;
-            near_by += wanted > 0.0 && close;
-        }
-    EXPECT_GT(far, 200);
-    EXPECT_GT(near_by, 90);
-    EXPECT_GT(hidden, 1000);
-}
-
 TEST_P(Exchange, IsTheMeanOfTheKernelOverTheReceiversSamples) {
-    expect_means(test::vpl_passes(GetParam()), 1u << 20);
+    test::expect_means(test::vpl_passes(GetParam()), 1u << 20);
 }
 
 // Of up to 21: the others are not looked at.
 TEST_P(Exchange, IsTheMeanOverTheFirstSamplesIfNoMoreAreAskedFor) {
     for (const std::size_t most : {1u, 2u, 4u, 5u, 9u, 16u})
-        expect_means(test::vpl_passes(GetParam()), most);
+        test::expect_means(test::vpl_passes(GetParam()), most);
 }
 
 // One site of one sample.

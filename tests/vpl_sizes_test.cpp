@@ -126,6 +126,21 @@ TEST(Sizes, OfVplPasses) {
             [=, &e](B b) { call(e.buffers, z, z, b); });
     }
 
+    for (const cl_uint kept : {0u, 1u}) {
+        TransportParams params = shooters;
+        params.kept = kept;
+        const auto call = [&passes, &queue, params](const S& b, B rows) {
+            passes.transport_open(queue, params, b, rows);
+        };
+        add(all, e, "vpl.transport_open", [=](const S& b) { call(b, z); },
+            {sites, planes, points, few, chosen});
+        add(all, "vpl.transport_open", "rows", (kept ? n : 2) * stride * sizeof(cl_half),
+            [=, &e](B b) { call(e.buffers, b); });
+    }
+    add(all, e, "vpl.reach_open",
+        [&](const S& b) { passes.reach_open(queue, shooters, e.scene, b); },
+        {sites, planes, points, chosen, balance});
+
     // Views of one pixel each, the first one, where nothing is.
     const cl::Buffer views = test::upload([] {
         View view{};
@@ -307,6 +322,24 @@ TEST(Sizes, OfAtlasPasses) {
         add(all, "atlas.gather", "filled", texel_plane,
             [=, &e](B b) { gather(e.buffers, z, z, out, b); });
     }
+
+    const auto open = [&](const S& b, B places, B gathered, B filled) {
+        passes.gather_open(queue, params, b, places, gathered, filled);
+    };
+    add(all, e, "atlas.gather_open", [=](const S& b) { open(b, z, out, out); },
+        {{"list", &S::list, 3 * word},
+         {"listed", &S::listed, word},
+         {"sites", &S::sites, n * sizeof(Site)},
+         {"planes", &S::planes, SITE_PLANES * plane},
+         {"site_power", &S::site_power, 3 * plane},
+         {"samples", &S::samples, GBUFFER_PLANES * sample_stride * word},
+         {"sample_power", &S::sample_power, 3 * sample_stride * word}});
+    add(all, "atlas.gather_open", "texels", (GBUFFER_GEOMETRIC + 3) * texel_plane,
+        [&](B b) { open(e.buffers, b, out, out); });
+    add(all, "atlas.gather_open", "gathered", 3 * texel_plane,
+        [&](B b) { open(e.buffers, z, b, out); });
+    add(all, "atlas.gather_open", "filled", texel_plane,
+        [&](B b) { open(e.buffers, z, out, b); });
 
     const auto nearest = [&](const S& b, B places, B reach) {
         passes.nearest(queue, params, b, places, reach);

@@ -181,6 +181,24 @@ inline std::vector<std::uint16_t> transport_rows(const Sites& sites, const Hemic
     return download<std::uint16_t>(rows, halves);
 }
 
+// The same where nothing lies between sites, without hemicubes: of `count` shooters from `first`
+// on.
+inline std::vector<std::uint16_t> open_rows(const Sites& sites, std::uint32_t first,
+                                            std::uint32_t count, bool kept = false,
+                                            float row_scale = 1.0f,
+                                            const VplPasses& passes = vpl_passes(),
+                                            std::uint32_t most_samples = 1u << 20,
+                                            float lift = 0.0f) {
+    const SiteBuffers b = with_points(sites, most_samples, passes);
+    const std::size_t halves = std::size_t{kept ? b.site_count : count} * b.stride;
+    const cl::Buffer rows = upload(std::vector<std::uint16_t>(halves, 0x7e00));  // NaN
+    passes.transport_open(device().queue,
+                          {first, count, kept ? 1u : 0u, b.site_count, b.stride, b.sample_stride, 0,
+                           row_scale, 0, 0, 0, lift},
+                          b, rows);
+    return download<std::uint16_t>(rows, halves);
+}
+
 // What texels see of a batch -> seen, rows of params.stride bytes from first_row on.
 inline void see(const Hemicubes& cubes, std::uint32_t texels, const cl::Buffer& planes,
                 const cl::Buffer& seen, std::uint32_t first_row = 0,

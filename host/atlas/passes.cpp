@@ -25,6 +25,18 @@ std::size_t last_shooter(const FillParams& params) {
     return std::size_t{params.first_shooter} + params.shooter_count;
 }
 
+// planes: of the texels that are read.
+void need_gather(const PassKernel& pass, const FillParams& params, const SiteBuffers& b,
+                 const cl::Buffer& texels, std::size_t planes, const cl::Buffer& gathered,
+                 const cl::Buffer& filled) {
+    need_senders(pass, params, b);
+    need(pass, "list", b.list, last_shooter(params) * word);
+    need(pass, "listed", b.listed, word);
+    need(pass, "texels", texels, planes * word * params.stride);
+    need(pass, "gathered", gathered, 3 * word * params.stride);
+    need(pass, "filled", filled, word * params.stride);
+}
+
 // How many texels there are from the first on.
 template <typename Params>
 std::uint32_t texels_left(const PassKernel& pass, const Params& params) {
@@ -65,6 +77,8 @@ AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
     see_listed_ = programs.kernel("atlas", "see_listed", full(options));
     see_blocks_ = programs.kernel("atlas", "see_blocks", full(options));
     gather_ = programs.kernel("atlas", "gather", full(options));
+    gather_open_ = programs.kernel("atlas", "gather", full(options), "-DCLGI_OPEN");
+    gather_open_.name = "atlas.gather_open";
     geometry_ = programs.kernel("atlas", "geometry", scalar(options));
     replicate_ = programs.kernel("atlas", "replicate", scalar(options));
     project_ = programs.kernel("atlas", "project", scalar(options));
@@ -74,8 +88,8 @@ AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
 }
 
 void AtlasPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({see_, flat_, see_listed_, see_blocks_, gather_, geometry_, replicate_, project_, nearest_,
-                 complete_, show_},
+    build_named({see_, flat_, see_listed_, see_blocks_, gather_, gather_open_, geometry_,
+                 replicate_, project_, nearest_, complete_, show_},
                 passes);
 }
 
@@ -97,17 +111,22 @@ cl::Event AtlasPasses::gather(const cl::CommandQueue& queue, const FillParams& p
                               const SiteBuffers& b, const cl::Buffer& texels,
                               const cl::Buffer& seen, const cl::Buffer& gathered,
                               const cl::Buffer& filled, const WaitList& wait) const {
-    need_senders(gather_, params, b);
-    need(gather_, "list", b.list, last_shooter(params) * word);
-    need(gather_, "listed", b.listed, word);
-    need(gather_, "texels", texels, (GBUFFER_NORMAL + 3) * word * params.stride);
+    need_gather(gather_, params, b, texels, GBUFFER_NORMAL + 3, gathered, filled);
     need(gather_, "seen", seen,
          seen_rows(params.flags & FILL_KEPT ? b.site_count : params.shooter_count) * params.stride);
-    need(gather_, "gathered", gathered, 3 * word * params.stride);
-    need(gather_, "filled", filled, word * params.stride);
     return launch(gather_, queue, packets(gather_, texels_left(gather_, params)), wait, params,
                   b.list, b.listed, b.sites, b.planes, b.site_power, b.samples, b.sample_power,
                   texels, seen, gathered, filled);
+}
+
+cl::Event AtlasPasses::gather_open(const cl::CommandQueue& queue, const FillParams& params,
+                                   const SiteBuffers& b, const cl::Buffer& texels,
+                                   const cl::Buffer& gathered, const cl::Buffer& filled,
+                                   const WaitList& wait) const {
+    need_gather(gather_open_, params, b, texels, GBUFFER_GEOMETRIC + 3, gathered, filled);
+    return launch(gather_open_, queue, packets(gather_open_, texels_left(gather_open_, params)),
+                  wait, params, b.list, b.listed, b.sites, b.planes, b.site_power, b.samples,
+                  b.sample_power, texels, gathered, filled);
 }
 
 cl::Event AtlasPasses::geometry(const cl::CommandQueue& queue, const MeshParams& params,

@@ -51,6 +51,7 @@ void take_settings(RenderFlags& flags, const Plan& plan) {
             flags.atlas.vpls = plan.vpls;
             flags.atlas.layout = plan.layout;
             flags.atlas.bake.bounces = plan.light_atlas.bounces;
+            flags.atlas.bake.occlusion = plan.light_atlas.occlusion;
             break;
         case Method::antiradiance: {
             AntiradianceOptions& to = flags.antiradiance.solver;

@@ -64,7 +64,7 @@ Carrier indirect_occlusion(Method method) {
         case Method::second_order:
             return {"negative VPLs"};
         case Method::light_atlas:
-            return {"hemicubes", true};
+            return {"hemicubes"};
         case Method::antiradiance:
             return {"antiradiance", true};
         case Method::dynamic_transfer:

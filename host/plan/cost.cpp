@@ -90,12 +90,25 @@ PlanCost added(const Plan& plan, const Amount& once, const Amount& moved, const 
     return out;
 }
 
+// Layout, transport and filling, with hemicubes.
+Amount drawn_bake(double vpls, double texels, double triangles) {
+    return {40.0 + vpls * (0.25 + 4e-5 * triangles) + 3e-5 * vpls * vpls + 1.3e-6 * vpls * texels +
+                2e-3 * triangles,
+            2.0 * vpls * vpls + texels * (vpls / 8.0 + 150.0)};
+}
+
+// The same without occlusion: VPLs near by take a time of their own for each texel.
+Amount open_bake(double vpls, double texels, double triangles) {
+    return {4.0 + vpls * (0.033 + 2e-6 * triangles) + 1.4e-5 * vpls * vpls +
+                texels * (1e-4 + 1.6e-7 * vpls) + 7e-3 * triangles,
+            2.0 * vpls * vpls + texels * 150.0};
+}
+
 PlanCost light_atlas(const Plan& plan) {
     const double vpls = plan.vpls.count;
     const double texels = 0.75 * plan.layout.size * plan.layout.size;
-    const Amount bake{40.0 + vpls * (0.25 + 4e-5 * triangles(plan)) + 3e-5 * vpls * vpls +
-                          1.3e-6 * vpls * texels + 2e-3 * triangles(plan),
-                      2.0 * vpls * vpls + texels * (vpls / 8.0 + 150.0)};
+    const Amount bake =
+        (plan.light_atlas.occlusion ? drawn_bake : open_bake)(vpls, texels, triangles(plan));
     const bool environment = has_sky(plan);
     const Amount maps = shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
                                     plan.light_atlas.emitters.shadows);

@@ -32,6 +32,7 @@ void apply_effects(Plan& plan) {
     emitters(plan.light_atlas.emitters);
     // All bounces cost little more than one where the transport is kept.
     plan.light_atlas.bounces = plan.on(Effect::further_bounces) ? 0 : 1;
+    plan.light_atlas.occlusion = plan.on(Effect::indirect_occlusion);
     plan.light_atlas.build = build;
 
     emitters(plan.antiradiance.emitters);

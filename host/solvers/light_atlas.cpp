@@ -67,23 +67,38 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     if (vpl_layout.vpls.empty()) throw Error("light-atlas: there is no VPL");
     if (atlas_layout.texels.empty()) throw Error("light-atlas: there is no texel");
     AtlasBlocks made;
-    if (options.filling == Filling::gather && options.refine > 1)
+    if (options.occlusion && options.filling == Filling::gather && options.refine > 1)
         made = make_blocks(atlas_layout, options.refine);
-    const BufferTable all =
-        table(b, emitters, scene, vpl_layout, atlas_layout, made, options, budget,
-              device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
+    const BufferTable all = table(b, emitters, scene, vpl_layout, atlas_layout, made, options,
+                                  budget, device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
     all.check(device, options.memory_budget, scene.bytes());
     all.allocate(record);
     bytes = all.bytes();
     b.samples.planes = b.sites.samples;
     b.listed.planes = b.blocks.planes;
     lift = 2e-5f * scene.frame().radius;
-    gbuffer.build({"surface", "cubes"});
-    gbuffer.build({"raster_views"}, Pixels::depth);
+    build();
+    emitters.write(record);
+    upload(vpl_layout, atlas_layout, made);
+}
+
+// The kernels that these options need.
+void LightAtlasSolver::State::build() {
+    gbuffer.build({"surface"});
     lights.build({"direct"});
-    vpl.build({"place", "points", "receive", "transport", "reach", "balance_receivers",
-               "balance_shooters", "emit", "shoot", "send"});
-    atlas.build({"nearest", "complete"});
+    emitters.build(gbuffer);
+    vpl.build({"place", "points", "receive", "balance_receivers", "balance_shooters", "emit",
+               "shoot", "send"});
+    atlas.build({"complete"});
+    if (!options.occlusion) {
+        vpl.build({"transport_open", "reach_open"});
+        atlas.build({"gather_open"});
+        return;
+    }
+    gbuffer.build({"cubes"});
+    gbuffer.build({"raster_views"}, Pixels::depth);
+    vpl.build({"transport", "reach"});
+    atlas.build({"nearest"});
     if (options.filling == Filling::project) {
         atlas.build({"geometry", "replicate", "project"});
         gbuffer.build({"raster_views"}, Pixels::visibility);
@@ -94,8 +109,6 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
         else
             atlas.build({"see"});
     }
-    emitters.write(record);
-    upload(vpl_layout, atlas_layout, made);
 }
 
 void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout& texels,
@@ -152,7 +165,8 @@ void LightAtlasSolver::State::place() {
     placed = !record.cancelled();
 }
 
-// least: below 0, all light is sent anew; else only VPLs whose power changed by more send the change.
+// least: below 0, all light is sent anew; else only VPLs whose power changed by more send the
+// change.
 bool LightAtlasSolver::State::run(const Progress& progress, double least) {
     record.begin({}, progress);
     record.fill(b.non_finite, 0);

@@ -31,12 +31,21 @@ void LightAtlasSolver::State::hemicubes(std::uint32_t first, std::uint32_t count
 
 // Rows of the transport of a batch, and its reach.
 void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count) {
-    hemicubes(first, count, Pixels::depth);
     const TransportParams params{first, count, b.kept ? 1u : 0u, b.sites.site_count,
                                  b.sites.stride, b.sites.sample_stride,
                                  static_cast<std::uint32_t>(options.hemicube_size), row_scale,
-                                 0, 0, 0, 0};
+                                 0, 0, 0, lift};
     const std::size_t pairs = std::size_t{count} * b.sites.site_count * b.sites.per_site;
+    if (!options.occlusion) {
+        record("vpl.transport_open", pairs, [&](const WaitList& wait) {
+            return vpl.transport_open(queue, params, b.sites, b.rows, wait);
+        });
+        record("vpl.reach_open", count, [&](const WaitList& wait) {
+            return vpl.reach_open(queue, params, scene, b.sites, wait);
+        });
+        return;
+    }
+    hemicubes(first, count, Pixels::depth);
     record("vpl.transport", pairs, [&](const WaitList& wait) {
         return vpl.transport(queue, params, b.sites, b.views, b.pixels, b.rows, wait);
     });

@@ -24,6 +24,8 @@ void check(const LightAtlasOptions& options) {
     if (options.refine != 1 && options.refine != 2 && options.refine != 4)
         throw Error("light-atlas: refine is " + std::to_string(options.refine) +
                     ", 1, 2 or 4 needed");
+    if (!options.occlusion && options.filling == Filling::project)
+        throw Error("light-atlas: occlusion is off, which Filling::project needs");
     need_range<double>("light-atlas", "kernel", options.kernel, 0, 64);
     need_range<double>("light-atlas", "mesh", options.mesh, 8, 131072);
     const int squares = static_cast<int>(mesh_squares(options.mesh));
@@ -57,6 +59,7 @@ std::uint32_t mesh_squares(int triangles) {
 
 namespace {
 
+constexpr std::uint32_t unseen_vpls = 256;    // a batch where none has a hemicube
 constexpr std::size_t points_of_all = 25600;  // that a shooter looks at
 
 // Sample points of a receiving VPL. The more VPLs, the fewer of each: a packet holds more of them.
@@ -131,12 +134,12 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     b.samples.stride = s.sample_stride;
     b.texels.stride = b.texel_stride;
     // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits
-    // each.
-    b.batch = SEEN_VPLS;
+    // each. Without maps a batch is what a report may wait for.
+    b.batch = options.occlusion ? std::uint32_t{SEEN_VPLS} : unseen_vpls;
 
     BufferTable t("light-atlas");
     emitters.add_to(t);
-    add_raster_lists(t, b.lists, scene);
+    if (emitters.casts_shadows()) add_raster_lists(t, b.lists, scene);
     t.add(s.sites, "sites", vpls, sites * sizeof(Site));
     t.add(s.planes, "VPLs", vpls, SITE_PLANES * word * s.stride);
     t.add(s.light, "irradiance of VPLs", vpls, SITE_LIGHT_PLANES * word * s.stride);
@@ -169,10 +172,12 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     t.add(b.filled, "form factors of texels", size, word * b.texel_stride);
     t.add(b.strongest, "maxima", vpls, sizeof(ArgMax));
     t.add(b.arg_max_scratch, "maxima of tiles", vpls, arg_max_scratch_bytes(sites));
-    t.add(b.views, "views", vpls, 5 * b.batch * sizeof(View));
-    const auto side = static_cast<std::size_t>(options.hemicube_size);
-    t.add(b.pixels, "hemicubes", "hemicube_size",
-          3 * b.batch * side * side * pixel_bytes(filling_pixels(options)));
+    if (options.occlusion) {
+        t.add(b.views, "views", vpls, 5 * b.batch * sizeof(View));
+        const auto side = static_cast<std::size_t>(options.hemicube_size);
+        t.add(b.pixels, "hemicubes", "hemicube_size",
+              3 * b.batch * side * side * pixel_bytes(filling_pixels(options)));
+    }
     add_mesh(t, b, scene, atlas.charts.size(), options);
     add_blocks(t, b, blocks);
     t.add_word(b.non_finite, "counters", 0);
@@ -181,9 +186,11 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     };
     const std::size_t row = s.stride * sizeof(cl_half);
     // What a batch sees has to fit beside the rows.
-    b.kept = fits(sites * row, options.filling == Filling::project ? 0 : b.texel_stride);
-    t.add(b.rows, "rows of transport", vpls, (b.kept ? sites : b.batch) * row);
-    if (options.filling == Filling::project) return t;
+    const bool looked_up = options.occlusion && options.filling == Filling::gather;
+    b.kept = fits(sites * row, looked_up ? b.texel_stride : 0);
+    t.add(b.rows, "rows of transport", vpls,
+          (b.kept ? sites : std::min<std::size_t>(b.batch, sites)) * row);
+    if (!looked_up) return t;
     const std::size_t seen = seen_rows(sites) * b.texel_stride;
     b.seen_kept = b.kept && fits(seen, 0);
     t.add(b.seen, "texels that VPLs see", "the number of VPLs or the size of the atlas",

@@ -66,6 +66,7 @@ struct LightAtlasSolver::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& scene,
           const VplLayout& vpls, const AtlasLayout& atlas, const LightAtlasOptions& options);
 
+    void build();
     void upload(const VplLayout& vpls, const AtlasLayout& atlas, const AtlasBlocks& blocks);
     void place();
     void receive_direct();
@@ -87,6 +88,7 @@ struct LightAtlasSolver::State {
     void shoot_strongest();
     void exchange();
     void send(float least);
+    void find_reach();
     void fill();
     void put_back_measurement();
     void put_back_light();

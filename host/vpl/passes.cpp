@@ -49,6 +49,28 @@ void need_rows(const PassKernel& pass, const SiteBuffers& b, const cl::Buffer& r
          std::size_t{kept ? b.site_count : shooters} * b.stride * sizeof(cl_half));
 }
 
+void need_exchange(const PassKernel& pass, const TransportParams& params, const SiteBuffers& b,
+                   const cl::Buffer& rows) {
+    need_sites(pass, b);
+    need_points(pass, b);
+    need(pass, "chosen", b.chosen, last_shooter(params.first_shooter, params.shooter_count) * word);
+    need_rows(pass, b, rows, params.kept, params.shooter_count);
+}
+
+// Work-items for all points: a packet holds those of several sites, of one, or a part of them.
+std::size_t packets_of_points(const PassKernel& pass, const SiteBuffers& b) {
+    const std::size_t together =
+        std::max<std::size_t>(std::size_t(pass.packet_width) / b.per_site, 1);
+    return (b.site_count + together - 1) / together;
+}
+
+TransportParams with_points(TransportParams params, const SiteBuffers& b) {
+    params.most_samples = b.most_samples;
+    params.per_site = b.per_site;
+    params.point_stride = b.point_stride;
+    return params;
+}
+
 }  // namespace
 
 VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
@@ -62,6 +84,11 @@ VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
     points_ = kernel("points", scalar(options));
     receive_ = few("receive", scalar(options));
     transport_ = few("transport", full(options));
+    transport_open_ =
+        in_small_groups(programs.kernel("vpl", "transport", full(options), "-DCLGI_OPEN"),
+                        programs.device(), options);
+    transport_open_.name = "vpl.transport_open";
+    reach_open_ = few("reach_open", full(options));
     reach_ = few("reach", scalar(options));
     balance_receivers_ = few("balance_receivers", full(options));
     balance_shooters_ = few("balance_shooters", full(options));
@@ -71,8 +98,8 @@ VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
 }
 
 void VplPasses::build(std::initializer_list<const char*> passes) const {
-    build_named({place_, points_, receive_, transport_, reach_, balance_receivers_,
-                 balance_shooters_, emit_, shoot_, send_},
+    build_named({place_, points_, receive_, transport_, transport_open_, reach_, reach_open_,
+                 balance_receivers_, balance_shooters_, emit_, shoot_, send_},
                 passes);
 }
 
@@ -122,22 +149,22 @@ cl::Event VplPasses::transport(const cl::CommandQueue& queue, const TransportPar
                                const SiteBuffers& b, const cl::Buffer& views,
                                const cl::Buffer& depth, const cl::Buffer& rows,
                                const WaitList& wait) const {
-    need_sites(transport_, b);
-    need_points(transport_, b);
-    need(transport_, "chosen", b.chosen,
-         last_shooter(params.first_shooter, params.shooter_count) * word);
+    need_exchange(transport_, params, b, rows);
     need(transport_, "views", views, 5 * std::size_t{params.shooter_count} * sizeof(View));
     need(transport_, "depth", depth, 3 * word * params.shooter_count * params.size * params.size);
-    need_rows(transport_, b, rows, params.kept, params.shooter_count);
-    const std::size_t together =
-        std::max<std::size_t>(std::size_t(transport_.packet_width) / b.per_site, 1);
-    TransportParams all = params;
-    all.most_samples = b.most_samples;
-    all.per_site = b.per_site;
-    all.point_stride = b.point_stride;
-    return launch_rows(transport_, queue, (b.site_count + together - 1) / together,
-                       params.shooter_count, wait, all, b.chosen, views, depth, b.sites, b.planes,
+    return launch_rows(transport_, queue, packets_of_points(transport_, b), params.shooter_count,
+                       wait, with_points(params, b), b.chosen, views, depth, b.sites, b.planes,
                        b.samples, b.points, rows);
+}
+
+cl::Event VplPasses::transport_open(const cl::CommandQueue& queue, const TransportParams& params,
+                                    const SiteBuffers& b, const cl::Buffer& rows,
+                                    const WaitList& wait) const {
+    need_exchange(transport_open_, params, b, rows);
+    return launch_rows(transport_open_, queue, packets_of_points(transport_open_, b),
+                       (params.shooter_count + TRANSPORT_SHOOTERS - 1) / TRANSPORT_SHOOTERS, wait,
+                       with_points(params, b), b.chosen, b.sites, b.planes, b.samples, b.points,
+                       rows);
 }
 
 cl::Event VplPasses::reach(const cl::CommandQueue& queue, const TransportParams& params,
@@ -151,6 +178,18 @@ cl::Event VplPasses::reach(const cl::CommandQueue& queue, const TransportParams&
     need(reach_, "balance", b.balance, BALANCE_PLANES * word * b.stride);
     return launch(reach_, queue, params.shooter_count, wait, params, b.chosen, views, depth,
                   b.balance);
+}
+
+cl::Event VplPasses::reach_open(const cl::CommandQueue& queue, const TransportParams& params,
+                                const DeviceScene& scene, const SiteBuffers& b,
+                                const WaitList& wait) const {
+    need_sites(reach_open_, b);
+    need(reach_open_, "chosen", b.chosen,
+         last_shooter(params.first_shooter, params.shooter_count) * word);
+    need(reach_open_, "balance", b.balance, BALANCE_PLANES * word * b.stride);
+    return launch(reach_open_, queue, packets(reach_open_, params.shooter_count), wait, params,
+                  static_cast<cl_uint>(scene.info().triangle_count), b.chosen, b.planes,
+                  scene.triangles(), scene.positions(), b.balance);
 }
 
 cl::Event VplPasses::balance_receivers(const cl::CommandQueue& queue, const ShootParams& params,

@@ -85,6 +85,12 @@ public:
                      const cl::Buffer& gathered, const cl::Buffer& filled,
                      const WaitList& wait = {}) const;
 
+    // The same where nothing lies between surfaces: to all texels that they face and that face them.
+    cl::Event gather_open(const cl::CommandQueue& queue, const FillParams& params,
+                          const SiteBuffers& buffers, const cl::Buffer& texels,
+                          const cl::Buffer& gathered, const cl::Buffer& filled,
+                          const WaitList& wait = {}) const;
+
     // What a batch of VPLs sees at the corners of M -> mesh.corners. visibility: their hemicubes
     // with triangles.
     cl::Event geometry(const cl::CommandQueue& queue, const MeshParams& params,
@@ -131,8 +137,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel see_, flat_, see_listed_, see_blocks_, gather_, geometry_, replicate_, project_,
-        nearest_, complete_, show_;
+    PassKernel see_, flat_, see_listed_, see_blocks_, gather_, gather_open_, geometry_, replicate_,
+        project_, nearest_, complete_, show_;
     Storage storage_;  // of what show reads and writes
 };
 

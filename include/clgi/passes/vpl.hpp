@@ -80,10 +80,20 @@ public:
                         const cl::Buffer& depth, const cl::Buffer& rows,
                         const WaitList& wait = {}) const;
 
+    // The same where nothing lies between surfaces, without hemicubes; params.size is not used.
+    cl::Event transport_open(const cl::CommandQueue& queue, const TransportParams& params,
+                             const SiteBuffers& buffers, const cl::Buffer& rows,
+                             const WaitList& wait = {}) const;
+
     // BALANCE_REACH of a batch of shooters. views, depth: their hemicubes.
     cl::Event reach(const cl::CommandQueue& queue, const TransportParams& params,
                     const SiteBuffers& buffers, const cl::Buffer& views, const cl::Buffer& depth,
                     const WaitList& wait = {}) const;
+
+    // The same where nothing lies between surfaces, from the scene's triangles.
+    cl::Event reach_open(const cl::CommandQueue& queue, const TransportParams& params,
+                         const DeviceScene& scene, const SiteBuffers& buffers,
+                         const WaitList& wait = {}) const;
 
     // BALANCE_RECEIVER of all sites; rows of all.
     cl::Event balance_receivers(const cl::CommandQueue& queue, const ShootParams& params,
@@ -111,8 +121,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel place_, points_, receive_, transport_, reach_, balance_receivers_,
-        balance_shooters_, emit_, shoot_, send_;
+    PassKernel place_, points_, receive_, transport_, transport_open_, reach_, reach_open_,
+        balance_receivers_, balance_shooters_, emit_, shoot_, send_;
 };
 
 }  // namespace clgi

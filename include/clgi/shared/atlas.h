@@ -17,6 +17,10 @@ typedef struct {
     uint stride;       // of the planes of texels, of the irradiance, and of rows of SEEN_VPLS sites
     uint first_texel;  // of this part, a multiple of the packet
     uint flags;        // FILL_...
+    float lift;        // as in TransportParams, for gather_open
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
 } FillParams;
 
 enum {

@@ -71,8 +71,10 @@ typedef struct {
     uint most_samples;   // as in PointParams; set by the pass, as the next two
     uint per_site;
     uint point_stride;   // of the planes of points
-    uint pad_;
+    float lift;          // of what stands for a hemicube where there is none, local units
 } TransportParams;
+
+enum { TRANSPORT_SHOOTERS = 8 };  // of a work-item of transport_open
 
 typedef struct {
     uint first_shooter;  // as in TransportParams

@@ -49,6 +49,10 @@ struct LightAtlasOptions {
     // between 1,600 and 6,400 VPLs, at fewer below and at more above. All of them send light to the
     // texels near by.
     std::uint32_t exchange_samples = 0;
+    // false: nothing lies between two surfaces. VPLs and texels that face each other then see each
+    // other, and no hemicube is drawn; hemicube_size and refine are not used, and Filling::project,
+    // which projects hemicubes, is an error.
+    bool occlusion = true;
     int hemicube_size = 256;  // pixels of the face of a VPL's hemicube, even
     Filling filling = Filling::gather;
     // For Filling::gather: texels between those that are looked up first, 1, 2 or 4. Blocks of 4 x 4
@@ -72,7 +76,8 @@ struct LightAtlasStatus {
     std::uint32_t shots = 0;       // VPLs that shot, counted at every bounce
     std::uint32_t sent = 0;        // VPLs that sent light to the texels in the last run
     bool transport_kept = false;
-    bool visibility_kept = false;  // which texels each VPL sees
+    bool visibility_kept = false;  // which texels each VPL sees; without occlusion there is nothing
+                                   // to keep
     double power_direct = 0.0;    // that all VPLs reflect of direct light
     double power_shot = 0.0;      // by all VPLs together
     double power_received = 0.0;  // by all VPLs, of what was shot
@@ -126,7 +131,7 @@ public:
     // sample points' powers changed by more than `least` together, in mean powers of direct light
     // that VPLs reflect, send the difference to the texels [section 6.2]. What is not sent is not lost: it counts in
     // the next update. Bakes as run() does where no run has ended before, or where what texels see
-    // is not kept. Throws Error for a `least` that is negative or no number.
+    // would have to be drawn again. Throws Error for a `least` that is negative or no number.
     bool update(double least = 1e-3, const Progress& progress = nullptr);
 
     // What the last run left behind when it was cancelled; empty if it ended, or was cancelled
