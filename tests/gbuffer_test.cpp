@@ -221,9 +221,9 @@ TEST(GBuffer, IsTheSameForEveryWorkGroupAndPacket) {
     for (const int width : {1, 4, 8}) builds.push_back({.packet_width = width, .local_size = 64});
     builds.push_back({.atomics64 = false});
     builds.push_back({.packet_width = 1, .local_size = 7, .atomics64 = false});
-    for (const BuildOptions& options : builds) {
-        const Drawing other = test::draw(
-            placed, view, GBufferPasses(test::programs(), options));
+    for (BuildOptions& options : builds) {
+        options.textures = false;  // there are none: built in half the time, to the same bits
+        const Drawing other = test::draw(placed, view, GBufferPasses(test::programs(), options));
         const std::string label = "width " + std::to_string(options.packet_width) + ", group " +
                                   std::to_string(options.local_size);
         EXPECT_TRUE(other.visibility == usual.visibility) << label;

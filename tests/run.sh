@@ -14,7 +14,7 @@ clgi_install_packages
 clgi_configure "$build" -DCLGI_TESTS=ON "$@"
 clgi_build "$build"
 
-# Tests that use the device wait for each other (tests/CMakeLists.txt); others run beside them.
+# Two at a time: most of a test's time is the build of its kernels, which takes one core.
 cd "$build"
 log=$build/ctest.log
 ctest --output-on-failure --no-tests=error --parallel 2 2>&1 | tee "$log"

@@ -223,7 +223,7 @@ std::vector<Light> DeviceScene::environment_lights(int count) const {
     const std::lock_guard lock(cut_->mutex);
     if (cut_->count == count) return cut_->lights;
     std::vector<Light> lights;
-    for (const EnvironmentLight& part : median_cut(*environment_, count)) {
+    for (const CutLight& part : median_cut(*environment_, count)) {
         Light& light = lights.emplace_back();
         light.kind = Light::Kind::directional;
         light.direction = glm::vec3(-part.toward);

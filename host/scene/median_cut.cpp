@@ -58,7 +58,7 @@ public:
         return {top, bottom, left, right, power};
     }
 
-    EnvironmentLight light_of(const Patch& patch) const {
+    CutLight light_of(const Patch& patch) const {
         glm::dvec3 sum(0.0), centre(0.0);
         for (int row = patch.top; row < patch.bottom; ++row) {
             glm::dvec3 level(0.0);
@@ -117,8 +117,8 @@ std::pair<Patch, Patch> cut(const Cells& cells, const Patch& patch) {
 
 }  // namespace
 
-std::vector<EnvironmentLight> median_cut(const Environment& environment, int count) {
-    std::vector<EnvironmentLight> lights;
+std::vector<CutLight> median_cut(const Environment& environment, int count) {
+    std::vector<CutLight> lights;
     if (count < 1) return lights;
     const Environment picture = with_picture(environment);
     const Cells cells(picture);
@@ -136,7 +136,7 @@ std::vector<EnvironmentLight> median_cut(const Environment& environment, int cou
         if (second.power > nothing) patches.push_back(second);
     }
     for (const Patch& patch : patches) {
-        const EnvironmentLight light = cells.light_of(patch);
+        const CutLight light = cells.light_of(patch);
         if (luminance(light.lux) > 0.0) lights.push_back(light);
     }
     return lights;

@@ -14,13 +14,14 @@
 
 namespace clgi {
 
-struct EnvironmentLight {
+// Of one part of the picture.
+struct CutLight {
     glm::dvec3 toward;  // unit, to where the light comes from
     glm::dvec3 lux;     // on a plane that faces it
 };
 
 // At most `count` lights, fewer where the picture has fewer texels that shine; together as bright
 // as the environment, to the rounding of doubles. The same environment gives the same lights.
-std::vector<EnvironmentLight> median_cut(const Environment& environment, int count);
+std::vector<CutLight> median_cut(const Environment& environment, int count);
 
 }  // namespace clgi
