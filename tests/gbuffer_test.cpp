@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "drawing.hpp"
+#include "math_modes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -140,8 +141,10 @@ TEST(GBuffer, ShowsWhatAHemicubesHalfFaceMeets) {
     });
 }
 
+CLGI_IN_ALL_MODES(GBufferOfAFloor);
+
 // A floor that runs from behind the eye to the horizon and far beyond the image's sides.
-TEST(GBuffer, CutsTrianglesAtTheEyeAndFarOutside) {
+TEST_P(GBufferOfAFloor, CutsTrianglesAtTheEyeAndFarOutside) {
     for (const double half : {10.0, 1e3, 1e6}) {
         Scene scene = test::plain_scene();
         test::add_floor(scene, half);
@@ -222,8 +225,7 @@ TEST(GBuffer, IsTheSameForEveryWorkGroupAndPacket) {
     builds.push_back({.atomics64 = false});
     builds.push_back({.packet_width = 1, .local_size = 7, .atomics64 = false});
     for (const BuildOptions& options : builds) {
-        const Drawing other = test::draw(
-            placed, view, GBufferPasses(test::programs(), options));
+        const Drawing other = test::draw(placed, view, GBufferPasses(test::programs(), options));
         const std::string label = "width " + std::to_string(options.packet_width) + ", group " +
                                   std::to_string(options.local_size);
         EXPECT_TRUE(other.visibility == usual.visibility) << label;
