@@ -266,8 +266,9 @@ TEST_P(AtlasShadows, DoesNotShadowAPlaneByItself) {
             const auto light = batch.project(8, reach);
             for (std::uint32_t i = 0; i < batch.texels; ++i) {
                 const glm::dvec4 sent = batch.sent(i, batch.vpls[0]);
-                // At the horizon texels come to lie behind the lifted eye.
-                if (sent.w < 1e-7) continue;
+                // At the horizon texels come to lie behind the lifted eye; fast math compares less
+                // sharply there.
+                if (sent.w < (GetParam() == Math::fast ? 1e-6 : 1e-7)) continue;
                 EXPECT_NEAR(light[3 * batch.stride + i] / sent.w, 1.0, close + 1e-11 / sent.w);
             }
         }
