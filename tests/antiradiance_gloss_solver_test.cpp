@@ -201,9 +201,11 @@ TEST_P(GlossyLeaves, ShareTheirVerticesAmongThemselves) {
 
 // Scenes without lobes run no pass and hold no buffer for them; nor do those whose lobes are too
 // weak for the option.
-TEST(GlossyScenes, CostNothingWhereThereAreNone) {
+CLGI_IN_ALL_MODES(ScenesOfLobes);
+
+TEST_P(ScenesOfLobes, CostNothingWhereThereAreNone) {
     const Scene scene = test::furnished_room(5);
-    AntiradianceOptions options = antiradiance_options(Math::strict, 32, 300);
+    AntiradianceOptions options = antiradiance_options(GetParam(), 32, 300);
     const Programs programs(test::device().context, test::device().device);
     const DeviceScene device = test::on_device(scene);
     AntiradianceSolver plain(programs, test::device().queue, scene, device, options);

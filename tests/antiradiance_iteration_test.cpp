@@ -20,6 +20,7 @@ using test::power;
 using test::Solved;
 
 CLGI_IN_BOTH_MATHS(AntiradianceIteration);
+CLGI_IN_ALL_MODES(AntiradianceOfShelves);
 
 // Shelves as wide as the room, behind each other. What changes behind them may grow for as many
 // steps as there are, and that is no divergence.
@@ -171,7 +172,7 @@ TEST(AntiradianceIterationSteps, AreThoseOfLightAloneWhereNothingLiesBetween) {
 
 // Reflecting and letting light through at once diverges between thin shelves; that is seen, and the
 // asymmetric iteration finds the light.
-TEST_P(AntiradianceIteration, SeesDivergenceAndConvergesAllTheSame) {
+TEST_P(AntiradianceOfShelves, SeesDivergenceAndConvergesAllTheSame) {
     AntiradianceOptions options = options_of(GetParam(), 128, 2000);
     options.iteration = Iteration::symmetric;
     const Scene scene = test::shelves(0.6f);

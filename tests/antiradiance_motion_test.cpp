@@ -20,11 +20,11 @@ namespace {
 
 CLGI_IN_BOTH_MATHS(MovingAntiradiance);
 
-AntiradianceOptions options_of(Math math, std::size_t leaves, int bins = 128) {
+AntiradianceOptions options_of(const test::Build& build, std::size_t leaves, int bins = 128) {
     AntiradianceOptions out;
     out.bins = bins;
     out.elements.wished = leaves;
-    out.build.math = math;
+    out.build = build;
     return out;
 }
 
@@ -135,9 +135,11 @@ TEST(AntiradianceMotionBits, ComeBackWithTheGeometry) {
         EXPECT_NE(pass.name, "antiradiance.relink");
 }
 
-TEST(AntiradianceMotionBits, AreThoseOfAStillSceneWhereNothingMoves) {
+CLGI_IN_ALL_MODES(NothingMoves);
+
+TEST_P(NothingMoves, AreThoseOfAStillSceneWhereNothingMoves) {
     const Scene scene = test::furnished_room(5);
-    AntiradianceOptions options = options_of(Math::strict, 600, 64);
+    AntiradianceOptions options = options_of(GetParam(), 600, 64);
     options.steps = 8;
     Solved still(scene, options);
     EXPECT_TRUE(still.solver.run());

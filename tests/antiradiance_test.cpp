@@ -24,47 +24,47 @@ using test::scaled;
 constexpr double pi = 3.14159265358979323846;
 constexpr std::uint32_t all_of_it = LOCAL_RECEIVE | LOCAL_REFLECT | LOCAL_GO_THROUGH;
 
-CLGI_IN_BOTH_MATHS(Antiradiance);
+CLGI_IN_ALL_MODES(Antiradiance);
 
 TEST_P(Antiradiance, OfRandomTreesIsThatOfTheDefinition) {
     const std::vector<std::uint32_t> steps = {
         LOCAL_REFLECT | LOCAL_GO_THROUGH, all_of_it, LOCAL_RECEIVE | LOCAL_GO_THROUGH,
         LOCAL_RECEIVE | LOCAL_REFLECT,    all_of_it, LOCAL_RECEIVE};
-    for (const Storage storage : {Storage::full, Storage::half})
-        for (const unsigned seed : {1u, 2u, 3u}) {
-            const HandElements scene = random_elements(seed, seed == 3 ? 32 : 128);
-            ASSERT_GT(scene.sources.size(), 10u);
-            test::LightByDefinition wanted(scene);
-            test::LightOnDevice found(
-                scene, {.math = GetParam(), .storage = storage, .local_size = 4 * seed});
-            EXPECT_GT(found.with_rows.size(), 5u);
-            EXPECT_LT(found.with_rows.size(), 0.75 * scene.elements.size());
-            const double within = storage == Storage::half ? 4e-3 : 4e-6;
-            for (const std::uint32_t step : steps) {
-                const std::vector<glm::dvec3> before = wanted.irradiances;
-                wanted.step(step);
-                found.step(step);
-                const std::size_t leaves = scene.sources.size();
-                expect_alike(found.exitant(), found.rows_of(wanted.exitant), within, "intensity");
-                expect_alike(test::download<glm::vec4>(found.light.radiances, leaves),
-                             wanted.radiances, within, "radiance");
-                expect_alike(test::download<glm::vec4>(found.light.irradiances, leaves),
-                             wanted.irradiances, within, "irradiance");
-                const auto changes = test::download<glm::vec4>(found.light.changes, leaves);
-                for (const Element& element : scene.elements) {
-                    if (element.normal.w == 0.0f) continue;
-                    const std::size_t row = element.row;
-                    const glm::dvec3 moved =
-                        double(element.normal.w) * glm::abs(wanted.irradiances[row] - before[row]);
-                    const glm::dvec3 now = glm::abs(wanted.irradiances[row]);
-                    const double flux = element.normal.w * (now.x + now.y + now.z);
-                    EXPECT_NEAR(changes[row].w, flux, 4.0 * within * flux);
-                    for (int c = 0; c < 3; ++c)
-                        EXPECT_NEAR(changes[row][c], moved[c], 8.0 * within * flux);
-                }
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        const HandElements scene = random_elements(seed, seed == 3 ? 32 : 128);
+        ASSERT_GT(scene.sources.size(), 10u);
+        test::LightByDefinition wanted(scene);
+        BuildOptions build = GetParam();
+        build.local_size = 4 * seed;
+        test::LightOnDevice found(scene, build);
+        EXPECT_GT(found.with_rows.size(), 5u);
+        EXPECT_LT(found.with_rows.size(), 0.75 * scene.elements.size());
+        const double within = GetParam().storage == Storage::half ? 4e-3 : 4e-6;
+        for (const std::uint32_t step : steps) {
+            const std::vector<glm::dvec3> before = wanted.irradiances;
+            wanted.step(step);
+            found.step(step);
+            const std::size_t leaves = scene.sources.size();
+            expect_alike(found.exitant(), found.rows_of(wanted.exitant), within, "intensity");
+            expect_alike(test::download<glm::vec4>(found.light.radiances, leaves), wanted.radiances,
+                         within, "radiance");
+            expect_alike(test::download<glm::vec4>(found.light.irradiances, leaves),
+                         wanted.irradiances, within, "irradiance");
+            const auto changes = test::download<glm::vec4>(found.light.changes, leaves);
+            for (const Element& element : scene.elements) {
+                if (element.normal.w == 0.0f) continue;
+                const std::size_t row = element.row;
+                const glm::dvec3 moved =
+                    double(element.normal.w) * glm::abs(wanted.irradiances[row] - before[row]);
+                const glm::dvec3 now = glm::abs(wanted.irradiances[row]);
+                const double flux = element.normal.w * (now.x + now.y + now.z);
+                EXPECT_NEAR(changes[row].w, flux, 4.0 * within * flux);
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(changes[row][c], moved[c], 8.0 * within * flux);
             }
-            EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 0u);
         }
+        EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 0u);
+    }
 }
 
 // Plates of 1 m^2 one behind the other along the first bin; the first one shines. All of it is
@@ -87,8 +87,9 @@ HandElements stack(std::uint32_t plates) {
 // to the last bit, however large it grew between.
 TEST_P(Antiradiance, RemovesTheLightBehindPlates) {
     for (const std::uint32_t plates : {2u, 3u, 5u, 12u, 24u}) {
+        if (plates == 24u && GetParam().storage == Storage::half) continue;  // beyond 65504
         const HandElements scene = stack(plates);
-        test::LightOnDevice found(scene, {.math = GetParam()});
+        test::LightOnDevice found(scene, GetParam());
         found.step(LOCAL_REFLECT);
         double most = 0.0;
         for (std::uint32_t step = 1; step < plates; ++step) {
@@ -116,7 +117,9 @@ TEST_P(Antiradiance, RemovesTheLightBehindPlates) {
 // Where half intensities do not reach, they stay at the largest half; nothing becomes infinite.
 TEST_P(Antiradiance, StaysFiniteInHalfStorage) {
     const HandElements scene = stack(24);
-    test::LightOnDevice found(scene, {.math = GetParam(), .storage = Storage::half});
+    BuildOptions halves = GetParam();
+    halves.storage = Storage::half;
+    test::LightOnDevice found(scene, halves);
     found.step(LOCAL_REFLECT);
     for (int step = 1; step < 60; ++step) found.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
     for (const glm::vec4& intensity : found.exitant())
@@ -158,26 +161,29 @@ TEST_P(Antiradiance, BetweenThreePlatesNeedsTheAsymmetricIteration) {
     const auto arrives = [](const test::LightOnDevice& light, std::size_t leaf) {
         return test::download<glm::vec4>(light.light.irradiances, 6)[leaf].x / pi;
     };
-    test::LightOnDevice symmetric(scene, {.math = GetParam()});
-    symmetric.step(LOCAL_REFLECT);
-    double before = 0.0, now = 0.0;
-    for (int step = 0; step < 40; ++step) {
-        symmetric.step(all_of_it);
-        before = now;
-        now = arrives(symmetric, 3);
+    const bool half = GetParam().storage == Storage::half;
+    if (!half) {  // 40 steps end beyond 65504
+        test::LightOnDevice symmetric(scene, GetParam());
+        symmetric.step(LOCAL_REFLECT);
+        double before = 0.0, now = 0.0;
+        for (int step = 0; step < 40; ++step) {
+            symmetric.step(all_of_it);
+            before = now;
+            now = arrives(symmetric, 3);
+        }
+        const double growth = (rho + std::sqrt(5.0 * rho * rho + 4.0 * rho)) / 2.0;
+        EXPECT_NEAR(std::abs(now / before), growth, 2e-3);
     }
-    const double growth = (rho + std::sqrt(5.0 * rho * rho + 4.0 * rho)) / 2.0;
-    EXPECT_NEAR(std::abs(now / before), growth, 2e-3);
-
-    test::LightOnDevice asymmetric(scene, {.math = GetParam()});
+    const double within = half ? 2e-3 : 2e-5;
+    test::LightOnDevice asymmetric(scene, GetParam());
     asymmetric.step(LOCAL_REFLECT);
     for (int round = 0; round < 40; ++round) {
         for (int step = 0; step < 3; ++step) asymmetric.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
         asymmetric.step(LOCAL_RECEIVE | LOCAL_REFLECT);
     }
-    EXPECT_NEAR(arrives(asymmetric, 3), 1.0 / (1.0 - rho * rho), 2e-5);  // the far side's front
-    EXPECT_NEAR(arrives(asymmetric, 0), rho / (1.0 - rho * rho), 2e-5);
-    EXPECT_NEAR(arrives(asymmetric, 5), 0.0, 2e-5);  // behind an opaque plate
+    EXPECT_NEAR(arrives(asymmetric, 3), 1.0 / (1.0 - rho * rho), within);  // the far side's front
+    EXPECT_NEAR(arrives(asymmetric, 0), rho / (1.0 - rho * rho), within);
+    EXPECT_NEAR(arrives(asymmetric, 5), 0.0, within);  // behind an opaque plate
 }
 
 // By how much the change from step to step grows: the table of STABILITY 1.8. It is above 1 from
@@ -191,27 +197,37 @@ TEST_P(Antiradiance, GrowsBetweenPlatesAsTheTableSays) {
                 {3, 0.66f, 1.42749715}, {3, 0.8f, 1.66491106}, {3, 1.0f, 2.0},
                 {4, 0.19393657f, 1.0},  {4, 1.0f, 3.0},        {5, 0.09478759f, 1.0},
                 {6, 1.0f, 5.0}};
-    for (const auto& row : rows) {
-        test::LightOnDevice light(plates_of_two_sides(row.plates, row.reflectance),
-                                  {.math = GetParam()});
+    const auto growth_of = [](const HandElements& plates, const BuildOptions& build, int steps) {
+        test::LightOnDevice light(plates, build);
         light.step(LOCAL_REFLECT);
         double value = 0.0, change = 0.0, growth = 0.0;
-        for (int step = 0; step < 30; ++step) {
+        for (int step = 0; step < steps; ++step) {
             light.step(all_of_it);
             const double now = test::download<glm::vec4>(light.light.irradiances, 4)[3].x;
             growth = std::abs((now - value) / change);
             change = now - value;
             value = now;
         }
-        EXPECT_NEAR(growth, row.growth, 2e-3 * row.growth)
-            << row.plates << " plates, " << row.reflectance;
+        return growth;
+    };
+    for (const auto& row : rows) {
+        const HandElements plates = plates_of_two_sides(row.plates, row.reflectance);
+        const std::string what =
+            std::to_string(row.plates) + " plates, " + std::to_string(row.reflectance);
+        // Halves end at 65504: they follow the first steps.
+        if (GetParam().storage == Storage::half) {
+            const double wanted = growth_of(plates, BuildOptions{}, 6);
+            EXPECT_NEAR(growth_of(plates, GetParam(), 6), wanted, 1e-2 * wanted) << what;
+        } else {
+            EXPECT_NEAR(growth_of(plates, GetParam(), 30), row.growth, 2e-3 * row.growth) << what;
+        }
     }
 }
 
 TEST_P(Antiradiance, CountsLeavesThatAreNotFinite) {
     HandElements scene = stack(3);
     scene.sources[0].y = std::numeric_limits<float>::quiet_NaN();
-    test::LightOnDevice found(scene, {.math = GetParam()});
+    test::LightOnDevice found(scene, GetParam());
     found.step(LOCAL_REFLECT);
     EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 0u);
     found.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
@@ -226,7 +242,7 @@ TEST_P(Antiradiance, OfWhatMeetsTheBackIsNotReceived) {
     HandElements scene = stack(3);
     scene.sky[1] = glm::vec4(std::numeric_limits<float>::infinity());
     scene.directions[1] = {0, 0, -1, 1};
-    test::LightOnDevice found(scene, {.math = GetParam()});
+    test::LightOnDevice found(scene, GetParam());
     found.step(LOCAL_REFLECT);
     found.step(LOCAL_RECEIVE | LOCAL_REFLECT);
     const auto e = test::download<glm::vec4>(found.light.irradiances, 3);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "math_modes.hpp"
 #include "one_batch.hpp"
 
 namespace clgi {
@@ -175,6 +176,8 @@ MeshCorner at_corner(std::uint32_t chart, float u, float v, float w) {
     return out;
 }
 
+CLGI_IN_BOTH_MATHS(Extrapolation);
+
 // The floor y = -1 seen from a side: W = -y. An extrapolation from W to `to` one unit below.
 MeshCopy extrapolated(float w, float to) {
     Copies copies;
@@ -185,7 +188,7 @@ MeshCopy extrapolated(float w, float to) {
     return copies()[0];
 }
 
-TEST(AtlasReplicate, ExtrapolatesDepthExactlyOnAPlane) {
+TEST_P(Extrapolation, ExtrapolatesDepthExactlyOnAPlane) {
     for (const auto& [from, to, depth] :
          {std::tuple{0.5f, 0.25f, 4.0}, {0.01f, 0.001f, 1000.0}, {0.5f, 0.125f, 8.0}}) {
         const MeshCopy copy = extrapolated(from, to);
@@ -206,7 +209,7 @@ TEST(AtlasReplicate, ExtrapolatesDepthExactlyOnAPlane) {
     }
 }
 
-TEST(AtlasReplicate, RejectsWhatReachesTheHorizon) {
+TEST_P(Extrapolation, RejectsWhatReachesTheHorizon) {
     for (const float to : {0.0f, -0.02f, 0.00049f, -0.5f}) {
         const MeshCopy copy = extrapolated(0.5f, to);
         EXPECT_EQ(copy.chart, 0u);

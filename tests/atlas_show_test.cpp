@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "frames.hpp"
+#include "math_modes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -70,7 +71,7 @@ struct Shown {
     // factors 1, 2 and -3.
     std::vector<glm::vec3> operator()(const std::vector<Point>& points,
                                       const std::vector<float>& light,
-                                      Storage storage = Storage::full,
+                                      Storage storage = test::usual_build().storage,
                                       const glm::vec3& moved = glm::vec3(0.0f)) const {
         const auto count = static_cast<std::uint32_t>(points.size());
         const std::uint32_t stride = plane_stride(count), texels = plane_stride(light.size());
@@ -92,7 +93,7 @@ struct Shown {
                                 map.pages,       0};
         const cl::Buffer out(test::device().context, CL_MEM_READ_WRITE,
                              irradiance_bytes(storage, stride));
-        BuildOptions build;
+        BuildOptions build = test::usual_build();
         build.storage = storage;
         AtlasPasses(test::programs(), build)
             .show(test::device().queue, params, scene, gbuffer, map, test::upload(values), out);
@@ -261,8 +262,10 @@ TEST(AtlasShow, HardlyJumpsAtTheEdgesOfACube) {
     EXPECT_GT(most, 0.0);
 }
 
+CLGI_IN_ALL_MODES(ChartsShown);
+
 // Charts of a UV set may lie side by side, without an empty texel between them.
-TEST(AtlasShow, LetsNothingBleedFromOneChartIntoTheNext) {
+TEST_P(ChartsShown, LetsNothingBleedFromOneChartIntoTheNext) {
     Scene scene = test::plain_scene();
     for (const double x : {0.0, 3.0})
         test::add_quad(scene, {glm::dvec3(x, 0, 0), {x + 1, 0, 0}, {x + 1, 2, 0}, {x, 2, 0}});

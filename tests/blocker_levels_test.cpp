@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mask_tools.hpp"
+#include "math_modes.hpp"
 #include "transfer/nearest_coarse.hpp"
 
 namespace clgi {
@@ -216,8 +217,10 @@ Drawn draw(const Scene& scene, const DeviceScene& on_device, const BlockerLevels
     return test::draw_masks(blockers, eyes);
 }
 
+CLGI_IN_BOTH_MATHS(CoarseBlockers);
+
 // With the scene's own triangles as the coarse mesh nothing changes.
-TEST(BlockerLevels, GiveTheMasksOfTheSceneWhereTheCoarseMeshIsTheScene) {
+TEST_P(CoarseBlockers, GiveTheMasksOfTheSceneWhereTheCoarseMeshIsTheScene) {
     const Scene scene = sheet(9);
     const DeviceScene on_device = test::on_device(scene);
     const Drawn whole = draw(scene, on_device, blocker_levels(scene, on_device, {}, 2));
@@ -289,7 +292,7 @@ TEST(BlockerLevels, ListEveryPartOnce) {
 }
 
 // A trough whose coarse mesh is a lid: the lid would hide all of the sky from its bottom.
-TEST(BlockerLevels, DoNotCoverAReceiverWithItsOwnCoarseTriangles) {
+TEST_P(CoarseBlockers, DoNotCoverAReceiverWithItsOwnCoarseTriangles) {
     Scene scene = test::plain_scene();
     const auto at = [](int i, int j) {
         return glm::dvec3(i / 8.0, j / 8.0, std::abs(i - 4) / 8.0);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "frames.hpp"
+#include "math_modes.hpp"
 #include "oblique.hpp"
 #include "shading.hpp"
 
@@ -27,8 +28,8 @@ Shading oblique_shading(const std::vector<int>& sources, cl_uint effects, int pi
             scene.lights.push_back(lights[s]);
     }
     const DeviceScene placed = test::on_device(scene);
-    const EmitterSet set = make_emitters(
-        placed, {.vpls = 90, .shadow_size = 61, .face_size = 37, .area_samples = 3});
+    const EmitterSet set =
+        make_emitters(placed, {.vpls = 90, .shadow_size = 61, .face_size = 37, .area_samples = 3});
     Shading out;
     out.emitters = set.emitters;
     out.views = set.views;
@@ -82,10 +83,12 @@ void block(Shading& in, double share, Random& random) {
 // Returns how many pixels were compared and how many of them are not black.
 std::pair<int, int> expect_truth(const Shading& in, const std::string& what) {
     const test::Combined found = test::combine(in);
+    Shading kept = in;
+    for (test::ShadedPixel& pixel : kept.pixels) pixel = test::stored(pixel);
     EXPECT_EQ(found.non_finite, 0u) << what;
     int compared = 0, bright = 0;
     for (std::size_t i = 0; i < in.pixels.size(); ++i) {
-        const test::ShadedTruth truth = test::shaded_truth(in, in.pixels[i]);
+        const test::ShadedTruth truth = test::shaded_truth(kept, kept.pixels[i]);
         if (truth.doubtful) continue;
         ++compared;
         bright += truth.radiance.x > 0.0;
@@ -95,6 +98,8 @@ std::pair<int, int> expect_truth(const Shading& in, const std::string& what) {
     }
     return {compared, bright};
 }
+
+CLGI_IN_ALL_MODES(CombineBorders);
 
 class CombineSource : public testing::TestWithParam<int> {};
 
@@ -129,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, CombineSource,
                          testing::Values(spot, point, sun, wide_spot, thin_spot, lamp));
 
 // Spots that light what lies around their axes: random places hardly meet a thin cone.
-TEST(Combine, KnowsTheBordersOfACone) {
+TEST_P(CombineBorders, KnowsTheBordersOfACone) {
     for (const int source : {spot, wide_spot, thin_spot})
         for (const bool hard : {false, true}) {
             Shading in = oblique_shading({source}, COMBINE_DIRECT, 0);
@@ -202,7 +207,7 @@ TEST(Combine, SeesNothingWhereNothingIs) {
 }
 
 // A range reaches from full light to none; infinity, where it is 0.
-TEST(Combine, EndsAtTheRange) {
+TEST_P(CombineBorders, EndsAtTheRange) {
     for (const float range : {0.0f, 0.15f, 0.6f, 2.0f})
         for (const int source : {spot, point}) {
             Shading in = oblique_shading({source}, COMBINE_DIRECT);
@@ -287,8 +292,7 @@ TEST(Combine, IsTheSameForEveryPacket) {
     block(in, 2.0, random);
     const auto usual = test::combine(in).radiance;
     for (const int width : {1, 4}) {
-        const ImagePasses passes(test::programs(),
-                                 {.packet_width = width});
+        const ImagePasses passes(test::programs(), {.packet_width = width});
         EXPECT_TRUE(test::same_bits(test::combine(in, passes).radiance, usual)) << width;
     }
 }

@@ -35,12 +35,42 @@ inline DeviceScene on_device(const Scene& scene) {
     return DeviceScene(device().context, device().device, scene);
 }
 
-// A room's passes as they are built by default, of each kind of math.
+// Build options, or a kind of math alone.
+struct Build : BuildOptions {
+    Build(const BuildOptions& options) : BuildOptions(options) {}
+    Build(Math kind) { math = kind; }
+};
+
+// How kernels are built where a test does not say otherwise: by the mode that it runs in
+// (math_modes.hpp).
+inline BuildOptions& usual_build() {
+    static BuildOptions build;
+    return build;
+}
+
+// Another one as long as it lives.
+class UsualBuild {
+public:
+    explicit UsualBuild(const Build& build) { usual_build() = build; }
+    ~UsualBuild() { usual_build() = before_; }
+    UsualBuild(const UsualBuild&) = delete;
+    UsualBuild& operator=(const UsualBuild&) = delete;
+
+private:
+    BuildOptions before_ = usual_build();
+};
+
+// A room's passes in each kind of math and storage, as they are built by default otherwise.
 template <typename Passes>
-const Passes& shared_passes(Math math) {
-    static const Passes strict(programs(), BuildOptions{.math = Math::strict});
-    static const Passes fast(programs(), BuildOptions{.math = Math::fast});
-    return math == Math::fast ? fast : strict;
+const Passes& shared_passes(const Build& build) {
+    static const auto of = [](Math math, Storage storage) {
+        return Passes(programs(), BuildOptions{.math = math, .storage = storage});
+    };
+    static const Passes strict = of(Math::strict, Storage::full);
+    static const Passes fast = of(Math::fast, Storage::full);
+    static const Passes half = of(Math::strict, Storage::half);
+    if (build.storage == Storage::half) return half;
+    return build.math == Math::fast ? fast : strict;
 }
 
 template <typename T>

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lighting.hpp"
+#include "math_modes.hpp"
 #include "oblique.hpp"
 
 namespace clgi {
@@ -39,15 +40,15 @@ struct Surface {
     Lit lit(bool add = false, float before = 0.0f) const {
         const test::Device& on = test::device();
         const cl::Buffer irradiance =
-            test::upload(std::vector<float>(IRRADIANCE_PLANES * stride, before));
+            test::upload_irradiance(std::vector<float>(IRRADIANCE_PLANES * stride, before));
         const cl::Buffer non_finite = test::upload(std::vector<cl_uint>(1));
         const EmitterBuffers sources{test::upload(set.emitters), test::upload(set.views),
                                      test::upload(visibility)};
         const auto emitters = static_cast<std::uint32_t>(set.emitters.size());
-        test::light_passes().direct(on.queue,
-                                    {stride, points, emitters, 1.0f, 2, add ? 1u : 0u, 0, 0},
-                                    sources, test::upload(planes), irradiance, non_finite);
-        const auto found = test::download<float>(irradiance, IRRADIANCE_PLANES * stride);
+        test::light_passes().direct(
+            on.queue, {stride, points, emitters, 1.0f, 2, add ? 1u : 0u, 0, 0}, sources,
+            test::upload_planes(planes, stride), irradiance, non_finite);
+        const auto found = test::read_irradiance(irradiance, stride);
         Lit out;
         out.non_finite = test::download<cl_uint>(non_finite, 1)[0];
         for (std::uint32_t i = 0; i < points; ++i)
@@ -60,7 +61,9 @@ struct Surface {
     std::vector<float> planes = std::vector<float>(GBUFFER_PLANES * stride);
 };
 
-TEST(DirectLight, CountsAndShowsWhatIsNotFinite) {
+CLGI_IN_ALL_MODES(DirectLight);
+
+TEST_P(DirectLight, CountsAndShowsWhatIsNotFinite) {
     const Surface open;
     const Lit usual = open.lit();
     EXPECT_EQ(usual.non_finite, 0u);

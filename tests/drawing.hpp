@@ -45,6 +45,52 @@ inline std::uint32_t padded(std::size_t count) {
     return static_cast<std::uint32_t>((count + 15) / 16 * 16);
 }
 
+// What is left of a value that is stored.
+inline float stored(float value, Storage storage = usual_build().storage) {
+    return storage == Storage::half ? glm::unpackHalf1x16(glm::packHalf1x16(value)) : value;
+}
+inline glm::vec3 stored(const glm::vec3& v, Storage storage = usual_build().storage) {
+    return {stored(v.x, storage), stored(v.y, storage), stored(v.z, storage)};
+}
+
+// Of rounding between 2^-14 and 65504 to what is stored, as a share.
+inline double half_error() { return usual_build().storage == Storage::half ? 0x1p-11 : 0.0; }
+
+// The first planes of a G-buffer, `stride` floats each, as they are stored.
+inline cl::Buffer upload_planes(const std::vector<float>& planes, std::uint32_t stride,
+                                Storage storage = usual_build().storage) {
+    if (storage == Storage::full) return upload(planes);
+    const int count = static_cast<int>(planes.size() / stride);
+    std::vector<std::uint16_t> rows(std::size_t{GBUFFER_HALF_ROWS} * stride);
+    for (int plane = 0; plane < count; ++plane)
+        for (std::size_t i = 0; i < stride; ++i) {
+            const float value = planes[plane * stride + i];
+            std::uint16_t* row = rows.data() + HALF_ROW(plane) * stride;
+            if (HALF_PLANE(plane))
+                row[i] = glm::packHalf1x16(value);
+            else
+                std::memcpy(row + 2 * i, &value, sizeof value);
+        }
+    return upload(rows);
+}
+
+// Planes of irradiance as they are stored, and as floats again.
+inline cl::Buffer upload_irradiance(const std::vector<float>& planes,
+                                    Storage storage = usual_build().storage) {
+    if (storage == Storage::full) return upload(planes);
+    std::vector<std::uint16_t> halves;
+    for (const float value : planes) halves.push_back(glm::packHalf1x16(value));
+    return upload(halves);
+}
+inline std::vector<float> read_irradiance(const cl::Buffer& from, std::size_t stride,
+                                          Storage storage = usual_build().storage) {
+    if (storage == Storage::full) return download<float>(from, IRRADIANCE_PLANES * stride);
+    std::vector<float> out;
+    for (const std::uint16_t half : download<std::uint16_t>(from, IRRADIANCE_PLANES * stride))
+        out.push_back(glm::unpackHalf1x16(half));
+    return out;
+}
+
 // [GBUFFER_PLANES][stride] as floats, whichever way they are stored.
 inline std::vector<float> read_planes(const GBuffer& from) {
     if (from.storage == Storage::full)
@@ -98,19 +144,21 @@ inline void draw_visibility(const GBufferPasses& passes, const DeviceScene& scen
 inline std::vector<ScreenVertex> project(const DeviceScene& scene, const View& view) {
     static cl::Kernel kernel = [] {
         cl::Program program(device().context, kernel_text("tests/project.cl"));
-        program.build(device().device, compiler_options(device().device, {.packet_width = 1}).c_str());
+        program.build(device().device,
+                      compiler_options(device().device, {.packet_width = 1}).c_str());
         return cl::Kernel(program, "project");
     }();
     const cl::Buffer found = empty<ScreenVertex>(scene.info().vertex_count);
     kernel.setArg(0, view);
     kernel.setArg(1, scene.positions());
     kernel.setArg(2, found);
-    device().queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(scene.info().vertex_count));
+    device().queue.enqueueNDRangeKernel(kernel, cl::NullRange,
+                                        cl::NDRange(scene.info().vertex_count));
     return download<ScreenVertex>(found, scene.info().vertex_count);
 }
 
-inline const GBufferPasses& gbuffer_passes(Math math = Math::strict) {
-    return shared_passes<GBufferPasses>(math);
+inline const GBufferPasses& gbuffer_passes(const Build& build = usual_build()) {
+    return shared_passes<GBufferPasses>(build);
 }
 
 inline Drawing draw(const DeviceScene& scene, const View& view,
@@ -132,7 +180,7 @@ inline Drawing draw(const DeviceScene& scene, const View& view,
     if (scene.info().vertex_count > 0) out.vertices = project(scene, view);
     out.triangles = download<glm::uvec4>(scene.triangles(), scene.info().triangle_count);
     out.order = scene.triangle_order();
-    out.planes = download<float>(planes, GBUFFER_PLANES * out.stride);
+    out.planes = read_planes({planes, ids, out.stride, usual_build().storage});
     out.ids = download<std::int32_t>(ids, GBUFFER_ID_PLANES * out.stride);
     return out;
 }

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <clgi/procedural.hpp>
 
+#include "drawing.hpp"
 #include "frames.hpp"
+#include "math_modes.hpp"
 #include "opencl_calls.hpp"
 #include "solvers/ranges.hpp"
 
@@ -256,23 +258,26 @@ TEST(Dispatches, OfManyLightsChangeNoBit) {
     EXPECT_NE(solver.events().back().name, "image.combine");
 }
 
-TEST(Dispatches, OfARangeTouchNothingBesideIt) {
+CLGI_IN_ALL_MODES(DispatchesOfParts);
+
+TEST_P(DispatchesOfParts, OfARangeTouchNothingBesideIt) {
     const DeviceScene scene = test::on_device(room());
     SecondOrderOptions options = small();
+    options.build = GetParam();
     options.low_resolution_step = 1;
-    SecondOrderSolver solver(test::device().queue, scene, options);
+    SecondOrderSolver solver(test::programs(), test::device().queue, scene, options);
     solver.render(room().cameras[0]).wait();
     const std::size_t floats = IRRADIANCE_PLANES * std::size_t{solver.stride()};
-    const cl::Buffer part = test::upload(std::vector<float>(floats, -7.0f));
+    const cl::Buffer part = test::upload_irradiance(std::vector<float>(floats, -7.0f));
     const auto gather = [&](const Range& range) {
         solver.image_passes().gather(test::device().queue, {solver.stride(), 120, 40, 0}, range,
                                      test::upload(std::vector<cl_uint>{61 * 43}), solver.planes(),
                                      solver.vpls(), solver.negative_vpls(), part);
     };
     gather({512, 96});
-    const auto found = test::download<float>(part, solver.stride());
-    const auto full = test::download<float>(solver.irradiance(), solver.stride());
-    for (std::size_t p = 0; p < found.size(); ++p)
+    const auto found = test::read_irradiance(part, solver.stride());
+    const auto full = test::read_irradiance(solver.irradiance(), solver.stride());
+    for (std::size_t p = 0; p < solver.stride(); ++p)
         EXPECT_EQ(found[p], p >= 512 && p < 608 ? full[p] : -7.0f) << p;
     EXPECT_THROW(gather({8, 16}), Error);
     EXPECT_THROW(gather({0, solver.stride() + 16u}), Error);

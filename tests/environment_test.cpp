@@ -17,11 +17,13 @@ using test::Frame;
 constexpr double pi = std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(Background);
+CLGI_IN_ALL_MODES(NoBackground);
 CLGI_IN_BOTH_MATHS(EnvironmentLights);
 
-SecondOrderOptions options_for(int width, int height, Math math = Math::strict) {
+SecondOrderOptions options_for(int width, int height,
+                               const test::Build& build = test::usual_build()) {
     SecondOrderOptions options;
-    options.build.math = math;
+    options.build = build;
     options.width = width;
     options.height = height;
     options.emitters.shadow_size = 256;
@@ -99,7 +101,7 @@ TEST(Background, IsTheSameAtEveryPacketWidth) {
     }
 }
 
-TEST(Background, CostsNothingWhereItIsNotWanted) {
+TEST_P(NoBackground, CostsNothingWhereItIsNotWanted) {
     Scene scene = floor_and_box(test::even_sky(glm::vec3(1.0f)));
     const Camera camera = test::camera_at({1, 1.5, 4}, {0, 0.3, 0}, 1.6f);
     SecondOrderOptions options = options_for(21, 15);

@@ -148,6 +148,17 @@ TEST(MotionFacts, AreWhatClipsMove) {
     held.animation->nodes[0].translation.y = 3.0;  // and the curve holds it elsewhere
     EXPECT_TRUE(scene_facts(held).motion.geometry);
 
+    // A cubic curve has tangents beside its values: both must stay.
+    Scene cubic = driven(room, std::vector<float>(27, 0.0f));
+    cubic.animation->clips[0].curves[0].interpolation = Interpolation::cubic;
+    for (std::size_t key = 0; key < 3; ++key) {
+        cubic.animation->nodes[0].translation.z = 2.0;
+        cubic.animation->clips[0].curves[0].values[9 * key + 5] = 2.0f;
+    }
+    EXPECT_FALSE(scene_facts(cubic).motion.geometry);
+    cubic.animation->clips[0].curves[0].values[9 + 6] = 1.0f;
+    EXPECT_TRUE(scene_facts(cubic).motion.geometry);
+
     Scene announced = room;
     announced.moving_bounds = bounds(room);
     expect_proven(announced, {false, false, false}, "will be moved");
@@ -196,6 +207,7 @@ TEST(Openness, IsThatOfViewFactors) {
     expect_open(test::unit_box(-1), 0.0, 0.0, "room");
     // Five unit faces see an opening of 1 as often as it sees them.
     expect_open(test::open_box(), 0.2, 0.0, "open box");
+    expect_open(test::both_sided(test::open_box()), 0.6, 0.0, "both sides of an open box");
     expect_open(tiles({{0, 0}, {0, 1, -1}}), 1.0 - facing_squares, 0.0, "facing squares");
     expect_open(test::both_sided(tiles({{0, 0}, {0, 1}})), 1.0 - 0.5 * facing_squares, 0.0,
                 "both sides of squares");

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "frames.hpp"
+#include "math_modes.hpp"
 #include "opencl_calls.hpp"
 
 namespace clgi {
@@ -22,6 +23,7 @@ const Scene& room() {
 
 SecondOrderOptions small() {
     SecondOrderOptions options;
+    options.build = test::usual_build();
     options.width = 48;
     options.height = 36;
     options.emitters = {.vpls = 60, .shadow_size = 64};
@@ -104,11 +106,9 @@ TEST_F(Failures, OfMemoryNameTheBuffer) {
 // Whichever pass it is that the device is lost before, the solver itself goes on afterwards.
 TEST_F(Failures, BetweenPassesNameThePass) {
     const DeviceScene scene = test::on_device(room());
-    for (const cl_command_queue_properties order :
-         {cl_command_queue_properties{0},
-          cl_command_queue_properties{CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE}}) {
+    const auto expect_names = [&](cl_command_queue_properties order) {
         const cl::CommandQueue queue(test::device().context, test::device().device, order);
-        SecondOrderSolver solver(queue, scene, small());
+        SecondOrderSolver solver(test::programs(), queue, scene, small());
         solver.render(room().cameras[0]).wait();
         const auto whole = test::read_frame(queue, scene, solver).radiance;
         std::vector<std::string> names;
@@ -126,6 +126,12 @@ TEST_F(Failures, BetweenPassesNameThePass) {
             EXPECT_TRUE(test::same_bits(test::read_frame(queue, scene, solver).radiance, whole))
                 << names[pass];
         }
+    };
+    expect_names(CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
+    for (const BuildOptions& build :
+         {BuildOptions{}, BuildOptions{.math = Math::fast}, {.storage = Storage::half}}) {
+        const test::UsualBuild usual(build);
+        expect_names(0);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "drawing.hpp"
+#include "math_modes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -140,8 +141,10 @@ TEST(GBuffer, ShowsWhatAHemicubesHalfFaceMeets) {
     });
 }
 
+CLGI_IN_ALL_MODES(GBufferOfAFloor);
+
 // A floor that runs from behind the eye to the horizon and far beyond the image's sides.
-TEST(GBuffer, CutsTrianglesAtTheEyeAndFarOutside) {
+TEST_P(GBufferOfAFloor, CutsTrianglesAtTheEyeAndFarOutside) {
     for (const double half : {10.0, 1e3, 1e6}) {
         Scene scene = test::plain_scene();
         test::add_floor(scene, half);

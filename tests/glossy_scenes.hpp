@@ -51,11 +51,11 @@ inline std::vector<glm::vec3> places_of(const Picture& picture) {
                    std::size_t{shown_width} * shown_height);
 }
 
-inline AntiradianceOptions antiradiance_options(Math math, int bins, std::size_t leaves) {
+inline AntiradianceOptions antiradiance_options(const Build& build, int bins, std::size_t leaves) {
     AntiradianceOptions out;
     out.bins = bins;
     out.elements.wished = leaves;
-    out.build.math = math;
+    out.build = build;
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "device.hpp"
 #include "kernel_text.hpp"
@@ -202,11 +203,18 @@ TEST(Halton, HasTheDiscrepancyOfTheTable) {
 }
 
 TEST(Halton, PutsOnePointInEveryElementaryBox) {
-    std::vector<int> hits(8 * 9);
-    for (uint i = 72; i < 144; ++i)
-        ++hits[static_cast<int>(radical_inverse(i, 2) * 8) * 9 +
-               static_cast<int>(radical_inverse(i, 3) * 9 + 1e-5f)];
-    for (const int count : hits) EXPECT_EQ(count, 1);
+    std::vector<cl_uint> indices(72);
+    std::iota(indices.begin(), indices.end(), 72u);
+    for (const bool fast : {false, true}) {
+        const auto twos = on_device(indices, 2, fast), threes = on_device(indices, 3, fast);
+        std::vector<int> hits(8 * 9);
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            EXPECT_EQ(twos[i], radical_inverse(indices[i], 2));
+            ++hits[static_cast<std::size_t>(twos[i] * 8) * 9 +
+                   static_cast<std::size_t>(threes[i] * 9 + 1e-5f)];
+        }
+        for (const int count : hits) EXPECT_EQ(count, 1);
+    }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "frames.hpp"
 #include "light_baking.hpp"
+#include "math_modes.hpp"
 
 namespace clgi {
 namespace {
@@ -80,7 +81,9 @@ TEST(LightAtlasUpdate, OfEveryChangeComesToAFreshBake) {
     }
 }
 
-TEST(LightAtlasUpdate, WithoutAChangeSendsNothing) {
+CLGI_IN_BOTH_MATHS(LightAtlasAgain);
+
+TEST_P(LightAtlasAgain, WithoutAChangeSendsNothing) {
     Changing room;
     ASSERT_TRUE(room.solver.run());
     const auto before = room.solver.irradiance();

@@ -88,16 +88,16 @@ inline Baked bake_from(const Bakery& bakery, const LightAtlasOptions& options,
     return out;
 }
 
-inline LightAtlasOptions bake_options(Math math = Math::strict) {
+inline LightAtlasOptions bake_options(const Build& build = usual_build()) {
     LightAtlasOptions out;
-    out.build.math = math;
+    out.build = build;
     return out;
 }
 
 // All orders of reflection: what is left unshot is less than `left` of all light, for `vpls` VPLs
 // that are about alike.
-inline LightAtlasOptions converged(Math math = Math::strict) {
-    LightAtlasOptions out = bake_options(math);
+inline LightAtlasOptions converged(const Build& build = usual_build()) {
+    LightAtlasOptions out = bake_options(build);
     out.bounces = 0;
     out.threshold = 1e-7f;
     return out;

@@ -10,18 +10,18 @@
 
 namespace clgi::test {
 
-inline const LightPasses& light_passes(Math math = Math::strict) {
-    return shared_passes<LightPasses>(math);
+inline const LightPasses& light_passes(const Build& build = usual_build()) {
+    return shared_passes<LightPasses>(build);
 }
 
-inline const ImagePasses& image_passes(Math math = Math::strict) {
-    return shared_passes<ImagePasses>(math);
+inline const ImagePasses& image_passes(const Build& build = usual_build()) {
+    return shared_passes<ImagePasses>(build);
 }
 
 struct PlacedLights {
     EmitterSet set;
-    std::vector<cl_uint> accepted;      // [N] Halton index of each light of a spot
-    std::vector<Vpl> lights;  // [N] local frame
+    std::vector<cl_uint> accepted;  // [N] Halton index of each light of a spot
+    std::vector<Vpl> lights;        // [N] local frame
 };
 
 // What multiplies all flux, and all discs.
@@ -39,8 +39,7 @@ inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions&
     if (out.set.vpl_count == 0) return out;
     const RasterBuffers buffers = raster_buffers(scene, out.set.pixels);
     for (const View& view : out.set.views) draw_visibility(drawn_by, scene, view, buffers);
-    const EmitterBuffers sources{upload(out.set.emitters), upload(out.set.views),
-                                buffers.pixels};
+    const EmitterBuffers sources{upload(out.set.emitters), upload(out.set.views), buffers.pixels};
     const cl::Buffer accepted = upload(std::vector<cl_uint>(out.set.vpl_count));
     for (std::size_t e = 0; e < out.set.emitters.size(); ++e) {
         if (out.set.candidates[e] == 0) continue;
@@ -61,8 +60,8 @@ inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions&
 }
 
 inline PlacedLights place_lights(const DeviceScene& scene, const EmitterOptions& options,
-                                 Math math) {
-    return place_lights(scene, options, light_passes(math), gbuffer_passes(math));
+                                 const Build& build) {
+    return place_lights(scene, options, light_passes(build), gbuffer_passes(build));
 }
 
 inline double total_flux(const DeviceScene& scene, const std::vector<Vpl>& lights) {
@@ -95,7 +94,7 @@ inline std::vector<glm::vec3> gather(const std::vector<Receiver>& receivers,
     const auto count = static_cast<cl_uint>(receivers.size());
     const std::uint32_t stride = std::max(padded(count), 16u);
     const cl::Buffer irradiance = empty<float>(IRRADIANCE_PLANES * stride);
-    const cl::Buffer points = upload(point_planes(receivers, stride));
+    const cl::Buffer points = upload_planes(point_planes(receivers, stride), stride);
     const cl::Buffer point_count = upload(std::vector<cl_uint>{count});
     const auto held = [](std::vector<Vpl> values) {
         if (values.empty()) values.resize(1);
@@ -106,7 +105,7 @@ inline std::vector<glm::vec3> gather(const std::vector<Receiver>& receivers,
                               static_cast<cl_uint>(negative.size()), 0};
     passes.gather(device().queue, params, count, point_count, points, positive_lights,
                   negative_vpls, irradiance);
-    const auto planes = download<float>(irradiance, IRRADIANCE_PLANES * stride);
+    const auto planes = read_irradiance(irradiance, stride);
     std::vector<glm::vec3> out;
     for (std::size_t i = 0; i < count; ++i)
         out.emplace_back(planes[i], planes[stride + i], planes[2 * stride + i]);
@@ -122,9 +121,10 @@ inline std::vector<Vpl> bare(std::vector<Vpl> lights) {
 // Lux at one place of the world from these lights.
 inline double lux_at(const DeviceScene& scene, const std::vector<Vpl>& lights,
                      const glm::dvec3& position, const glm::vec3& normal,
-                     Math math = Math::strict) {
+                     const Build& build = usual_build()) {
     const Receiver receiver{scene.frame().to_local(position), normal};
-    return gather({receiver}, lights, {}, image_passes(math))[0].x * scene.frame().exposure;
+    const UsualBuild usual(build);
+    return gather({receiver}, lights, {})[0].x * scene.frame().exposure;
 }
 
 }  // namespace clgi::test

@@ -32,18 +32,20 @@ std::vector<glm::dvec3> around(int count) {
 }
 
 // rho Phi / (4 pi R^2) at every point of the inside of a sphere.
-void expect_even_in_sphere(const DeviceScene& scene, const std::vector<Vpl>& lights,
-                           double flux, double albedo, Math math) {
+void expect_even_in_sphere(const DeviceScene& scene, const std::vector<Vpl>& lights, double flux,
+                           double albedo, const test::Build& build) {
     for (const glm::dvec3& direction : around(40))
-        EXPECT_NEAR(test::lux_at(scene, test::bare(lights), direction, glm::vec3(-direction), math),
-                    albedo * flux / (4 * pi), facets * albedo * flux / (4 * pi))
+        EXPECT_NEAR(
+            test::lux_at(scene, test::bare(lights), direction, glm::vec3(-direction), build),
+            albedo * flux / (4 * pi), facets * albedo * flux / (4 * pi))
             << direction.y;
 }
 
 CLGI_IN_BOTH_MATHS(SpotInASphere);
 CLGI_IN_BOTH_MATHS(PointInASphere);
 CLGI_IN_BOTH_MATHS(AreaLightInASphere);
-CLGI_IN_BOTH_MATHS(SpotOverAFloor);
+CLGI_IN_ALL_MODES(SpotOverAFloor);
+CLGI_IN_BOTH_MATHS(ConvergenceOverAFloor);
 CLGI_IN_BOTH_MATHS(IndirectLights);
 
 TEST_P(SpotInASphere, LightsEveryPointAlike) {
@@ -82,8 +84,8 @@ TEST_P(AreaLightInASphere, LightsEveryPointAlike) {
         material);  // facing down
     const DeviceScene scene = test::on_device(world);
     const double flux = pi * 3.0 * 4 * half * half;
-    expect_even_in_sphere(scene, test::place_lights(scene, {.vpls = 512}, GetParam()).lights,
-                          flux, 0.5, GetParam());
+    expect_even_in_sphere(scene, test::place_lights(scene, {.vpls = 512}, GetParam()).lights, flux,
+                          0.5, GetParam());
 }
 
 Scene spot_over_floor(double angle, double half = 12.0) {
@@ -112,13 +114,13 @@ TEST_P(SpotOverAFloor, LightsItsOwnPlaceAsTheIntegralSays) {
 }
 
 // Slope of log error over log N, by least squares: -1 where doubling N halves the error.
-double convergence(const std::vector<glm::dvec3>& places, Math math) {
+double convergence(const std::vector<glm::dvec3>& places) {
     const DeviceScene scene = test::on_device(spot_over_floor(45 * degree));
     const auto lit = [&](int n) {
-        const auto lights = test::bare(test::place_lights(scene, {.vpls = n}, math).lights);
+        const auto lights = test::bare(test::place_lights(scene, {.vpls = n}).lights);
         std::vector<double> out;
         for (const glm::dvec3& place : places)
-            out.push_back(test::lux_at(scene, lights, place, {0, -1, 0}, math));
+            out.push_back(test::lux_at(scene, lights, place, {0, -1, 0}));
         return out;
     };
     const std::vector<double> converged = lit(100000);
@@ -135,14 +137,13 @@ double convergence(const std::vector<glm::dvec3>& places, Math math) {
 }
 
 // Over the middle a sum depends on the heights of the points alone.
-TEST_P(SpotOverAFloor, ConvergesNearlyAsTheNumberOfLightsOverItsMiddle) {
-    EXPECT_LT(convergence({{0, 1, 0}, {0, 2, 0}, {0, 0.7, 0}}, GetParam()), -0.75);
+TEST_P(ConvergenceOverAFloor, ConvergesNearlyAsTheNumberOfLightsOverItsMiddle) {
+    EXPECT_LT(convergence({{0, 1, 0}, {0, 2, 0}, {0, 0.7, 0}}), -0.75);
 }
 
 // Elsewhere the border of the cone tells; random points would converge with -1/2.
-TEST_P(SpotOverAFloor, ConvergesFasterThanRandomPointsElsewhere) {
-    EXPECT_LT(convergence({{0.4, 1, 0.1}, {-0.3, 2, 0.5}, {1, 1.5, 1}, {0, 0.7, -2}}, GetParam()),
-              -0.6);
+TEST_P(ConvergenceOverAFloor, ConvergesFasterThanRandomPointsElsewhere) {
+    EXPECT_LT(convergence({{0.4, 1, 0.1}, {-0.3, 2, 0.5}, {1, 1.5, 1}, {0, 0.7, -2}}), -0.6);
 }
 
 TEST_P(IndirectLights, CarryAllThatTheRoomReflects) {
@@ -165,8 +166,8 @@ TEST_P(IndirectLights, CarryHalfWhereHalfTheConeLeavesTheScene) {
     const DeviceScene scene = test::on_device(world);
     const double half = 0.5 * pi * (1 - std::cos(40 * degree));  // times albedo 1/2
     EXPECT_NEAR(
-        test::total_flux(scene, test::place_lights(scene, {.vpls = 4000}, GetParam()).lights),
-        half, 0.01 * half);
+        test::total_flux(scene, test::place_lights(scene, {.vpls = 4000}, GetParam()).lights), half,
+        0.01 * half);
 }
 
 TEST_P(IndirectLights, CarryASunsLightOnAFloor) {
@@ -181,8 +182,8 @@ TEST_P(IndirectLights, CarryASunsLightOnAFloor) {
         // A strip of the disc at 80 degrees: 2500 of 20000 samples, whose border counts 1 %.
         EXPECT_NEAR(
             test::total_flux(
-                scene, test::place_lights(scene, {.vpls = 20000, .shadow_size = 1024}, GetParam())
-                           .lights),
+                scene,
+                test::place_lights(scene, {.vpls = 20000, .shadow_size = 1024}, GetParam()).lights),
             flux, 0.01 * flux)
             << slant;
     }
@@ -200,8 +201,7 @@ TEST_P(IndirectLights, AreNoneWhereTheSpotIsBuried) {
     Scene world = spot_over_floor(30 * degree);
     test::add_box(world, {-0.1, 0.9, -0.1}, {0.1, 1.1, 0.1}, 1);  // seen from inside: its back
     const DeviceScene scene = test::on_device(world);
-    for (const Vpl& light :
-         test::place_lights(scene, {.vpls = 50}, GetParam()).lights) {
+    for (const Vpl& light : test::place_lights(scene, {.vpls = 50}, GetParam()).lights) {
         EXPECT_TRUE(std::isfinite(light.flux.x));
         EXPECT_GE(light.flux.x, 0.0f);
     }

@@ -102,7 +102,8 @@ struct Drawn {
 };
 
 // Passes of every kind that a test program asks for, built once.
-inline const MaskPasses& mask_passes(const MaskOptions& masks = {}, const BuildOptions& how = {}) {
+inline const MaskPasses& mask_passes(const MaskOptions& masks = {},
+                                     const BuildOptions& how = usual_build()) {
     static std::map<std::string, MaskPasses> made;
     std::string key;
     for (const std::size_t part :
@@ -128,7 +129,7 @@ inline const cl::Buffer& mask_table(const MaskOptions& masks) {
 }
 
 inline Drawn draw_masks(const Blockers& blockers, const Eyes& eyes = {},
-                        const MaskOptions& masks = {}, const BuildOptions& how = {}) {
+                        const MaskOptions& masks = {}, const BuildOptions& how = usual_build()) {
     const MaskPasses& passes = mask_passes(masks, how);
     const cl::CommandQueue& queue = device().queue;
     Drawn out;
@@ -193,7 +194,8 @@ inline void expect_same_masks(const Drawn& a, const Drawn& b, const std::string&
 
 // Transfer vectors [receiver][term] of masks that were drawn.
 inline std::vector<std::vector<double>> transfer_vectors(
-    const Drawn& drawn, CellIntegral integral = CellIntegral::exact, const BuildOptions& how = {}) {
+    const Drawn& drawn, CellIntegral integral = CellIntegral::exact,
+    const BuildOptions& how = usual_build()) {
     const MaskOptions& masks = drawn.options;
     const MaskWeights weights = mask_weights(masks.size, masks.block, masks.bands, integral);
     mask_passes(masks, how)

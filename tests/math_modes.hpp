@@ -3,10 +3,17 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <clgi/pass.hpp>
 #include <string>
 
+#include "device.hpp"
+
 namespace clgi::test {
+
+// Helpers build kernels in the mode of the running test, unless it says otherwise.
+template <typename Mode>
+class InMode : public testing::TestWithParam<Mode> {
+    const UsualBuild build_{testing::TestWithParam<Mode>::GetParam()};
+};
 
 inline std::string mode_name(const testing::TestParamInfo<BuildOptions>& info) {
     if (info.param.storage == Storage::half) return "half";
@@ -21,13 +28,13 @@ inline std::string math_name(const testing::TestParamInfo<Math>& info) {
 
 // Makes `subject` a fixture for TEST_P, whose GetParam() is the kind of math.
 #define CLGI_IN_BOTH_MATHS(subject)                                                                \
-    class subject : public testing::TestWithParam<clgi::Math> {};                                  \
+    class subject : public clgi::test::InMode<clgi::Math> {};                                      \
     INSTANTIATE_TEST_SUITE_P(Math, subject, testing::Values(clgi::Math::strict, clgi::Math::fast), \
                              clgi::test::math_name)
 
 // The same with GetParam() the build options, once in half storage.
 #define CLGI_IN_ALL_MODES(subject)                                                          \
-    class subject : public testing::TestWithParam<clgi::BuildOptions> {};                   \
+    class subject : public clgi::test::InMode<clgi::BuildOptions> {};                       \
     INSTANTIATE_TEST_SUITE_P(                                                               \
         Mode, subject,                                                                      \
         testing::Values(clgi::BuildOptions{}, clgi::BuildOptions{.math = clgi::Math::fast}, \

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "frames.hpp"
+#include "math_modes.hpp"
 #include "oblique.hpp"
 #include "shading.hpp"
 
@@ -60,6 +61,8 @@ struct Place {
 };
 
 class NonFinite : public testing::TestWithParam<Place> {};
+CLGI_IN_ALL_MODES(NonFiniteIrradiance);
+CLGI_IN_ALL_MODES(NonFiniteIndirectLight);
 
 TEST_P(NonFinite, IsCountedAndMended) {
     EXPECT_EQ(test::combine(lit_surface()).non_finite, 0u);
@@ -82,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Planes, NonFinite,
                          [](const auto& given) { return std::string(given.param.name); });
 
 // More was taken away than there can be: that is not a dark place but a broken sum.
-TEST(NonFiniteIrradiance, IsCountedBelowZeroToo) {
+TEST_P(NonFiniteIrradiance, IsCountedBelowZeroToo) {
     for (int channel = 0; channel < 3; ++channel) {
         Shading in = lit_surface();
         in.pixels[17].irradiance[channel] = -infinity;
@@ -91,7 +94,7 @@ TEST(NonFiniteIrradiance, IsCountedBelowZeroToo) {
 }
 
 // A pixel beside the broken one keeps its value.
-TEST(NonFiniteIrradiance, LeavesItsNeighboursAsTheyAre) {
+TEST_P(NonFiniteIrradiance, LeavesItsNeighboursAsTheyAre) {
     Shading in = lit_surface();
     const auto usual = test::combine(in).radiance;
     in.pixels[17].irradiance.y = nan_value;
@@ -123,14 +126,14 @@ TEST(NonFiniteEmitter, IsCounted) {
 }
 
 // From an indirect light through the gather to the picture.
-TEST(NonFiniteIndirectLight, IsCountedInThePicture) {
+TEST_P(NonFiniteIndirectLight, IsCountedInThePicture) {
     const glm::vec3 normal = lit_surface().pixels[0].normal;
     for (const bool negative : {false, true})
         for (const float value : {nan_value, infinity})
             for (int channel = 0; channel < 3; ++channel) {
                 Shading in = lit_surface();
                 Vpl light{glm::vec4(0.1f, 0.6f, 0.1f, 1e-3f), glm::vec4(-normal, 1e-6f),
-                                    glm::vec4(1.0f)};
+                          glm::vec4(1.0f)};
                 light.flux[channel] = value;
                 std::vector<test::Receiver> receivers;
                 for (const ShadedPixel& pixel : in.pixels)

@@ -17,7 +17,7 @@ struct HandVpl {
     glm::dvec3 received = {3.0, 2.0, 5.0};  // lux
 };
 
-inline const AtlasPasses& atlas_passes() { return shared_passes<AtlasPasses>(Math::strict); }
+inline const AtlasPasses& atlas_passes() { return shared_passes<AtlasPasses>(usual_build()); }
 
 // One sample point a VPL, where it stands.
 struct OneBatch {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "math_modes.hpp"
 #include "opencl_calls.hpp"
 #include "parallel_tools.hpp"
 
@@ -109,7 +110,9 @@ TEST(ParallelSum, KeepsWhatIsNotFinite) {
 }
 
 // More tiles than one work-group adds up at once.
-TEST(ParallelSum, GoesThroughManyTilesOfTiles) {
+CLGI_IN_BOTH_MATHS(LongSum);
+
+TEST_P(LongSum, GoesThroughManyTilesOfTiles) {
     constexpr std::uint32_t n = PARALLEL_TILE * PARALLEL_TILE + 3;
     const cl::CommandQueue& queue = test::device().queue;
     const cl::Buffer items = test::empty<glm::vec4>(n), total = test::empty<glm::vec4>(1);

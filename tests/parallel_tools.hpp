@@ -24,7 +24,9 @@ inline const std::deque<ParallelPasses>& all_parallel_passes() {
     return all;
 }
 
-inline const ParallelPasses& parallel_passes() { return all_parallel_passes().front(); }
+inline const ParallelPasses& parallel_passes() {
+    return all_parallel_passes()[usual_build().math == Math::fast ? 3 : 0];
+}
 
 // No item, one, a leaf more or less, a tile more or less, several tiles.
 inline const std::vector<std::uint32_t> item_counts = {0,    1,    15,   16,   17,    1000,

@@ -272,6 +272,15 @@ TEST(PlannedScene, HasMeansInPlaceOfTextures) {
     EXPECT_NEAR(left.base_color.g, 0.4 * 63.5 / 255.0, 1e-6);
     EXPECT_NEAR(left.base_color.b, 0.3 * 10.0 / 255.0, 1e-6);
 
+    // Not of one of the two triangles of its square.
+    Scene halves = scene;
+    Texture& texture = halves.textures[0];
+    texture.width = 2;
+    texture.height = 1;
+    texture.rgba = {0, 0, 0, 255, 255, 0, 0, 255};
+    EXPECT_NEAR(planned_scene(halves, plan_without(Effect::textures)).materials[0].base_color.r,
+                0.25, 1e-6);
+
     // A texture of one colour is replaced whatever the plan says, one that cuts holes never.
     scene.materials[0].base_texture.texture = 1;
     Material plain = planned_scene(scene, plan_without(Effect::gloss)).materials[0];
@@ -300,8 +309,14 @@ TEST(PlannedScene, CarriesOnTheLightsThatStay) {
     EXPECT_EQ(left.animation->lights[1].index, 1u);
     EXPECT_EQ(left.animation->lights[1].node, 0u);
 
+    scene.animation->ranges.resize(1);
+    const Scene held = planned_scene(scene, plan_without(Effect::moving_lights));
+    ASSERT_TRUE(held.animation);  // geometry moves
+    EXPECT_TRUE(held.animation->lights.empty());
+    EXPECT_EQ(held.animation->ranges.size(), 1u);
     Plan still = plan_without(Effect::moving_geometry);
-    EXPECT_TRUE(planned_scene(scene, still).animation);  // lights move
+    ASSERT_TRUE(planned_scene(scene, still).animation);  // lights move
+    EXPECT_TRUE(planned_scene(scene, still).animation->ranges.empty());
     still.effects[static_cast<std::size_t>(Effect::moving_lights)].on = false;
     EXPECT_FALSE(planned_scene(scene, still).animation);
     scene.animation->cameras = {{0, 0}};

@@ -106,9 +106,23 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
                   w.animated = true;
               }),
               Method::dynamic_transfer);
+    EXPECT_NE(method([](SceneFacts& f, PlanWish& w) {
+                  f.lights.environment = true;  // beside the lamp
+                  f.openness = 0.9;
+                  w.animated = true;
+              }),
+              Method::dynamic_transfer);
+    EXPECT_EQ(method([](SceneFacts& f, PlanWish& w) {
+                  f.surfaces.cutouts = true;
+                  w.seconds = 1e-3;
+                  w.without = {Effect::direct_shadows};
+              }),
+              Method::light_atlas);  // the only one, however slow
     EXPECT_EQ(method([](SceneFacts& f, PlanWish&) { f.surfaces.triangles = 0; }), Method::direct);
     EXPECT_EQ(method([](SceneFacts&, PlanWish& w) { w.without = {Effect::indirect_occlusion}; }),
               Method::light_atlas);
+    EXPECT_EQ(method([](SceneFacts&, PlanWish& w) { w.without = {Effect::further_bounces}; }),
+              Method::second_order);
     for (const Method wished : {Method::direct, Method::second_order, Method::light_atlas,
                                 Method::antiradiance, Method::dynamic_transfer})
         EXPECT_EQ(method([&](SceneFacts&, PlanWish& w) { w.method = wished; }), wished);
@@ -269,6 +283,9 @@ TEST(Plan, TakesTheBestWithinATimeAndTheCheapestWithinAnError) {
         wish.seconds = seconds;
         const Plan plan = make_plan(device, facts, wish);
         EXPECT_EQ(plan.meets_time, plan.cost.total_ms() <= 1e3 * seconds);
+        if (seconds >= 1.0) {
+            EXPECT_TRUE(plan.meets_time) << seconds;  // of the accurate ones some take longer
+        }
         EXPECT_GE(plan.cost.total_ms(), last_ms);
         ASSERT_TRUE(plan.error);
         EXPECT_LE(*plan.error, last_error);
@@ -288,6 +305,101 @@ TEST(Plan, TakesTheBestWithinATimeAndTheCheapestWithinAnError) {
     wish.error.reset();
     wish.seconds = 1e-6;
     EXPECT_FALSE(make_plan(device, facts, wish).meets_time);
+}
+
+// What is off is off in the settings of the method, and what is on is priced.
+TEST(Plan, BringsItsSettingsToTheEffects) {
+    const cl::Device& device = test::device().device;
+    const SceneFacts facts = scene_facts(test::furnished_room(3));
+    const auto plan = [&](Method method, std::vector<Effect> without, bool animated = false) {
+        PlanWish wish;
+        wish.method = method;
+        wish.without = std::move(without);
+        wish.animated = animated;
+        return make_plan(device, facts, wish);
+    };
+    const Plan second = plan(Method::second_order, {});
+    EXPECT_GT(second.second_order.negative_vpls, 0);
+    EXPECT_EQ(second.error_ground, "measured in furnished scenes");
+    const Plan convex = plan(Method::second_order, {Effect::indirect_occlusion});
+    EXPECT_EQ(convex.second_order.negative_vpls, 0);
+    EXPECT_EQ(convex.error_ground, "measured in convex scenes");
+    EXPECT_EQ(convex.bound, 0.0);  // a wish is not for the tolerance
+    // VPLs are placed through shadow maps, whatever is done with shadows.
+    const Plan unshadowed = plan(Method::second_order, {Effect::direct_shadows});
+    EXPECT_TRUE(unshadowed.second_order.emitters.shadows);
+    EXPECT_FALSE(unshadowed.picture.emitters.shadows);
+    EXPECT_FALSE(
+        plan(Method::antiradiance, {Effect::direct_shadows}).antiradiance.emitters.shadows);
+    EXPECT_EQ(plan(Method::light_atlas, {}).light_atlas.bounces, 0u);
+    EXPECT_EQ(plan(Method::light_atlas, {Effect::further_bounces}).light_atlas.bounces, 1u);
+    EXPECT_EQ(plan(Method::antiradiance, {Effect::gloss}).antiradiance.least_gloss, 1.0);
+
+    SceneFacts shining = facts;
+    shining.lights = LightFacts();
+    shining.lights.environment = true;
+    shining.surfaces.glossy_area = shining.surfaces.gloss = 0.5;
+    PlanWish wish;
+    wish.method = Method::dynamic_transfer;
+    const Plan sky = make_plan(device, shining, wish);
+    EXPECT_TRUE(sky.transfer.shadowed);
+    EXPECT_TRUE(sky.transfer.gloss);
+    EXPECT_EQ(sky.transfer.bounces, 1);
+    wish.without = {Effect::environment_shadows};
+    EXPECT_FALSE(make_plan(device, shining, wish).transfer.shadowed);
+    wish.method = Method::antiradiance;
+    wish.without = {};
+    EXPECT_LT(make_plan(device, shining, wish).antiradiance.least_gloss, 1.0);
+}
+
+TEST(Plan, PricesWhatIsOn) {
+    const cl::Device& device = test::device().device;
+    SceneFacts facts = scene_facts(test::furnished_room(3));
+    PlanWish wish;
+    wish.method = Method::antiradiance;
+    const Plan still = make_plan(device, facts, wish);
+    for (const Effect effect :
+         {Effect::point_light, Effect::direct_shadows, Effect::indirect_occlusion}) {
+        const EffectChoice& choice = still.effects[static_cast<std::size_t>(effect)];
+        EXPECT_GT(choice.milliseconds, 0.0) << name_of(effect);
+        EXPECT_LT(choice.milliseconds, still.cost.total_ms()) << name_of(effect);
+    }
+    // In an animation the exchange is a part of each picture.
+    wish.animated = true;
+    const Plan moving = make_plan(device, facts, wish);
+    EXPECT_GT(moving.cost.frame_ms, still.cost.frame_ms);
+    // Six views or one.
+    wish.method = Method::direct;
+    wish.seconds = 1e-6;
+    facts.lights = LightFacts();
+    facts.lights.points = 1;
+    const double point = make_plan(device, facts, wish).cost.frame_ms;
+    facts.lights.points = 0;
+    facts.lights.spots = 1;
+    EXPECT_GT(point, make_plan(device, facts, wish).cost.frame_ms);
+
+    // Nothing is proven of lights that change.
+    facts.proof.lights_open = true;
+    EXPECT_FALSE(make_plan(device, facts, wish).on(Effect::direct_shadows));
+    wish.lights_change = true;
+    EXPECT_TRUE(make_plan(device, facts, wish).on(Effect::direct_shadows));
+}
+
+TEST(Plan, KnowsTheKindOfAScene) {
+    SceneFacts facts = scene_facts(test::furnished_room(3));
+    const auto ground = [&] {
+        PlanWish wish;
+        wish.method = Method::second_order;
+        return make_plan(test::device().device, facts, wish).error_ground;
+    };
+    facts.openness = 0.2;
+    EXPECT_EQ(ground(), "measured in furnished scenes");
+    facts.surfaces.triangles = 30000;
+    EXPECT_EQ(ground(), "measured in finely modelled scenes");
+    facts.openness = 0.4;
+    EXPECT_EQ(ground(), "measured in open scenes");
+    facts.proof.surfaces_open = true;
+    EXPECT_EQ(ground(), "measured in convex scenes");
 }
 
 }  // namespace

@@ -1,59 +1,20 @@
 // Pictures by plans: what is left out changes nothing, and what matters is not left out.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
-#include <clgi/plan/renderer.hpp>
-#include <clgi/reference.hpp>
-#include <cmath>
 #include <set>
 
-#include "device.hpp"
-#include "frames.hpp"
+#include "planned_pictures.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr int width = 32, height = 24;
-
-using Pixels = std::vector<glm::vec3>;
-
-double luminance_of(const glm::vec3& rgb) {
-    return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
-double mean(const Pixels& picture) {
-    double sum = 0.0;
-    for (const glm::vec3& pixel : picture) sum += luminance_of(pixel);
-    return sum / static_cast<double>(picture.size());
-}
-
-// Root of the mean squared difference of luminance, cd/m^2.
-double distance(const Pixels& a, const Pixels& b) {
-    double squares = 0.0;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        squares += std::pow(luminance_of(a[k]) - luminance_of(b[k]), 2);
-    return std::sqrt(squares / static_cast<double>(a.size()));
-}
-
-PlanWish quick(std::vector<Effect> with = {}, std::vector<Effect> without = {}) {
-    PlanWish out;
-    out.width = width;
-    out.height = height;
-    out.seconds = 0.2;
-    out.with = std::move(with);
-    out.without = std::move(without);
-    return out;
-}
-
-std::vector<Effect> all_effects() {
-    std::vector<Effect> out;
-    for (std::size_t k = 0; k < effect_count; ++k) out.push_back(static_cast<Effect>(k));
-    return out;
-}
-
-Plan plan_of(const Scene& scene, const Camera& camera, const PlanWish& wish) {
-    return make_plan(test::device().queue, test::programs(), scene, camera, wish);
-}
+using test::all_effects;
+using test::distance;
+using test::mean;
+using test::Pixels;
+using test::plan_of;
+using test::quick;
 
 struct Rendered {
     Pixels pixels;
@@ -70,8 +31,7 @@ Rendered render(const Scene& scene, const Camera& camera, const Plan& plan) {
     renderer.render(camera).wait();
     EXPECT_EQ(renderer.non_finite(), 0u);
     Rendered out;
-    out.pixels = test::vectors(queue, renderer.radiance(), renderer.stride(),
-                               static_cast<std::size_t>(width) * height);
+    out.pixels = test::shown_by(renderer);
     for (const PassEvent& pass : renderer.events()) out.passes.insert(pass.name);
     out.bytes = renderer.bytes();
     return out;
@@ -118,11 +78,7 @@ TEST(Plan, LeavesOutShadowsInAConvexRoom) {
     // Shadow maps darken corners by a texel: the difference is their error.
     EXPECT_LT(distance(lean.pixels, full.pixels), 1e-2 * mean(full.pixels));
     EXPECT_LT(lean.bytes, full.bytes);
-    reference::Options tracing;
-    tracing.width = width;
-    tracing.height = height;
-    tracing.samples = 512;
-    const Pixels truth = reference::PathTracer(scene).render(camera, tracing).radiance;
+    const Pixels truth = test::traced(scene, camera, 512);
     EXPECT_LT(distance(lean.pixels, truth), 0.1 * mean(truth));
     EXPECT_NEAR(mean(lean.pixels), mean(truth), 0.04 * mean(truth));
 }
@@ -166,8 +122,8 @@ TEST(Plan, HasNoMasksOfOneObjectUnderASky) {
                         1e-3 * sky.factor[c]);
 }
 
-// A dim floor below a lamp as large as itself: light comes back to it by way of the lamp alone, where
-// the camera does not look.
+// A dim floor below a lamp as large as itself: light comes back to it by way of the lamp alone,
+// where the camera does not look.
 TEST(Plan, BoundsLightThatComesLate) {
     Scene scene = test::plain_scene({0.2f, 0.29f, 0.1f});
     test::add_floor(scene, 2.0);
@@ -181,17 +137,63 @@ TEST(Plan, BoundsLightThatComesLate) {
     const Plan plan = plan_of(scene, camera, wish);
     ASSERT_TRUE(plan.probe);
     EXPECT_FALSE(plan.on(Effect::first_bounce));
-    reference::Options tracing;
-    tracing.width = width;
-    tracing.height = height;
-    tracing.samples = 512;
-    const reference::PathTracer tracer(scene);
-    const Pixels all = tracer.render(camera, tracing).radiance;
-    tracing.effects.last_bounce = 0;
-    const Pixels direct = tracer.render(camera, tracing).radiance;
+    reference::Effects direct_light;
+    direct_light.last_bounce = 0;
+    const Pixels all = test::traced(scene, camera, 512);
+    const Pixels direct = test::traced(scene, camera, 512, direct_light);
     const double lost = distance(direct, all) / mean(all);
     EXPECT_GT(lost, 0.02);
     EXPECT_LT(lost, plan.bound) << plan.probe->first_bounce << " " << plan.probe->reflected;
+}
+
+// A dark room: the probe's share of one bounce, which nothing shadows, is that of the path tracer.
+TEST(Plan, ProbesIndirectLightOfDarkScenes) {
+    Scene scene = slanted_room();
+    scene.materials[0].base_color = {0.1f, 0.07f, 0.05f, 1.0f};
+    const Camera camera = test::camera_at({0.6, 1.0, 0.6}, {-0.5, 0.6, -0.7});
+    PlanWish wish = quick();
+    wish.tolerance = 0.5;
+    const Plan plan = plan_of(scene, camera, wish);
+    ASSERT_TRUE(plan.probe);
+    reference::Effects effects;
+    effects.last_bounce = 1;
+    const Pixels once = test::traced(scene, camera, 256, effects);
+    effects.last_bounce = 0;
+    const Pixels direct = test::traced(scene, camera, 16, effects);
+    const double share = distance(once, direct) / mean(once);
+    EXPECT_NEAR(plan.probe->first_bounce, share, 0.1 * share);
+    EXPECT_FALSE(plan.on(Effect::first_bounce));
+    const EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
+    EXPECT_EQ(plan.bound, first.bound);
+    EXPECT_GT(first.bound, share);
+    EXPECT_LT(first.bound, 4.0 * share);
+}
+
+// Lights that change under a plan of each method that keeps something of them.
+TEST(Plan, FollowsLightsThatChange) {
+    const Scene scene = slanted_room();
+    const Camera camera = test::camera_at({0.6, 1.0, 0.6}, {-0.5, 0.6, -0.7});
+    for (const Method method : {Method::light_atlas, Method::antiradiance}) {
+        SCOPED_TRACE(name_of(method));
+        PlanWish wish = quick();
+        wish.method = method;
+        wish.lights_change = true;
+        Scene changed = scene;
+        changed.lights[0].position = {-0.4, 0.4, 0.3};
+        const Plan plan = plan_of(scene, camera, wish);
+        DeviceScene uploaded = test::on_device(scene);
+        PlannedRenderer renderer(test::programs(), test::device().queue, scene, uploaded, plan);
+        EXPECT_TRUE(renderer.prepare());
+        renderer.render(camera).wait();
+        const Pixels before = test::shown_by(renderer);
+        uploaded.set_light(0, changed.lights[0]);
+        renderer.lights_changed();
+        EXPECT_TRUE(renderer.prepare());
+        renderer.render(camera).wait();
+        const Pixels after = test::shown_by(renderer), fresh = render(changed, camera, plan).pixels;
+        EXPECT_LT(distance(after, fresh), 1e-3 * mean(fresh));
+        EXPECT_GT(distance(after, before), 0.1 * mean(fresh));
+    }
 }
 
 // ---- what matters is not left out --------------------------------------------------------------
@@ -342,13 +344,7 @@ TEST(Plan, KeepsWhatIsTheWholePicture) {
         const Plan less = plan_of(whole.scene, whole.camera, wish);
         EXPECT_FALSE(less.on(whole.effect));
         const Pixels left = render(whole.scene, whole.camera, less).pixels;
-
-        reference::Options tracing;
-        tracing.width = width;
-        tracing.height = height;
-        tracing.samples = 256;
-        const Pixels truth =
-            reference::PathTracer(whole.scene).render(whole.camera, tracing).radiance;
+        const Pixels truth = test::traced(whole.scene, whole.camera, 256);
         const double level = std::max(mean(truth), mean(left));
         EXPECT_GT(level, 0.0);
         EXPECT_LT(distance(kept, truth), whole.error * level);

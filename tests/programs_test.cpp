@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "frames.hpp"
+#include "math_modes.hpp"
 
 namespace clgi {
 namespace {
@@ -28,7 +29,9 @@ TEST(Programs, BuildAKernelWhenItIsFirstEnqueued) {
     EXPECT_THROW(programs.kernel("image", "nothing"), Error);
 }
 
-TEST(Programs, AreBuiltForTheEffectsOfASolverAlone) {
+CLGI_IN_ALL_MODES(KernelsOfEffects);
+
+TEST_P(KernelsOfEffects, AreBuiltForTheEffectsOfASolverAlone) {
     const test::Device& on = test::device();
     const Scene world = cornell({.light = LightSource::spot});
     const DeviceScene scene = test::on_device(world);
@@ -41,6 +44,7 @@ TEST(Programs, AreBuiltForTheEffectsOfASolverAlone) {
         return before;
     };
     SecondOrderOptions options;
+    options.build = GetParam();
     options.width = 32;
     options.height = 24;
     options.emitters.vpls = 20;

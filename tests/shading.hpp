@@ -20,6 +20,15 @@ struct ShadedPixel {
     int material = -1;        // -1: unknown, all of the colour is diffuse
 };
 
+// What is left of a pixel that is stored.
+inline ShadedPixel stored(ShadedPixel pixel) {
+    for (glm::vec3 ShadedPixel::*member :
+         {&ShadedPixel::normal, &ShadedPixel::geometric, &ShadedPixel::base, &ShadedPixel::emission,
+          &ShadedPixel::irradiance})
+        pixel.*member = stored(pixel.*member);
+    return pixel;
+}
+
 struct Shading {
     CombineParams params{};  // width, height and stride follow from the pixels
     View view{};
@@ -76,7 +85,10 @@ inline Combined combine(const Shading& in, const ImagePasses& passes = image_pas
     params.depth_words = 2;
     if (scene.info().flags & SCENE_HAS_SHARES) params.effects |= COMBINE_MATERIALS;
     passes.combine(device().queue, params, view, scene,
-                   {sources, {upload(planes), upload(ids), stride}, upload(irradiance), radiance,
+                   {sources,
+                    {upload_planes(planes, stride), upload(ids), stride, usual_build().storage},
+                    upload_irradiance(irradiance),
+                    radiance,
                     non_finite});
     const auto found = download<float>(radiance, RADIANCE_PLANES * stride);
     Combined out;

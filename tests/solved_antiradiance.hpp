@@ -31,11 +31,11 @@ struct Solved {
     std::uint32_t element(std::size_t row) const { return solver.leaf_elements()[row]; }
 };
 
-inline AntiradianceOptions options_of(Math math, int bins, std::size_t leaves) {
+inline AntiradianceOptions options_of(const Build& build, int bins, std::size_t leaves) {
     AntiradianceOptions out;
     out.bins = bins;
     out.elements.wished = leaves;
-    out.build.math = math;
+    out.build = build;
     return out;
 }
 

@@ -48,7 +48,9 @@ TEST(TransferSameness, OfEveryWidthAndGroup) {
         }
 }
 
-TEST(TransferSameness, OfScalesByPowersOfTwo) {
+CLGI_IN_BOTH_MATHS(TransferScales);
+
+TEST_P(TransferScales, OfScalesByPowersOfTwo) {
     const Heap one;
     const Drawn first = test::draw_masks(one.blockers, one.eyes);
     for (const int power : {-40, -13, 7, 40}) {
@@ -75,8 +77,8 @@ Blockers separate_heaps(int count) {
 
 // Of pairs of a receiver and a cluster, those whose box lies below the receiver's horizon.
 int below(const Drawn& drawn, const Eyes& eyes) {
-    const auto boxes = test::download<BlockerBox>(drawn.blockers.boxes,
-                                                  drawn.blockers.stride / BLOCKER_CLUSTER);
+    const auto boxes =
+        test::download<BlockerBox>(drawn.blockers.boxes, drawn.blockers.stride / BLOCKER_CLUSTER);
     int out = 0;
     for (std::size_t i = 0; i < eyes.positions.size(); ++i)
         for (const BlockerBox& box : boxes) {

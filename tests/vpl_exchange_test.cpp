@@ -78,6 +78,8 @@ void add_rectangle(std::vector<SitePlace>& out, const DeviceScene& scene, const 
     }
 }
 
+CLGI_IN_BOTH_MATHS(ViewFactor);
+
 struct Plate {
     glm::dvec3 corner, u, v;
 };
@@ -105,7 +107,7 @@ double view_factor(const Plate& a, const Plate& b, int k, int m) {
 
 const Plate bottom{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, top{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
 
-TEST(ViewFactor, OfParallelSquaresConverges) {
+TEST_P(ViewFactor, OfParallelSquaresConverges) {
     const double wanted = 0.1998248957;  // unit squares a unit apart
     // Midpoint rule over the shooter's cells: h^2 / 24 times the mean of the kernel's Laplacian,
     // which is at most 8 / pi, that straight across. The receiver's cells are much smaller.
@@ -117,7 +119,7 @@ TEST(ViewFactor, OfParallelSquaresConverges) {
     EXPECT_LT(std::abs(fine), 0.35 * std::abs(coarse));
 }
 
-TEST(ViewFactor, OfSquaresAtARightAngleConverges) {
+TEST_P(ViewFactor, OfSquaresAtARightAngleConverges) {
     // No pair closer than a cell of samples is right: a strip of that width along the edge, of
     // whose power at most half can arrive at the other square.
     struct {

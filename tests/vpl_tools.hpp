@@ -144,12 +144,12 @@ inline Hemicubes hemicubes(const Sites& sites, const DeviceScene* scene,
     return out;
 }
 
-inline const VplPasses& vpl_passes(Math math = Math::strict) {
-    return shared_passes<VplPasses>(math);
+inline const VplPasses& vpl_passes(const Build& build = usual_build()) {
+    return shared_passes<VplPasses>(build);
 }
 
-inline const AtlasPasses& atlas_passes(Math math = Math::strict) {
-    return shared_passes<AtlasPasses>(math);
+inline const AtlasPasses& atlas_passes(const Build& build = usual_build()) {
+    return shared_passes<AtlasPasses>(build);
 }
 
 // The buffers with the points at which sites are looked at, most_samples of each at most.

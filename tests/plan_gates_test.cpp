@@ -1,0 +1,146 @@
+// Plans of random scenes: every method gives finite light or refuses in one line, and what a plan
+// leaves out changes the true picture by no more than it says.
+//
+// CLGI_GATES=1000 in the environment takes as many scenes.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <cstdlib>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "fuzz/random_scene.hpp"
+#include "planned_pictures.hpp"
+
+namespace clgi {
+namespace {
+
+using test::distance;
+using test::mean;
+using test::Pixels;
+
+int scene_count() {
+    const char* wanted = std::getenv("CLGI_GATES");
+    return wanted ? std::atoi(wanted) : 40;
+}
+
+struct Given {
+    Scene scene;
+    Camera camera;
+};
+
+// Of every three scenes one is a box or a room alone, of which something can be proven, and of
+// every four one is dark, so that a probe may tell.
+Given given(unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<std::uint8_t> bytes(600);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    fuzz::Choices choices(bytes.data(), bytes.size());
+    Given out;
+    out.scene = fuzz::random_scene(choices);
+    if (seed % 3 == 0 && out.scene.triangles.size() > 12) out.scene.triangles.resize(12);
+    if (seed % 4 == 1)
+        for (Material& material : out.scene.materials)
+            material.base_color *= glm::vec4(0.2f, 0.2f, 0.2f, 1.0f);
+    out.camera = fuzz::random_camera(choices, out.scene);
+    return out;
+}
+
+// Nothing where the method refuses the scene; `refused` then says why.
+std::optional<Pixels> picture(const Given& of, const PlanWish& wish, std::string& refused) {
+    try {
+        const Plan plan = test::plan_of(of.scene, of.camera, wish);
+        const Scene left = planned_scene(of.scene, plan);
+        const DeviceScene uploaded = test::on_device(left);
+        PlannedRenderer renderer(test::programs(), test::device().queue, left, uploaded, plan);
+        EXPECT_TRUE(renderer.prepare());
+        renderer.render(of.camera).wait();
+        EXPECT_EQ(renderer.non_finite(), 0u);
+        return test::shown_by(renderer);
+    } catch (const Error& error) {
+        refused = error.what();
+        EXPECT_FALSE(refused.empty());
+        EXPECT_EQ(refused.find('\n'), std::string::npos) << refused;
+        return std::nullopt;
+    }
+}
+
+void expect_light(const Pixels& picture) {
+    for (const glm::vec3& pixel : picture)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_TRUE(std::isfinite(pixel[c]) && pixel[c] >= 0.0f) << pixel[c];
+}
+
+TEST(Gates, OfRandomScenesGiveFiniteLightOrRefuseInOneLine) {
+    constexpr Method methods[] = {Method::direct, Method::second_order, Method::light_atlas,
+                                  Method::antiradiance, Method::dynamic_transfer};
+    int taken = 0, refused = 0;
+    for (int seed = 0; seed < scene_count(); ++seed) {
+        SCOPED_TRACE("scene " + std::to_string(seed));
+        const Given of = given(static_cast<unsigned>(seed));
+        std::string why;
+        PlanWish wish = test::quick();
+        wish.seconds = 0.03;
+        // Without a wish the plan takes a method that can do it.
+        const auto own = picture(of, wish, why);
+        if (own) expect_light(*own);
+        EXPECT_TRUE(own || of.scene.triangles.empty()) << why;
+        wish.method = methods[seed % 5];
+        const auto other = picture(of, wish, why);
+        if (other) expect_light(*other);
+        ++(other ? taken : refused);
+    }
+    EXPECT_GT(taken, 10 * refused);
+    RecordProperty("refused", refused);
+}
+
+// Against the path tracer, which knows of no plan.
+TEST(Gates, LeaveOutNoMoreThanTheySay) {
+    int shadows = 0, bounces = 0, measured = 0;
+    double worst = 0.0;
+    for (int seed = 0; seed < scene_count(); ++seed) {
+        SCOPED_TRACE("scene " + std::to_string(seed));
+        const Given of = given(static_cast<unsigned>(seed));
+        std::string why;
+        PlanWish tolerant = test::quick();
+        tolerant.tolerance = 0.1;
+        const Plan plan = test::plan_of(of.scene, of.camera, tolerant);
+        const auto off = [&](Effect effect, Ground ground) {
+            const EffectChoice& choice = plan.effects[static_cast<std::size_t>(effect)];
+            return !choice.on && choice.ground == ground;
+        };
+        reference::Effects direct;
+        direct.last_bounce = 0;
+        const LightFacts& lights = plan.facts.lights;
+        // Those with an extent are sampled, and their noise would hide what differs.
+        if (lights.environment || lights.emissive_triangles > 0) continue;
+        if (off(Effect::direct_shadows, Ground::proven)) {
+            PlanWish wish = test::quick({}, {Effect::first_bounce});
+            wish.method = Method::direct;
+            const auto lean = picture(of, wish, why);
+            const Pixels truth = test::traced(of.scene, of.camera, 1, direct);
+            ASSERT_TRUE(lean) << why;
+            // Single pixels at the edges of surfaces and cones.
+            EXPECT_LE(distance(*lean, truth), 2e-2 * mean(truth));
+            if (mean(truth) > 0.0) worst = std::max(worst, distance(*lean, truth) / mean(truth));
+            ++shadows;
+        }
+        const bool proven = off(Effect::first_bounce, Ground::proven);
+        if (proven || off(Effect::first_bounce, Ground::measured)) {
+            const Pixels all = test::traced(of.scene, of.camera, 64);
+            const Pixels once = test::traced(of.scene, of.camera, 64, direct);
+            EXPECT_LE(distance(all, once), (plan.bound + 1e-6) * mean(all))
+                << (proven ? "proven" : "measured") << ", bound " << plan.bound;
+            ++(proven ? bounces : measured);
+        }
+    }
+    EXPECT_GT(shadows, 0);
+    EXPECT_GT(bounces, 0);
+    RecordProperty("shadows", shadows);
+    RecordProperty("bounces", bounces);
+    RecordProperty("measured", measured);
+    RecordProperty("worst", std::to_string(worst));
+}
+
+}  // namespace
+}  // namespace clgi
