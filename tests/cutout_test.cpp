@@ -1,5 +1,5 @@
-// Which pixels an alpha mask leaves, at every mip level and with every part of alpha at work,
-// against double precision.
+// Which pixels an alpha mask leaves, with up to 16 texels across a pixel and every part of alpha at
+// work, against double precision.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using test::SurfaceTruth;
 
 constexpr float cutoff = 0.42f;
 
-// Noise in squares of 1, 2, 4, 8 and 16 texels: some of it is left at coarse levels.
+// Noise in squares of 1, 2, 4, 8 and 16 texels: coarse levels would have other holes.
 Texture mask_texture(int width, int height, Random& random) {
     Texture texture;
     texture.width = width;
@@ -69,7 +69,7 @@ Scene masked_sheet(std::uint64_t seed) {
             material.base_texture = test::random_slot(random, 3);
             material.base_texture.texture = m % 8 == 7 ? -1 : m % 3;
             material.base_texture.uv_set = m / 2 % 2;
-            const auto finer = static_cast<float>(std::exp2(m % 4));  // a mip level a step
+            const auto finer = static_cast<float>(std::exp2(m % 4));  // twice the texels a step
             for (int c = 0; c < 2; ++c) material.base_texture.transform[c] *= finer;
             // Another one, which alpha has nothing to do with.
             material.emission = glm::vec3(1.0f);

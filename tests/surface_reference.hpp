@@ -71,9 +71,11 @@ public:
         if (!scene_.colors.empty())
             base *= between(corners, out.weights,
                             [&](std::uint32_t v) { return glm::dvec4(scene_.colors[v]); });
+        // Masks are those of the finest level.
+        out.alpha =
+            base.w * textured(material.base_texture, view, corners, column, row, out, false).w;
         base *= textured(material.base_texture, view, corners, column, row, out);
         out.albedo = glm::dvec3(base);  // base colour: a G-buffer keeps no shares
-        out.alpha = base.w;
         out.emission = glm::dvec3(material.emission) / frame_.exposure;
         if (out.emission != glm::dvec3(0.0))
             out.emission *=
@@ -113,7 +115,8 @@ private:
 
     // The area of UV space under the pixel from differences over a hundredth of one.
     glm::dvec4 textured(const TextureSlot& slot, const View& view, const SceneTriangle& t,
-                        double column, double row, SurfaceTruth& truth) const {
+                        double column, double row, SurfaceTruth& truth,
+                        bool filtered = true) const {
         if (slot.texture < 0 || scene_.uvs.empty()) return glm::dvec4(1.0);
         const auto place = [&](double right, double down) {
             return uv(slot, t, weights(t, pixel_ray(view, column + right, row + down)));
@@ -121,7 +124,7 @@ private:
         const double step = 0.005;
         const glm::dvec2 across = (place(step, 0) - place(-step, 0)) / (2 * step);
         const glm::dvec2 along = (place(0, step) - place(0, -step)) / (2 * step);
-        const double area = std::abs(across.x * along.y - across.y * along.x);
+        const double area = filtered ? std::abs(across.x * along.y - across.y * along.x) : 0.0;
         const TextureTexel texel = sampled_texture(textures_, slot.texture, place(0, 0), area);
         truth.near_border = truth.near_border || texel.near_border;
         return texel.color;

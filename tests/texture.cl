@@ -14,7 +14,7 @@ kernel void sample_textures(
         texture_sample(textures, texels, decode, (int)at.w, at.x, at.y, at.z);
 }
 
-// Their alpha alone.
+// The alpha that masks compare.
 kernel void sample_alphas(
     global const TextureRecord*  restrict textures,
     global const uint*           restrict texels,
@@ -23,5 +23,5 @@ kernel void sample_alphas(
 {
     float4 at = places[get_global_id(0)];
     alphas[get_global_id(0)] =
-        texture_sample_alpha(textures, texels, (int)at.w, at.x, at.y, at.z);
+        texture_sample_alpha(textures, texels, (int)at.w, at.x, at.y);
 }

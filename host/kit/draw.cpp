@@ -5,6 +5,13 @@
 #include <string>
 
 namespace clgi {
+namespace {
+
+// Of one view's list: a shadow map of 8192 pixels shows some 100,000 triangles of a large scene as
+// large ones, and drawing them late takes three times as long.
+constexpr std::size_t most_polygons = 131072;
+
+}  // namespace
 
 void draw(Recorder& record, const GBufferPasses& gbuffer, const DeviceScene& scene,
           const ViewSpan& span, const cl::Buffer& views, const RasterBuffers& buffers) {
@@ -28,10 +35,9 @@ void draw_by_lists(Recorder& record, const GBufferPasses& gbuffer, const DeviceS
     for (std::uint32_t done = 0; done < span.count; done += part.count) {
         part.first = span.first + done;
         part.count = std::min(span.count - done, buffers.views);
-        record("gbuffer.clear", std::size_t{part.count} * part.width * part.height,
-               [&](const WaitList& wait) {
-                   return gbuffer.clear(queue, part, views, buffers, wait);
-               });
+        record(
+            "gbuffer.clear", std::size_t{part.count} * part.width * part.height,
+            [&](const WaitList& wait) { return gbuffer.clear(queue, part, views, buffers, wait); });
         for (const std::uint32_t stage : gbuffer.stages(buffers.kind)) {
             record("gbuffer.raster", triangles * part.count, [&](const WaitList& wait) {
                 return gbuffer.raster(queue, part, views, scene, stage, buffers, wait);
@@ -62,6 +68,9 @@ void add_raster_lists(BufferTable& table, RasterBuffers& buffers, const DeviceSc
     const std::size_t triangles = scene.info().triangle_count;
     buffers.views = views;
     buffers.capacity = raster_capacity(triangles);
+    if (views == 1)
+        buffers.capacity = std::max(buffers.capacity,
+                                    static_cast<std::uint32_t>(std::min(triangles, most_polygons)));
     const std::size_t places = std::size_t{views} * buffers.capacity;
     table.add(buffers.polygons, "polygons", lower, places * sizeof(RasterPolygon));
     table.add(buffers.runs, "runs of polygons", lower, places * sizeof(RasterRun));
@@ -81,9 +90,8 @@ void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceSc
                   const View& view, const cl::Buffer& views, const RasterBuffers& buffers,
                   const GBuffer& out, std::uint32_t more) {
     const cl::CommandQueue& queue = record.queue();
-    record("gbuffer.put_view", 1, [&](const WaitList& wait) {
-        return gbuffer.put_view(queue, view, 0, views, wait);
-    });
+    record("gbuffer.put_view", 1,
+           [&](const WaitList& wait) { return gbuffer.put_view(queue, view, 0, views, wait); });
     draw(record, gbuffer, scene, span_of({view}, 0, 1), views, buffers);
     ResolveParams params{out.stride, RESOLVE_GEOMETRIC | more, 0, 0};
     if (scene.info().flags & SCENE_HAS_EMISSION) params.write |= RESOLVE_EMISSION;
@@ -93,8 +101,7 @@ void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceSc
     });
 }
 
-void check_gbuffer(const char* owner, const GBuffer& given, std::uint32_t stride,
-                   Storage storage) {
+void check_gbuffer(const char* owner, const GBuffer& given, std::uint32_t stride, Storage storage) {
     const std::string begin = owner + std::string(": the G-buffer's ");
     if (given.stride != stride)
         throw Error(begin + "stride is " + std::to_string(given.stride) + ", " +

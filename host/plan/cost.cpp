@@ -54,7 +54,9 @@ Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment
 
 Amount shadow_maps(const Plan& plan, const Lamps& lamps, bool drawn) {
     if (!drawn) return {};
-    return {lamps.views * (0.05 + 2e-5 * triangles(plan)) + 6e-7 * lamps.pixels,
+    // What is finely modelled covers pixels several times.
+    const double pixel = 6e-7 + 1e-11 * triangles(plan);
+    return {lamps.views * (0.05 + 2e-5 * triangles(plan)) + pixel * lamps.pixels,
             4.0 * lamps.pixels};
 }
 

@@ -48,7 +48,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
         if (std::find(choice.methods.begin(), choice.methods.end(), rung.method) ==
             choice.methods.end())
             continue;
-        for (const int fineness : {1, 2, 4, 8}) {
+        for (const int fineness : {1, 2, 4, 8, 16}) {
             Candidate one{plan, std::nullopt};
             set(one.plan, rung, fineness);
             one.plan.cost = cost_of(device, one.plan);

@@ -14,10 +14,12 @@ constexpr double wished_tests = 5e6;
 constexpr std::size_t fewest_rays = 64, most_rays = 1024;
 // On barycentric coordinates: rays do not slip between neighbours.
 constexpr double edge = 1e-12;
+constexpr std::size_t block = 32;   // triangles that one box is around
+constexpr double box_slack = 1e-9;  // for rounding, of the scene's radius
 
 // Planes of rays, so that one triangle is compared with many.
 struct Rays {
-    std::vector<double> from[3], along[3];
+    std::vector<double> from[3], along[3], per_along[3];
     std::vector<double> nearest;        // distance, infinity: none
     std::vector<std::uint8_t> on_back;  // of the nearest
     std::size_t count() const { return nearest.size(); }
@@ -63,6 +65,8 @@ Rays make_rays(const std::vector<LocalTriangle>& triangles, const std::vector<do
         for (int k = 0; k < 3; ++k) {
             out.from[k].push_back(from[k]);
             out.along[k].push_back(along[k]);
+            // A huge number in place of infinity: 0 times it is 0.
+            out.per_along[k].push_back(1.0 / (along[k] == 0.0 ? 1e-300 : along[k]));
         }
     }
     out.nearest.assign(count, std::numeric_limits<double>::infinity());
@@ -70,12 +74,36 @@ Rays make_rays(const std::vector<LocalTriangle>& triangles, const std::vector<do
     return out;
 }
 
+// Rays that pass through the box of neighbouring triangles before what they have met.
+void choose(const LocalTriangle* first, const LocalTriangle* last, const Rays& rays,
+            std::vector<std::size_t>& chosen) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const LocalTriangle* t = first; t != last; ++t)
+        for (const glm::dvec3& corner : t->corners) {
+            low = glm::min(low, corner);
+            high = glm::max(high, corner);
+        }
+    low -= box_slack;
+    high += box_slack;
+    chosen.clear();
+    for (std::size_t i = 0; i < rays.count(); ++i) {
+        double enter = 0.0, leave = rays.nearest[i];
+        for (int k = 0; k < 3; ++k) {
+            const double a = (low[k] - rays.from[k][i]) * rays.per_along[k][i];
+            const double b = (high[k] - rays.from[k][i]) * rays.per_along[k][i];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        if (enter <= leave) chosen.push_back(i);
+    }
+}
+
 // [Moeller and Trumbore 1997], the determinant by the triangle's normal. What lies in the place of
 // the start, the own triangle above all, is not met.
-void meet(const LocalTriangle& triangle, Rays& rays) {
+void meet(const LocalTriangle& triangle, const std::vector<std::size_t>& chosen, Rays& rays) {
     const glm::dvec3 &a = triangle.corners[0], e1 = triangle.corners[1] - a,
                      e2 = triangle.corners[2] - a, n = glm::cross(e1, e2);
-    for (std::size_t i = 0; i < rays.count(); ++i) {
+    for (const std::size_t i : chosen) {
         const double dx = rays.along[0][i], dy = rays.along[1][i], dz = rays.along[2][i];
         const double ox = rays.from[0][i] - a.x, oy = rays.from[1][i] - a.y,
                      oz = rays.from[2][i] - a.z;
@@ -104,8 +132,13 @@ Openness estimate_openness(const std::vector<LocalTriangle>& triangles,
         static_cast<std::size_t>(std::clamp(wished, double{fewest_rays}, double{most_rays})));
     Openness out;
     if (rays.count() == 0) return out;
-    for (const LocalTriangle& triangle : triangles)
-        if (!triangle.is_line()) meet(triangle, rays);
+    std::vector<std::size_t> chosen;
+    for (std::size_t first = 0; first < triangles.size(); first += block) {
+        const std::size_t last = std::min(first + block, triangles.size());
+        choose(&triangles[first], triangles.data() + last, rays, chosen);
+        for (std::size_t t = first; t < last && !chosen.empty(); ++t)
+            if (!triangles[t].is_line()) meet(triangles[t], chosen, rays);
+    }
     const auto count = static_cast<double>(rays.count());
     const auto missed = static_cast<double>(std::count(rays.nearest.begin(), rays.nearest.end(),
                                                        std::numeric_limits<double>::infinity()));

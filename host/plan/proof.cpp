@@ -19,6 +19,10 @@
 namespace clgi {
 namespace {
 
+// Triangles that are looked at first: where anything stands in the room, one of them shows it, and
+// a large scene need not be sorted.
+constexpr std::size_t samples = 256;
+
 // A light in the local frame. Of a directional light only the direction towards it counts, and it
 // lies before planes that face it, wherever they are.
 struct Source {
@@ -68,19 +72,17 @@ public:
           triangles_(triangles),
           planes_(triangles),
           shaded_flat_(shaded_flat(scene, triangles)) {
-        order_.resize(triangles.size());
-        std::iota(order_.begin(), order_.end(), 0u);
-        // Large ones first: their planes are told best, and others lie in them.
-        std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return triangles[a].area > triangles[b].area;
-        });
+        const std::size_t step = std::max<std::size_t>(triangles.size() / samples, 1);
+        for (std::size_t t = 0; t < triangles.size(); t += step)
+            if (!triangles[t].is_line() && planes_.crossed(t))
+                crossed_.push_back(static_cast<std::uint32_t>(t));
     }
 
     OpennessProof prove(const std::vector<std::uint32_t>& emissive) {
         OpennessProof out;
         out.surfaces_open = surfaces_open();
         out.surfaces_apart =
-            out.surfaces_open && std::all_of(order_.begin(), order_.end(), [&](std::uint32_t t) {
+            out.surfaces_open && std::all_of(order().begin(), order().end(), [&](std::uint32_t t) {
                 return triangles_[t].is_line() || sees_nothing(t);
             });
         out.environment_open = out.surfaces_apart && shaded_flat_;
@@ -89,11 +91,23 @@ public:
     }
 
 private:
+    // Large ones first: their planes are told best, and others lie in them.
+    const std::vector<std::uint32_t>& order() {
+        if (!order_.empty()) return order_;
+        order_.resize(triangles_.size());
+        std::iota(order_.begin(), order_.end(), 0u);
+        std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return triangles_[a].area > triangles_[b].area;
+        });
+        return order_;
+    }
+
     bool surfaces_open() {
-        for (const std::uint32_t t : order_)
+        if (!crossed_.empty()) return false;
+        for (const std::uint32_t t : order())
             if (!triangles_[t].is_line() && !planes_.place(t)) return false;
         // Lines have no plane, but must not stand in the room.
-        for (const std::uint32_t t : order_)
+        for (const std::uint32_t t : order())
             if (triangles_[t].is_line() && !planes_.in_a_plane(triangles_[t])) return false;
         return !planes_.overlap();
     }
@@ -124,13 +138,20 @@ private:
     }
 
     bool before_all(const Source& source) {
-        for (const std::uint32_t t : order_) {
+        const auto lit_sides = [&](std::uint32_t t) {  // front, back
             const LocalTriangle& triangle = triangles_[t];
-            if (triangle.is_line()) continue;
             const Plane plane{triangle.normal, glm::dot(triangle.normal, triangle.corners[0])};
             const double before = source.before(plane);
-            const bool lit = before >= -source.rounding;
-            const bool lit_behind = triangle.double_sided && before <= source.rounding;
+            return std::pair(before >= -source.rounding,
+                             triangle.double_sided && before <= source.rounding);
+        };
+        for (const std::uint32_t t : crossed_) {
+            const auto [lit, lit_behind] = lit_sides(t);
+            if (lit || lit_behind) return false;
+        }
+        for (const std::uint32_t t : order()) {
+            if (triangles_[t].is_line()) continue;
+            const auto [lit, lit_behind] = lit_sides(t);
             if (!lit && !lit_behind) continue;
             const auto& placed = planes_.place(t);
             if (!placed || (lit && placed->before) || (lit_behind && placed->behind)) return false;
@@ -142,6 +163,7 @@ private:
     const std::vector<LocalTriangle>& triangles_;
     SupportingPlanes planes_;
     bool shaded_flat_;
+    std::vector<std::uint32_t> crossed_;  // of some triangles those that stand in the room
     std::vector<std::uint32_t> order_;
 };
 

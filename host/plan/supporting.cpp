@@ -11,6 +11,7 @@ namespace clgi {
 namespace {
 
 constexpr std::size_t block = 256;  // vertices between two looks at what was found
+constexpr std::size_t few = 512;    // vertices that tell most planes apart from supporting ones
 // Below this cosine a triangle that lies in a plane to within rounding does not tell its front.
 constexpr double least_facing = 0.5;
 
@@ -43,11 +44,33 @@ bool lies_in(const LocalTriangle& triangle, const Plane& plane) {
 
 SupportingPlanes::SupportingPlanes(const std::vector<LocalTriangle>& triangles)
     : triangles_(triangles), states_(triangles.size(), State::unknown), placed_(triangles.size()) {
-    for (const glm::dvec3& p : scattered_corners(triangles)) {
+    const std::size_t step = std::max<std::size_t>(triangles.size() / few, 1);
+    for (std::size_t t = 0; t < triangles.size(); t += step)
+        few_.push_back(triangles[t].corners[t % 3]);
+}
+
+void SupportingPlanes::gather() {
+    if (!x_.empty()) return;
+    for (const glm::dvec3& p : scattered_corners(triangles_)) {
         x_.push_back(p.x);
         y_.push_back(p.y);
         z_.push_back(p.z);
     }
+}
+
+// A plane that holds the corners to within same_place is off the triangle's own by that and by
+// what it tilts, over the smallest height; four times as much is beyond all of them.
+bool SupportingPlanes::crossed(std::size_t triangle) const {
+    const LocalTriangle& of = triangles_[triangle];
+    const glm::dvec3& corner = of.corners[0];
+    bool above = false, below = false;
+    for (const glm::dvec3& p : few_) {
+        const double distance = glm::dot(of.normal, p - corner);
+        const double slack = 4.0 * same_place * (1.0 + glm::distance(p, corner) / of.height);
+        above = above || distance > slack;
+        below = below || distance < -slack;
+    }
+    return above && below;
 }
 
 bool SupportingPlanes::spend(std::size_t tests) {
@@ -157,7 +180,9 @@ std::optional<SupportingPlanes::Placed> SupportingPlanes::in_known_plane(std::si
 }
 
 std::optional<SupportingPlanes::Placed> SupportingPlanes::find(std::size_t triangle) {
+    if (crossed(triangle)) return std::nullopt;
     if (const auto known = in_known_plane(triangle)) return known;
+    gather();
     const LocalTriangle& of = triangles_[triangle];
     const Plane own{of.normal, glm::dot(of.normal, of.corners[0])};
     Plane plane = fitted(of);

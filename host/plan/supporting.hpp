@@ -34,6 +34,10 @@ public:
     // triangles: must outlive it.
     explicit SupportingPlanes(const std::vector<LocalTriangle>& triangles);
 
+    // Whether a few vertices show that no plane through the triangle, within rounding of its
+    // corners, has all on one side. False says nothing. The triangle is no line.
+    bool crossed(std::size_t triangle) const;
+
     struct Placed {
         std::size_t plane;
         bool before, behind;  // a vertex lies strictly before the triangle's front, behind it
@@ -67,8 +71,10 @@ private:
     std::optional<Raised> refit(const Raised& plane);
     Sides sides_of(const Plane& plane);
     bool spend(std::size_t tests);
+    void gather();  // what x_, y_ and z_ hold, once
 
     const std::vector<LocalTriangle>& triangles_;
+    std::vector<glm::dvec3> few_;    // corners of some triangles
     std::vector<double> x_, y_, z_;  // corners of all triangles, each place once
     enum class State : std::uint8_t { unknown, known };
     std::vector<State> states_;

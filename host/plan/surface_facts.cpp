@@ -14,6 +14,8 @@ namespace clgi {
 namespace {
 
 constexpr double least_gloss = 1e-4;  // as DeviceScene::has_lobes has it
+// Up to so many triangles are looked at in nine points each, more in one: there are enough of them.
+constexpr std::size_t few_triangles = 30000;
 
 double double_of(std::uint8_t byte) { return byte / 255.0; }
 
@@ -65,14 +67,23 @@ double longest_edge(const Scene& scene, const SceneTriangle& triangle) {
     return out;
 }
 
+// [materials]
+std::vector<Reflectance> reflectances_of(const Scene& scene) {
+    std::vector<Reflectance> out;
+    for (const Material& material : scene.materials)
+        out.push_back(reflectance(material.metallic, material.roughness));
+    return out;
+}
+
 // Areas and what they reflect, as sums; then as means and shares.
 void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, SurfaceFacts& out) {
+    const std::vector<Reflectance> reflectances = reflectances_of(scene);
     double gloss = 0.0;
     for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
         const double area = triangle_area(scene, scene.triangles[t]);
         const TriangleAlbedo& albedo = albedos[t];
         const Material& material = scene.materials[scene.triangles[t].material];
-        const Reflectance shares = reflectance(material.metallic, material.roughness);
+        const Reflectance& shares = reflectances[scene.triangles[t].material];
         out.area += area;
         out.mean_albedo += area * albedo.all;
         gloss += area * luminance(albedo.gloss);
@@ -90,18 +101,29 @@ void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, S
     out.double_sided_area /= out.area;
 }
 
-// [textures] per channel, linear.
+// [textures] per channel, linear; 0 where no base colour reads them.
 std::vector<glm::dvec3> brightest_texels(const Scene& scene) {
     const std::vector<float> srgb = srgb_decode_table();
-    std::vector<glm::dvec3> out;
-    for (const Texture& texture : scene.textures) {
-        std::array<std::uint8_t, 3> most{};
-        for (std::size_t i = 0; i + 3 < texture.rgba.size(); i += 4)
-            for (std::size_t c = 0; c < 3; ++c) most[c] = std::max(most[c], texture.rgba[i + c]);
-        glm::dvec3 linear;
-        for (int c = 0; c < 3; ++c)
-            linear[c] = texture.srgb ? double{srgb[most[c]]} : double_of(most[c]);
-        out.push_back(linear);
+    std::vector<bool> read(scene.textures.size());
+    for (const Material& material : scene.materials)
+        if (material.base_texture.texture >= 0)
+            read[static_cast<std::size_t>(material.base_texture.texture)] = true;
+    std::vector<glm::dvec3> out(scene.textures.size(), glm::dvec3(0.0));
+    for (std::size_t index = 0; index < out.size(); ++index) {
+        if (!read[index]) continue;
+        const Texture& texture = scene.textures[index];
+        std::array<std::uint8_t, 64> most{};  // of 16 texels next to each other: vectors of bytes
+        std::size_t i = 0;
+        for (; i + most.size() <= texture.rgba.size(); i += most.size())
+            for (std::size_t c = 0; c < most.size(); ++c)
+                most[c] = std::max(most[c], texture.rgba[i + c]);
+        for (; i < texture.rgba.size(); ++i) most[i % 4] = std::max(most[i % 4], texture.rgba[i]);
+        for (std::size_t c = 4; c < most.size(); ++c) most[c % 4] = std::max(most[c % 4], most[c]);
+        glm::dvec3& linear = out[index];
+        for (int c = 0; c < 3; ++c) {
+            const std::uint8_t byte = most[static_cast<std::size_t>(c)];
+            linear[c] = texture.srgb ? double{srgb[byte]} : double_of(byte);
+        }
     }
     return out;
 }
@@ -130,15 +152,17 @@ double triangle_area(const Scene& scene, const SceneTriangle& triangle) {
 }
 
 std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
-    const BaseColorMeans base_colors(scene);
+    const BaseColorMeans base_colors(scene, false);
+    const int side = scene.triangles.size() <= few_triangles ? 3 : 1;
     const std::vector<glm::dvec3> brightest = brightest_texels(scene);
+    const std::vector<Reflectance> reflectances = reflectances_of(scene);
     std::vector<TriangleAlbedo> out;
     out.reserve(scene.triangles.size());
     for (const SceneTriangle& triangle : scene.triangles) {
         const Material& material = scene.materials[triangle.material];
-        const Reflectance shares = reflectance(material.metallic, material.roughness);
+        const Reflectance& shares = reflectances[triangle.material];
         const VertexColours colours = vertex_colours(scene, triangle);
-        const glm::dvec3 base = base_colors.estimate(triangle) * colours.mean;
+        const glm::dvec3 base = base_colors.estimate(triangle, side) * colours.mean;
         glm::dvec3 most = glm::dvec3(material.base_color) * colours.most;
         if (material.base_texture.texture >= 0)
             most *= brightest[static_cast<std::size_t>(material.base_texture.texture)];

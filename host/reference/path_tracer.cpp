@@ -104,6 +104,26 @@ int accumulate(const Options& options, std::vector<Tally>& tallies, const Progre
     return taken;
 }
 
+bool inside(const Hit& hit) { return hit.b1 >= 0.0f && hit.b2 >= 0.0f && hit.b1 + hit.b2 <= 1.0f; }
+
+// Where textures are read for a sample of a pixel whose centre meets `seen`: anywhere in the pixel,
+// on the same triangle or on what else the pixel shows of its material. A small triangle's plane
+// would go on into parts of the texture that belong to something else.
+Hit texture_place(const Geometry& geometry, const Tracer& tracer, const CameraRays& rays, float x,
+                  float y, const Hit& seen, Random& random) {
+    constexpr int tries = 4;
+    const std::uint32_t material = geometry.triangles[seen.triangle].material;
+    for (int k = 0; k < tries; ++k) {
+        const float right = random(), down = random();
+        const Ray ray = rays.through(x + right, y + down);
+        const Hit beside = on_plane(geometry, seen.triangle, ray);
+        if (inside(beside)) return beside;
+        const std::optional<Hit> other = tracer.first(ray, true);
+        if (other && geometry.triangles[other->triangle].material == material) return *other;
+    }
+    return seen;
+}
+
 }  // namespace
 
 PathTracer::PathTracer(const Scene& scene) {
@@ -137,10 +157,8 @@ Picture PathTracer::render(const Camera& camera, const Options& options,
             const std::optional<Hit> hit = world_->tracer.first(ray, true);
             const glm::vec3 direction = glm::normalize(ray.direction);
             if (!hit) return paths.background(direction);
-            const float right = random(), down = random();
-            const Ray beside = rays.through(x + right, y + down);
-            const Surface seen =
-                surface_at(geometry, *hit, direction, on_plane(geometry, hit->triangle, beside));
+            const Hit place = texture_place(geometry, world_->tracer, rays, x, y, *hit, random);
+            const Surface seen = surface_at(geometry, *hit, direction, place);
             return paths.sample(seen, direction, random);
         });
     for (const Tally& tally : tallies) {

@@ -3,7 +3,7 @@
 
 namespace clgi {
 
-BaseColorMeans::BaseColorMeans(const Scene& scene)
+BaseColorMeans::BaseColorMeans(const Scene& scene, bool sums)
     : scene_(scene), textures_(scene.textures.size()) {
     std::vector<bool> seen(textures_.size());
     for (const Material& material : scene.materials) {
@@ -11,7 +11,7 @@ BaseColorMeans::BaseColorMeans(const Scene& scene)
         const auto texture = static_cast<std::size_t>(material.base_texture.texture);
         if (seen[texture]) continue;
         seen[texture] = true;
-        textures_[texture] = TextureMean(scene.textures[texture]);
+        textures_[texture] = TextureMean(scene.textures[texture], sums);
     }
 }
 
@@ -24,8 +24,7 @@ glm::dvec3 BaseColorMeans::operator()(const SceneTriangle& triangle) const {
            textures_[static_cast<std::size_t>(slot.texture)].over(slot_uvs(scene_, triangle, slot));
 }
 
-glm::dvec3 BaseColorMeans::estimate(const SceneTriangle& triangle) const {
-    constexpr int side = 3;  // of a lattice of nine points
+glm::dvec3 BaseColorMeans::estimate(const SceneTriangle& triangle, int side) const {
     const Material& material = scene_.materials[triangle.material];
     const glm::dvec3 factor(material.base_color);
     const TextureSlot& slot = material.base_texture;
@@ -34,7 +33,7 @@ glm::dvec3 BaseColorMeans::estimate(const SceneTriangle& triangle) const {
     const UvTriangle uv = slot_uvs(scene_, triangle, slot);
     glm::dvec3 sum(0.0);
     for_lattice(side, [&](const glm::dvec3& weight) { sum += texture.at(between(uv, weight)); });
-    return factor * sum / double{side * side};
+    return factor * sum / static_cast<double>(side * side);
 }
 
 }  // namespace clgi

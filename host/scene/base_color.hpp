@@ -11,13 +11,14 @@ namespace clgi {
 
 class BaseColorMeans {
 public:
-    explicit BaseColorMeans(const Scene& scene);  // which must outlive it
+    // scene: must outlive it. Without sums, estimate() alone may be called.
+    explicit BaseColorMeans(const Scene& scene, bool sums = true);
 
     // Factor times texture, linear, without vertex colours. Texels that a mask cuts out count.
     glm::dvec3 operator()(const SceneTriangle& triangle) const;
 
-    // The same from nine points of the triangle, whatever the number of texels that it covers.
-    glm::dvec3 estimate(const SceneTriangle& triangle) const;
+    // The same from side^2 points of the triangle, whatever the number of texels that it covers.
+    glm::dvec3 estimate(const SceneTriangle& triangle, int side) const;
 
 private:
     const Scene& scene_;

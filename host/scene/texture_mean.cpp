@@ -64,10 +64,11 @@ UvTriangle slot_uvs(const Scene& scene, const SceneTriangle& triangle, const Tex
     return out;
 }
 
-TextureMean::TextureMean(const Texture& texture) : texture_(&texture) {
+TextureMean::TextureMean(const Texture& texture, bool sums) : texture_(&texture) {
     const std::vector<float> srgb = srgb_decode_table();
     for (std::size_t i = 0; i < 256; ++i)
         decode_[i] = texture.srgb ? srgb[i] : static_cast<float>(i) / 255.0f;
+    if (!sums) return;
     blocks_ = static_cast<std::size_t>(texture.width) / block + 1;
     sums_.reserve(blocks_ * static_cast<std::size_t>(texture.height));
     for (int row = 0; row < texture.height; ++row) {

@@ -39,7 +39,8 @@ void for_lattice(int side, Visit&& visit) {
 class TextureMean {
 public:
     TextureMean() = default;
-    explicit TextureMean(const Texture& texture);  // which must outlive it
+    // texture: must outlive it. Without sums, over() must not be called.
+    explicit TextureMean(const Texture& texture, bool sums = true);
 
     // Mean linear colour over a triangle. One that has no area in UV space, or whose edges cross
     // very many texels, is summed over a lattice of points.

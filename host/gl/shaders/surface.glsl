@@ -8,13 +8,17 @@ struct Surface {
     vec3 albedo;
     vec3 emission;  // exposed
     float depth;    // along the view's axis
-    float alpha;
+    float alpha;    // that masks compare
 };
 
-vec4 slot_texture(int index, int uv_set, vec4 u_row, vec4 v_row, vec4 uv, vec2 area) {
+vec2 slot_uv(int uv_set, vec4 u_row, vec4 v_row, vec4 uv) {
     vec2 st = uv_set == 0 ? uv.xy : uv.zw;
-    vec2 at = vec2(u_row.x * st.x + (u_row.y * st.y + u_row.z),
-                   v_row.x * st.x + (v_row.y * st.y + v_row.z));
+    return vec2(u_row.x * st.x + (u_row.y * st.y + u_row.z),
+                v_row.x * st.x + (v_row.y * st.y + v_row.z));
+}
+
+vec4 slot_texture(int index, int uv_set, vec4 u_row, vec4 v_row, vec4 uv, vec2 area) {
+    vec2 at = slot_uv(uv_set, u_row, v_row, uv);
     float stretch = abs(u_row.x * v_row.y - u_row.y * v_row.x);
     return texture_sample(index, at, (uv_set == 0 ? area.x : area.y) * stretch);
 }
@@ -67,6 +71,7 @@ Surface surface_at(vec2 at, int triangle) {
         base *= b0 * texelFetch(colors, data_at(words.x), 0) +
                 (b1 * texelFetch(colors, data_at(words.y), 0) +
                  b2 * texelFetch(colors, data_at(words.z), 0));
+    result.alpha = base.w;
     if ((scene_flags & SCENE_HAS_TEXTURES) != 0u && (scene_flags & SCENE_HAS_UVS) != 0u) {
         vec4 u0 = texelFetch(uvs, data_at(words.x), 0);
         vec4 u1 = texelFetch(uvs, data_at(words.y), 0);
@@ -77,16 +82,18 @@ Surface surface_at(vec2 at, int triangle) {
         vec2 uv_area = abs(vec2(f.x * g.y - g.x * f.y, f.z * g.w - g.z * f.w));
         vec2 area = twice_area > 0.0 ? uv_area * footprint / twice_area : vec2(0.0);
         ivec4 slots = floatBitsToInt(material_row(material, MATERIAL_TEXTURES));
-        if (slots.x >= 0)
-            base *= slot_texture(slots.x, slots.y & 1, material_row(material, MATERIAL_BASE_UV),
-                                 material_row(material, MATERIAL_BASE_UV + 1), uv, area);
+        if (slots.x >= 0) {
+            vec4 u_row = material_row(material, MATERIAL_BASE_UV);
+            vec4 v_row = material_row(material, MATERIAL_BASE_UV + 1);
+            base *= slot_texture(slots.x, slots.y & 1, u_row, v_row, uv, area);
+            result.alpha *= texture_sample_alpha(slots.x, slot_uv(slots.y & 1, u_row, v_row, uv));
+        }
         if (slots.z >= 0 && (scene_flags & SCENE_HAS_EMISSION) != 0u)
             emission *=
                 slot_texture(slots.z, slots.w & 1, material_row(material, MATERIAL_EMISSION_UV),
                              material_row(material, MATERIAL_EMISSION_UV + 1), uv, area).xyz;
     }
     result.albedo = base.xyz;
-    result.alpha = base.w;
     result.emission = emission;
     return result;
 }

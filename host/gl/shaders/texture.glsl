@@ -51,6 +51,11 @@ vec4 texture_level(uvec4 record, int level, vec2 uv) {
     return mix(top, bottom, y - yf);
 }
 
+// Alpha of the finest level, which masks compare.
+float texture_sample_alpha(int index, vec2 uv) {
+    return texture_level(texelFetch(textures, data_at(uint(index)), 0), 0, uv).w;
+}
+
 // area: what one pixel covers of UV space.
 vec4 texture_sample(int index, vec2 uv, float area) {
     uvec4 record = texelFetch(textures, data_at(uint(index)), 0);

@@ -47,7 +47,7 @@ struct LightFacts {
 };
 
 // Of all that triangles reflect, weighted by area. Textures count by nine points of each triangle,
-// with texels that a mask cuts out.
+// by one in scenes of more than 30,000 triangles, with texels that a mask cuts out.
 struct SurfaceFacts {
     std::size_t triangles = 0;
     double area = 0.0;            // m^2, both sides of double-sided ones are one
