@@ -153,7 +153,8 @@ Estimate estimate(const cl::Device& device, const Scene& scene, const DeviceScen
     // Other leaves read the same rows: clusters see most of the scene from each of them.
     const std::uint32_t rows =
         device_links(buffers.tree, buffers.bins, sample.links, device_scene.frame().scale,
-                     buffers.glossy.leaves, buffers.made.elements)
+                     buffers.glossy.leaves, buffers.made.elements,
+                     options.occlusion == Occlusion::always)
             .rows;
     Estimate out;
     out.bytes = buffers.table(static_cast<std::size_t>(std::llround(sample.total)), rows).bytes();
