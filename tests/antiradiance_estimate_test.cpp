@@ -66,7 +66,8 @@ TEST(AntiradianceEstimate, HasRowsOfAllElementsWhereTheyAreWanted) {
         EXPECT_EQ(solved.solver.row_count(), solved.solver.elements().count());
         EXPECT_GT(bytes, without.solver.bytes() + solved.solver.row_count() * 64 * 2 * 16 / 2);
         if (leaves > 128)
-            EXPECT_NEAR(double(estimated(empty, options).bytes), double(bytes), 0.05 * double(bytes));
+            EXPECT_NEAR(double(estimated(empty, options).bytes), double(bytes),
+                        0.05 * double(bytes));
         else
             EXPECT_EQ(estimated(empty, options).bytes, bytes);
     }

@@ -52,7 +52,7 @@ DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, con
                          std::vector<Element>& elements, bool rows_for_all) {
     const std::vector<float> before =
         rows_for_all ? std::vector<float>(links.count(), 0.0f)
-                   : cosines_before(even_elements(tree, glossy), bins, links, elements);
+                     : cosines_before(even_elements(tree, glossy), bins, links, elements);
     std::vector<std::uint8_t> read(elements.size(), rows_for_all ? 1 : 0);
     for (std::size_t k = 0; k < links.count(); ++k)
         if (!(before[k] > 0.0f)) read[links.senders[k]] = 1;

@@ -28,10 +28,9 @@ void draw_by_lists(Recorder& record, const GBufferPasses& gbuffer, const DeviceS
     for (std::uint32_t done = 0; done < span.count; done += part.count) {
         part.first = span.first + done;
         part.count = std::min(span.count - done, buffers.views);
-        record("gbuffer.clear", std::size_t{part.count} * part.width * part.height,
-               [&](const WaitList& wait) {
-                   return gbuffer.clear(queue, part, views, buffers, wait);
-               });
+        record(
+            "gbuffer.clear", std::size_t{part.count} * part.width * part.height,
+            [&](const WaitList& wait) { return gbuffer.clear(queue, part, views, buffers, wait); });
         for (const std::uint32_t stage : gbuffer.stages(buffers.kind)) {
             record("gbuffer.raster", triangles * part.count, [&](const WaitList& wait) {
                 return gbuffer.raster(queue, part, views, scene, stage, buffers, wait);
@@ -70,20 +69,20 @@ void add_raster_lists(BufferTable& table, RasterBuffers& buffers, const DeviceSc
     table.add(buffers.counts, "counts of polygons", lower, views * sizeof(RasterCount));
 }
 
-void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene, std::size_t views) {
+void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene, const ViewSpan& span,
+                Pixels kind) {
+    if (gbuffer.prefers_raster_views(span, scene)) return gbuffer.build({"raster_views"}, kind);
     const std::size_t triangles = scene.info().triangle_count;
-    gbuffer.build({"clear", "put_view", "raster", "raster_large", "resolve"});
-    if (triangles > raster_capacity(triangles)) gbuffer.build({"raster_late"});
-    if (views > 1) gbuffer.build({"raster_views"});  // draw() prefers it for many
+    gbuffer.build({"clear", "raster", "raster_large"}, kind);
+    if (triangles > raster_capacity(triangles)) gbuffer.build({"raster_late"}, kind);
 }
 
 void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceScene& scene,
                   const View& view, const cl::Buffer& views, const RasterBuffers& buffers,
                   const GBuffer& out, std::uint32_t more) {
     const cl::CommandQueue& queue = record.queue();
-    record("gbuffer.put_view", 1, [&](const WaitList& wait) {
-        return gbuffer.put_view(queue, view, 0, views, wait);
-    });
+    record("gbuffer.put_view", 1,
+           [&](const WaitList& wait) { return gbuffer.put_view(queue, view, 0, views, wait); });
     draw(record, gbuffer, scene, span_of({view}, 0, 1), views, buffers);
     ResolveParams params{out.stride, RESOLVE_GEOMETRIC | more, 0, 0};
     if (scene.info().flags & SCENE_HAS_EMISSION) params.write |= RESOLVE_EMISSION;
@@ -93,8 +92,12 @@ void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceSc
     });
 }
 
-void check_gbuffer(const char* owner, const GBuffer& given, std::uint32_t stride,
-                   Storage storage) {
+void build_draw_gbuffer(const GBufferPasses& gbuffer, const DeviceScene& scene) {
+    build_draw(gbuffer, scene, {});
+    gbuffer.build({"put_view", "resolve"});
+}
+
+void check_gbuffer(const char* owner, const GBuffer& given, std::uint32_t stride, Storage storage) {
     const std::string begin = owner + std::string(": the G-buffer's ");
     if (given.stride != stride)
         throw Error(begin + "stride is " + std::to_string(given.stride) + ", " +
