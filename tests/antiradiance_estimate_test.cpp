@@ -49,6 +49,30 @@ TEST(AntiradianceEstimate, IsExactInSmallScenes) {
         }
 }
 
+// `always` gives every element a row, also where nothing can lie between two of them; with more
+// leaves than the sample has as well.
+TEST(AntiradianceEstimate, HasRowsOfAllElementsWhereTheyAreWanted) {
+    Scene empty = test::plain_scene({0.7f, 0.5f, 0.2f});
+    test::add_box(empty, {0, 0, 0}, {1.2, 0.9, 1.0}, -1);
+    empty.lights = {test::point_light({0.5, 0.6, 0.4})};
+    for (const std::size_t leaves : {60u, 600u}) {
+        AntiradianceOptions options = options_of(Math::strict, 64, leaves);
+        const Solved without(empty, options, false);
+        EXPECT_EQ(without.count() > 128u, leaves > 128u);
+        EXPECT_EQ(without.solver.row_count(), 0u);
+        options.occlusion = Occlusion::always;
+        const Solved solved(empty, options, false);
+        const std::size_t bytes = solved.solver.bytes();
+        EXPECT_EQ(solved.solver.row_count(), solved.solver.elements().count());
+        EXPECT_GT(bytes, without.solver.bytes() + solved.solver.row_count() * 64 * 2 * 16 / 2);
+        if (leaves > 128)
+            EXPECT_NEAR(double(estimated(empty, options).bytes), double(bytes),
+                        0.05 * double(bytes));
+        else
+            EXPECT_EQ(estimated(empty, options).bytes, bytes);
+    }
+}
+
 TEST(AntiradianceEstimate, HasWhatFollowsGeometryThatMoves) {
     Scene scene = test::plain_scene({0.7f, 0.5f, 0.2f});
     test::add_box(scene, {0, 0, 0}, {1.2, 0.9, 1.0}, -1);

@@ -132,6 +132,22 @@ TEST_P(AntiradianceIteration, GivesUpWhereLightGoesRoundInABin) {
     }
 }
 
+// Light that has come to rest changes by rounding alone, which may grow from a step to the next.
+TEST_P(AntiradianceIteration, KeepsLightThatCameToRestLongAgo) {
+    for (const Storage storage : {Storage::full, Storage::half}) {
+        AntiradianceOptions options = options_of(GetParam(), 32, 300);
+        options.iteration = Iteration::asymmetric;
+        options.build.storage = storage;
+        options.through_steps = 80;
+        options.steps = 2000;
+        const Solved solved(test::furnished_room(5), options);
+        const AntiradianceStatus status = solved.solver.status();
+        EXPECT_FALSE(status.given_up);
+        EXPECT_TRUE(status.converged);
+        EXPECT_EQ(status.residuals.size(), 2000u);
+    }
+}
+
 // The next run begins anew: after a light that diverged comes one that does not.
 TEST(AntiradianceIterationSteps, GoOnAfterDivergence) {
     AntiradianceOptions options = options_of(Math::strict, 32, 600);
@@ -274,6 +290,8 @@ TEST(AntiradianceIterationSteps, StopsWhenItIsToldTo) {
     int asked = 0;
     EXPECT_FALSE(solved.solver.run([&](double) { return ++asked < 3; }));
     EXPECT_EQ(asked, 3);
+    EXPECT_EQ(solved.solver.status().iteration, Iteration::symmetric);
+    EXPECT_FALSE(solved.solver.status().given_up);
     EXPECT_TRUE(solved.solver.run());
     EXPECT_TRUE(solved.solver.status().converged);
 }

@@ -313,8 +313,17 @@ TEST(AtlasCharts, FindThePageThatHoldsThem) {
     const AtlasLayout atlas = sound_atlas(six, test::regions(six, 2), options);
     EXPECT_EQ(atlas.size, 16);
     EXPECT_THROW(make_atlas(six, test::regions(six, 2), made_charts(8)), InputError);
-    options.size = 32;  // what fits stays as it is
+    options.size = 32;  // what fits stays as it is, also above the largest size
     EXPECT_EQ(make_atlas(six, test::regions(six, 2), options).size, 32);
+    options = made_charts(7);  // 14 by doubling, and 28 is too large
+    options.largest_size = 20;
+    EXPECT_EQ(sound_atlas(six, test::regions(six, 2), options).size, 14);
+    options.largest_size = 13;
+    EXPECT_THROW(make_atlas(six, test::regions(six, 2), options), InputError);
+    // 64 pages of 8000 texels a side have fewer than 2^32; the next doubling would not.
+    options = made_charts(1000, 2, 64);
+    options.largest_size = 8192;
+    EXPECT_EQ(make_atlas(six, test::regions(six, 2), options).size, 1000);
 }
 
 TEST(AtlasCharts, FillTheirPages) {
@@ -355,6 +364,7 @@ TEST(AtlasOptionsRange, IsChecked) {
     wrong([](AtlasOptions& o) { o.padding = 65; });
     wrong([](AtlasOptions& o) { o.most_pages = 0; });
     wrong([](AtlasOptions& o) { o.most_pages = 64, o.size = 8192; });
+    wrong([](AtlasOptions& o) { o.most_pages = 64, o.largest_size = 8192; });
     wrong([](AtlasOptions& o) { o.texels_per_metre = -1.0; });
     wrong([](AtlasOptions& o) { o.texels_per_metre = NAN; });
     wrong([](AtlasOptions& o) { o.texels_per_metre = 1e300; });

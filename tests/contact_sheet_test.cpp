@@ -74,6 +74,10 @@ TEST(ContactSheet, ShowsTheLeastErrorWithinTheTimeElseTheFastest) {
     EXPECT_EQ(shown("two", 1e9), &sweep.points[5]);
     EXPECT_EQ(shown(path_tracer_name, 100.0), &sweep.points[7]) << "all light alone";
     EXPECT_EQ(shown("none", 100.0), nullptr);
+    Sweep given_up = sweep;
+    for (const std::size_t k : {1u, 5u, 6u}) given_up.points[k].given_up = true;
+    EXPECT_EQ(shown_point(given_up, "one", 100.0), &given_up.points[2]);
+    EXPECT_EQ(shown_point(given_up, "two", 1e9), nullptr);
 }
 
 TEST(ContactSheet, SaysWhatEachPictureTookAndErrs) {

@@ -125,7 +125,7 @@ Sky transfer(const Scene& scene, bool shadowed, bool gloss) {
     DynamicTransferView view(of_view, queue(), device, solver, shown);
     view.render(scene.cameras.at(0)).wait();
     out.solver.kernels = own.built_kernels();
-    out.solver.add(solver.events());
+    if (solver.glossy()) out.solver.add(solver.events());  // of the lobes, for the camera
     out.solver.bytes = solver.bytes();
     out.view.kernels = of_view.built_kernels();
     out.view.add(view.picture().events());
@@ -177,6 +177,9 @@ TEST(WithoutSelfShadows, LobesNeedNoMasksEither) {
     EXPECT_EQ(off.solver.built("transfer/mask") + off.solver.built("transfer/blockers"), 0u);
     EXPECT_EQ(off.solver.built("-DCLGI_OPEN"), 1u);
     EXPECT_EQ(on.solver.built("-DCLGI_OPEN"), 0u);
+    // What arrives without a lobe: at all pixels, and at the probes.
+    EXPECT_EQ(off.view.enqueued("transfer.open"), 2u);
+    EXPECT_GT(off.view.enqueued("transfer.pixels"), 1u);
     EXPECT_GE(on.solver.bytes - off.solver.bytes, std::size_t{on.stride} * (32 + 25) * 4);
 }
 

@@ -3,6 +3,9 @@
 // nothing.
 // SPDX-License-Identifier: MIT
 #include <clgi/error.hpp>
+#include <clgi/kit/draw.hpp>
+#include <clgi/kit/emitters.hpp>
+#include <set>
 
 #include "effect_cost.hpp"
 #include "frames.hpp"
@@ -204,6 +207,87 @@ TEST(WithoutSpots, NoCandidateIsTried) {
     EXPECT_EQ(off.cost.built("lights/accept") + off.cost.enqueued("lights.accept"), 0u);
     EXPECT_EQ(on.cost.built("lights/accept"), 2u);
     EXPECT_EQ(on.cost.enqueued("lights.accept"), 2u);
+}
+
+// A light that is dark at first is drawn and places VPLs without a kernel being built in a frame.
+TEST(DarkLights, AreLitLaterWithoutTheCompiler) {
+    const Scene lit = test::shaded_floor();
+    for (const bool all : {false, true}) {
+        Scene scene = lit;
+        for (std::size_t i = 0; i < scene.lights.size(); ++i)
+            if (all || i == 1) scene.lights[i].intensity = glm::vec3(0.0f);
+        const Programs own = test::own_programs();
+        DeviceScene device = test::on_device(scene);
+        SecondOrderOptions options = indirect_options();
+        options.low_resolution_step = 4;
+        SecondOrderSolver solver(own, queue(), device, options);
+        const std::vector<std::string> kernels = own.built_kernels();
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) device.set_light(i, lit.lights[i]);
+        solver.lights_changed();
+        solver.render(scene.cameras[0]).wait();
+        EXPECT_EQ(own.built_kernels(), kernels) << all;
+        test::Cost cost;
+        cost.add(solver.events());
+        EXPECT_EQ(cost.enqueued("lights.accept"), 2u);
+    }
+}
+
+// Builds, then draws the shadow maps of the scene's lights; then of each light alone.
+void expect_maps_built_ahead(Scene scene, Pixels kind, std::size_t least, std::size_t most) {
+    const Programs own = test::own_programs();
+    const GBufferPasses gbuffer(own);
+    DeviceScene device = test::on_device(scene);
+    Emitters emitters(device, test::small_maps(true), kind);
+    RasterBuffers lists;
+    BufferTable table("maps");
+    emitters.add_to(table);
+    add_raster_lists(table, lists, device);
+    Recorder record(queue(), "maps");
+    table.allocate(record);
+    emitters.build(gbuffer);
+    const std::vector<std::string> built = own.built_kernels();
+    std::set<std::string> drawn;
+    const auto draw = [&] {
+        record.begin({});
+        emitters.write(record);
+        emitters.draw(record, gbuffer, lists);
+        record.wait();
+        for (const PassEvent& pass : record.events()) drawn.insert(pass.name);
+        EXPECT_EQ(own.built_kernels(), built);
+    };
+    draw();
+    for (std::size_t one = 0; one < scene.lights.size(); ++one) {
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            Light light = scene.lights[i];
+            if (i != one) light.intensity = glm::vec3(0.0f);
+            device.set_light(i, light);
+        }
+        ASSERT_TRUE(emitters.update(test::small_maps(true)));
+        draw();
+    }
+    EXPECT_EQ(drawn.size(), built.size());
+    EXPECT_GE(built.size(), least);
+    EXPECT_LE(built.size(), most);
+}
+
+TEST(ShadowMaps, KernelsAreBuiltAheadAndNoOthers) {
+    Scene fine = test::plain_scene();
+    test::add_sphere(fine, {0, 0, 0}, 0.5, 5);
+    ASSERT_GT(fine.triangles.size(), 16384u);
+    Scene coarse = test::plain_scene();
+    test::add_sphere(coarse, {0, 0, 0}, 0.5, 1);
+    const unsigned cores = test::device().device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    for (const Pixels kind : {Pixels::visibility, Pixels::depth}) {
+        // One view takes lists; in a scene of many triangles they may be too short.
+        for (Scene* scene : {&coarse, &fine}) {
+            scene->lights = {test::spot_light({0, 2, 0}, {0.1f, -1.0f, 0.0f}, 0.5)};
+            const std::size_t wanted = scene == &fine ? 4 : 3;
+            expect_maps_built_ahead(*scene, kind, wanted, wanted);
+        }
+        // Enough of them are drawn one a core, and one alone by lists.
+        coarse.lights.assign(2 * cores, coarse.lights[0]);
+        expect_maps_built_ahead(coarse, kind, 3, 4);
+    }
 }
 
 TEST(WithoutIndirectLight, NoVplIsPlacedOrGathered) {

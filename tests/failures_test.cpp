@@ -135,8 +135,8 @@ TEST_F(Failures, BetweenPassesNameThePass) {
     }
 }
 
-// Every call that makes a buffer and every one that enqueues a kernel, with every code that a
-// driver may answer: an error in one line, and whatever was made before it is given back.
+// Every call that makes a buffer and every one that enqueues a kernel, with one of the codes that
+// a driver may answer, in turn: an error in one line, and what was made before it is given back.
 TEST_F(Failures, OfAnyCallLeaveNothingBehind) {
     const cl_int codes[] = {CL_DEVICE_NOT_AVAILABLE,  CL_MEM_OBJECT_ALLOCATION_FAILURE,
                             CL_OUT_OF_RESOURCES,      CL_OUT_OF_HOST_MEMORY,

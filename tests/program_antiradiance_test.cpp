@@ -78,11 +78,11 @@ TEST_F(AntiradianceProgram, HasTheLightThatWasAskedFor) {
 TEST_F(AntiradianceProgram, TellsThatLightDivergedAndShowsNoneOfIt) {
     const std::string scene = make("office");
     const auto rendered = [&](const std::string& flags) {
-        return run("render " + scene + " --size 64x48 -o " +
-                   file("out.exr").string() + " " + flags);
+        return run("render " + scene + " --size 64x48 -o " + file("out.exr").string() + " " +
+                   flags);
     };
-    const test::Outcome outcome =
-        rendered("--method antiradiance --elements 4000 --spread none --stats " + file("s.json").string());
+    const test::Outcome outcome = rendered(
+        "--method antiradiance --elements 4000 --spread none --stats " + file("s.json").string());
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const std::string told = "the asymmetric iteration diverged";
     EXPECT_NE(outcome.err.find("warning: " + told), std::string::npos) << outcome.err;
@@ -99,6 +99,59 @@ TEST_F(AntiradianceProgram, TellsThatLightDivergedAndShowsNoneOfIt) {
     ASSERT_EQ(rendered("--method direct --quiet").code, 0);
     EXPECT_GT(shown, 0.0);
     EXPECT_NEAR(shown, mean(), 1e-4 * shown);
+}
+
+// The residual of one step is 1, give or take rounding: that is no growth.
+TEST_F(AntiradianceProgram, HasNoWordForASingleStep) {
+    const std::string scene = make("cornell");
+    for (const int elements : {500, 1000}) {
+        const test::Outcome outcome =
+            run("render " + scene + " --method antiradiance --bins 64 --size 16x12 -o " +
+                file("out.exr").string() + " --iterations 1 --elements " +
+                std::to_string(elements) + " --stats " + file("s.json").string());
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+        const json stats = json::parse(read("s.json"));
+        EXPECT_TRUE(stats.at("warnings").empty());
+        EXPECT_NEAR(stats.at("antiradiance").at("residual").get<double>(), 1.0, 1e-6);
+    }
+}
+
+// Between shelves the symmetric iteration diverges, and in frames in which the spotlight turns to
+// the open wall there is no light that could. Of three frames the first is one to be told.
+TEST_F(AntiradianceProgram, TellsOfFramesBeforeTheLast) {
+    Scene scene = test::plain_scene(glm::vec3(0.6f));
+    scene.materials[0].double_sided = true;
+    const glm::dvec3 a(0, 0, 0), b(0, 0, 1), c(1, 0, 1), d(1, 0, 0), up(0, 1, 0);
+    for (const double y : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0})
+        test::add_quad(scene, {a + y * up, b + y * up, c + y * up, d + y * up});
+    test::add_quad(scene, {a, b, b + up, a + up});
+    test::add_quad(scene, {a, d, d + up, a + up});
+    test::add_quad(scene, {b, c, c + up, b + up});
+    scene.lights = {test::spot_light({0.95, 0.9, 0.5}, {-1.0f, 0.0f, 0.0f}, 0.5)};
+    scene.lights[0].intensity = {100.0f, 90.0f, 80.0f};
+    scene.cameras = {test::camera_at({2.5, 0.7, 0.5}, {0.5, 0.5, 0.5}, 0.7f)};
+    const std::string path = file("shelves.glb").string();
+    io::save_glb(scene, path);
+    const test::Outcome outcome =
+        run("render " + path +
+            " --method antiradiance --iteration symmetric --elements 2000 "
+            "--size 32x24 --frames 3 --spin-light -o " +
+            file("out.exr").string() + " --stats " + file("s.json").string());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("the symmetric iteration diverged in 1 of 3 frames, first in frame "
+                               "0;"),
+              std::string::npos)
+        << outcome.err;
+    const json stats = json::parse(read("s.json"));
+    ASSERT_EQ(stats.at("warnings").size(), 1u);
+    const json& found = stats.at("antiradiance");
+    EXPECT_EQ(found.at("given_up"), true);
+    EXPECT_EQ(found.at("given_up_frames"), 1);
+    EXPECT_EQ(found.at("diverged"), true);
+    EXPECT_EQ(found.at("converged"), false);
+    EXPECT_EQ(stats.at("converged"), false);
+    EXPECT_EQ(found.at("residual"), 0.0);  // of the last frame
 }
 
 TEST_F(AntiradianceProgram, RefusesInOneLine) {

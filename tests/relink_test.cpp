@@ -49,7 +49,7 @@ struct Posed {
                 reach.radii[i] = std::max(reach.radii[i], pose.radii[i]);
         links = make_links(reach, solver.bins(), options(math, bins, wished).links, poses);
         auto elements = make_element_surface(tree, solver.bins(), room.scene, scene).elements;
-        on_device = device_links(tree, solver.bins(), links, scale(), {}, elements);
+        on_device = device_links(tree, solver.bins(), links, scale(), {}, elements, false);
     }
     AntiradianceOptions options(Math math, int bins, std::size_t wished) const {
         AntiradianceOptions out;

@@ -16,11 +16,12 @@
 #include "gltf_draft.hpp"
 #include "report/contact_sheet.hpp"
 #include "report/luminance.hpp"
+#include "report/picture_methods.hpp"
 #include "report/sweep_antiradiance.hpp"
 #include "report/sweep_files.hpp"
 #include "report/sweep_pictures.hpp"
 #include "report/sweep_summary.hpp"
-#include "scenes.hpp"
+#include "rooms.hpp"
 
 namespace clgi::report {
 namespace {
@@ -194,6 +195,37 @@ TEST_F(AntiradianceSweep, CanBeCancelled) {
         cut.progress = [&](double done) { return done < from; };
         EXPECT_THROW(sweep_pictures(cut, {0, 16, 16, {antiradiance_method}}), Error) << from;
     }
+}
+
+// Between shelves the symmetric iteration diverges: what it shows is no result, and no error of it
+// is estimated.
+TEST(AntiradiancePictures, SayThatTheIterationWasGivenUp) {
+    Scene scene = test::shelves(0.6f);
+    scene.cameras = {test::camera_at({0.05, 0.5, 0.5}, {0.9, 0.5, 0.5}, 1.2f)};
+    const test::TempFolder folder;
+    const SweepSetup setup = small_setup(scene, folder.path(), 4);
+    const DeviceScene device = test::on_device(scene);
+    io::Image grey;
+    grey.width = 16;
+    grey.height = 12;
+    for (const char* name : {"R", "G", "B"})
+        grey.channels.push_back({name, std::vector<float>(16 * 12, 1.0f)});
+    const std::vector<SweepTruth> truths = {{full_truth, "all", grey, 0.0}};
+    const PictureTask task{setup, scene.cameras[0], 16, 12, device, test::programs(), truths, true,
+                           64};
+    const PictureMethod method = antiradiance_pictures(task);
+    int given_up = 0, found = 0;
+    for (std::size_t i = 0; i < method.settings.size(); ++i) {
+        if (method.settings[i].series != "iteration") continue;
+        const std::string& iteration = method.settings[i].knobs.at("iteration");
+        SweepPoint point;
+        method.measure(i, &point, [](double) { return true; });
+        EXPECT_EQ(point.given_up, iteration == "symmetric") << iteration;
+        EXPECT_EQ(point.estimated_error.empty(), point.given_up) << iteration;
+        ++(point.given_up ? given_up : found);
+    }
+    EXPECT_EQ(given_up, 1);
+    EXPECT_EQ(found, 2);
 }
 
 // All systems that a scene admits: transfer with an environment alone. With one, what arrives from

@@ -6,6 +6,7 @@
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -17,6 +18,7 @@
 #include "report/relative_error.hpp"
 #include "report/sweep_files.hpp"
 #include "report/sweep_pictures.hpp"
+#include "report/sweep_run.hpp"
 #include "report/sweep_summary.hpp"
 #include "scenes.hpp"
 
@@ -223,8 +225,51 @@ TEST_F(SmallSweep, WritesFilesThatStandAlone) {
     diverged.points.back().error[all_light] = 1e36;
     std::string reason;
     const std::string beside = error_plot(diverged, all_light, out.path(), reason);
-    EXPECT_NE(beside.find("1 above 1000 % left out"), std::string::npos) << reason;
+    EXPECT_NE(beside.find("(1 above 1000 % left out)"), std::string::npos) << reason;
     EXPECT_EQ(beside.find("10000000"), std::string::npos);
+    // Each reason is counted for itself.
+    ASSERT_GE(diverged.points.size(), 8u);
+    const auto last = [&](std::size_t k) -> SweepPoint& {
+        return diverged.points[diverged.points.size() - k];
+    };
+    last(2).error[all_light] = std::nan("");
+    last(3).error[all_light] = std::numeric_limits<double>::infinity();
+    last(4).error[all_light] = 0.0;
+    last(5).given_up = true;
+    const std::string counted = error_plot(diverged, all_light, out.path(), reason);
+    EXPECT_NE(counted.find("(1 diverged, 2 not finite, 1 above 1000 %, 1 within noise left out)"),
+              std::string::npos)
+        << reason;
+}
+
+// What was given up shows direct light in little time: it would be the front.
+TEST(SweepFronts, HaveNoPointThatWasGivenUp) {
+    Sweep sweep;
+    sweep.methods = {"one"};
+    sweep.truths = {{"full", "all", grey(2, 2, 1.0f), 0.0}};
+    sweep.knobs = {"n"};
+    for (const double error : {0.1, 0.2, 0.3}) {
+        SweepPoint point;
+        point.method = "one";
+        point.series = "n";
+        point.knobs = {{"n", "4"}};
+        point.milliseconds = 1.0 / error;
+        point.error = {error};
+        point.front = {false};
+        sweep.points.push_back(point);
+    }
+    sweep.points[1].given_up = true;
+    mark_fronts(sweep);
+    EXPECT_TRUE(sweep.points[0].front[0]);
+    EXPECT_FALSE(sweep.points[1].front[0]);
+    EXPECT_TRUE(sweep.points[2].front[0]);
+    EXPECT_NE(sweep_csv(sweep).find("energy ratio,given_up\n"), std::string::npos);
+    const auto json = nlohmann::json::parse(sweep_json(sweep, {"clgi sweep", "1.2.3"}));
+    EXPECT_FALSE(json.at("points")[0].contains("given_up"));
+    EXPECT_EQ(json.at("points")[1].at("given_up"), true);
+    std::vector<std::string> lines;
+    add_series(sweep, "n", {0}, "", lines);
+    EXPECT_NE(lines.at(0).find("error 10.00, diverged, 30.00 %"), std::string::npos) << lines[0];
 }
 
 TEST_F(SmallSweep, ComparesMathAndStorage) {
@@ -249,7 +294,8 @@ TEST_F(SmallSweep, KeepsItsReferences) {
     const auto written = std::filesystem::last_write_time(file);
     const Sweep again = make(scene(), folder().path());
     EXPECT_EQ(std::filesystem::last_write_time(file), written);
-    EXPECT_EQ(again.truths[all_light].picture.find("R")->values, made().truths[all_light].picture.find("R")->values);
+    EXPECT_EQ(again.truths[all_light].picture.find("R")->values,
+              made().truths[all_light].picture.find("R")->values);
     for (std::size_t i = 0; i < again.points.size(); ++i)
         if (again.points[i].method == "second-order") {
             EXPECT_NEAR(again.points[i].energy, made().points[i].energy, 1e-9) << i;

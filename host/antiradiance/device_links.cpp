@@ -49,11 +49,11 @@ std::uint32_t number_rows(const std::vector<std::uint8_t>& read, std::vector<Ele
 
 DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, const Links& links,
                          double scale, const std::vector<GlossyLeaf>& glossy,
-                         std::vector<Element>& elements, bool everywhere) {
+                         std::vector<Element>& elements, bool rows_for_all) {
     const std::vector<float> before =
-        everywhere ? std::vector<float>(links.count(), 0.0f)
-                   : cosines_before(even_elements(tree, glossy), bins, links, elements);
-    std::vector<std::uint8_t> read(elements.size(), everywhere ? 1 : 0);
+        rows_for_all ? std::vector<float>(links.count(), 0.0f)
+                     : cosines_before(even_elements(tree, glossy), bins, links, elements);
+    std::vector<std::uint8_t> read(elements.size(), rows_for_all ? 1 : 0);
     for (std::size_t k = 0; k < links.count(); ++k)
         if (!(before[k] > 0.0f)) read[links.senders[k]] = 1;
     DeviceLinks out;

@@ -27,10 +27,10 @@ struct DeviceLinks {
 };
 
 // glossy: leaves with lobes, which send otherwise than evenly before them. elements: as the device
-// has them; gives those a row whose row is read. scale: metres of a unit of
-// the device's frame. everywhere: all elements get a row, and all links read one.
+// has them; gives those a row whose row is read. scale: metres of a unit of the device's frame.
+// rows_for_all: all elements get a row, and all links read one.
 DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, const Links& links,
                          double scale, const std::vector<GlossyLeaf>& glossy,
-                         std::vector<Element>& elements, bool everywhere = false);
+                         std::vector<Element>& elements, bool rows_for_all);
 
 }  // namespace clgi

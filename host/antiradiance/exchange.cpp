@@ -32,7 +32,7 @@ constexpr double rounding = 1e-12;  // of heights above a sender, as a share of 
 }  // namespace
 
 void check_linking(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
-           const std::vector<ElementTree>& poses) {
+                   const std::vector<ElementTree>& poses) {
     for (const ElementTree& pose : poses)
         if (pose.count() != tree.count())
             throw Error("make_links: a pose has " + std::to_string(pose.count()) +

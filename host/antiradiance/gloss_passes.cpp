@@ -41,9 +41,7 @@ void AntiradianceGlossPasses::build(std::initializer_list<const char*> passes) c
     build_named({lobes_, sources_, gloss_, vertices_, show_}, passes);
 }
 
-std::size_t AntiradianceGlossPasses::row_bytes() const {
-    return 3 * static_cast<std::size_t>(GLOSS_STRIDE(bins_)) * sizeof(float);
-}
+std::size_t AntiradianceGlossPasses::row_bytes() const { return gloss_row_bytes(bins_); }
 
 cl::Event AntiradianceGlossPasses::lobes(const cl::CommandQueue& queue, const LinkBuffers& links,
                                          const GlossBuffers& gloss, const WaitList& wait) const {

@@ -5,22 +5,15 @@
 #include "antiradiance/link_sample.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <optional>
-#include <tuple>
 
-#include "antiradiance/exchange.hpp"
-#include "antiradiance/motion_refine.hpp"
-#include "antiradiance/refine.hpp"
+#include "antiradiance/linking.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 // Leaves that elements hold, all of them and those of the sample.
-struct Held {
-    Held(const ElementTree& tree, std::size_t sampled)
+struct LeafCounts {
+    LeafCounts(const ElementTree& tree, std::size_t sampled)
         : all(tree.count(), 0), sample(tree.count(), 0) {
         std::size_t leaf = 0, next = 0;
         for (std::size_t i = 0; i < tree.count(); ++i) {
@@ -44,56 +37,31 @@ struct Held {
 LinkSample sample_links(const ElementTree& tree, const DirectionBins& bins,
                         const LinkOptions& options, const std::vector<ElementTree>& poses,
                         std::size_t leaves) {
-    check_linking(tree, bins, options, poses);
+    const Linking linking(tree, bins, options, poses);
     LinkSample out;
     out.links.first.assign(tree.count() + 1, 0);
     const std::size_t sampled = std::min(leaves, tree.leaves);
     if (sampled == 0) return out;
-    const Held held(tree, sampled);
-    std::optional<MotionRefine> motion;
-    if (!poses.empty()) motion.emplace(tree, poses);
-    const Refine refine(tree, options.bin_share * 4.0 * pi / bins.count(),
-                        motion ? &*motion : nullptr);
-    const std::vector<double> scales = hemisphere_scales(tree, bins);
-    std::shared_ptr<const SpreadTable> table;
-    if (options.spread == Spread::gaussian) table = std::make_shared<SpreadTable>(bins);
-    Exchange exchange(tree, bins, scales, options, table);
-
+    const LeafCounts held(tree, sampled);
+    Exchange exchange = linking.exchange();
     std::vector<Link> found;
-    const auto link = [&](std::uint32_t sender, std::uint32_t receiver) {
-        if (held.sample[receiver] == 0) return;
-        if (motion && motion->moves(sender, receiver))
-            exchange.slots(sender, receiver, motion->solid_angle(sender, receiver), found);
-        else
-            exchange(sender, receiver, found);
-    };
     std::vector<ElementPair> open{{0, 0, true, true}};
-    while (!open.empty()) {
-        ElementPair pair = open.back();
-        open.pop_back();
-        if (held.sample[pair.a] + held.sample[pair.b] == 0 || !refine(pair, open)) continue;
-        ++out.links.pairs;
-        if (pair.to_a) link(pair.b, pair.a);
-        if (pair.to_b) link(pair.a, pair.b);
-    }
+    out.links.pairs = linking(
+        open, [&](std::uint32_t i) { return held.sample[i] > 0; }, exchange, found);
 
     std::sort(found.begin(), found.end(), [](const Link& a, const Link& b) {
-        return std::tie(a.receiver, a.sender, a.part, a.bin) <
-               std::tie(b.receiver, b.sender, b.part, b.bin);
+        return a.receiver != b.receiver ? a.receiver < b.receiver : by_sender(a, b);
     });
     const double share = static_cast<double>(tree.leaves) / static_cast<double>(sampled);
-    for (const Link& one : found) {
+    resize_links(out.links, found.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const Link& one = found[k];
         const double stands_for = share * held.sample[one.receiver] / held.all[one.receiver];
         out.total += stands_for;
-        if (one.part != still_part) {
-            out.moving += stands_for;
-            out.links.moving.push_back(
-                {static_cast<std::uint32_t>(out.links.senders.size()), one.receiver, one.part});
-        }
+        if (one.part != still_part) out.moving += stands_for;
         ++out.links.first[one.receiver + 1];
-        out.links.senders.push_back(one.sender);
-        out.links.bins.push_back(one.bin);
-        out.links.form_factors.push_back(one.form_factor);
+        set_link(out.links, k, one);
+        list_moving(out.links, k, one);
     }
     for (std::size_t i = 0; i < tree.count(); ++i) out.links.first[i + 1] += out.links.first[i];
     return out;

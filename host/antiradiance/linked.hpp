@@ -16,9 +16,9 @@ struct Linked {
 };
 inline void set_argument(cl::Kernel& kernel, cl_uint& index, const Linked& from) {
     const LinkBuffers& l = from.links;
-    for (const cl::Buffer* buffer : {&l.elements, &l.first_links, &l.senders, &l.bins,
-                                     &l.form_factors, &from.rows.sky, &from.rows.powers,
-                                     &from.rows.exitant})
+    for (const cl::Buffer* buffer :
+         {&l.elements, &l.first_links, &l.senders, &l.bins, &l.form_factors, &from.rows.sky,
+          &from.rows.powers, &from.rows.exitant})
         kernel.setArg(index++, *buffer);
 }
 
@@ -53,9 +53,14 @@ inline void need_linked(const PassKernel& pass, int bins, const LinkBuffers& l,
     need(pass, "incident", rows.incident, std::max<std::size_t>(l.inner_count, 1) * row);
 }
 
-inline std::size_t intensities(const PassKernel& pass, int bins, std::size_t rows) {
+// Of so many rows.
+inline std::size_t bytes_of_rows(Storage storage, int bins, std::size_t rows) {
     return rows * static_cast<std::size_t>(bins) *
-           (pass.storage == Storage::half ? sizeof(glm::vec4) / 2 : sizeof(glm::vec4));
+           (storage == Storage::half ? sizeof(glm::vec4) / 2 : sizeof(glm::vec4));
+}
+
+inline std::size_t gloss_row_bytes(int bins) {
+    return 3 * static_cast<std::size_t>(GLOSS_STRIDE(bins)) * sizeof(float);
 }
 
 // Of the passes that work on leaves.
@@ -63,8 +68,8 @@ inline void need_leaves(const PassKernel& pass, int bins, const LinkBuffers& lin
                         const ElementRows& rows, const cl::Buffer& directions,
                         const LeafBuffers& leaves) {
     const std::size_t color = sizeof(glm::vec4);
-    need(pass, "exitant", rows.exitant, intensities(pass, bins, links.row_count));
-    need(pass, "next", rows.next, intensities(pass, bins, links.row_count));
+    need(pass, "exitant", rows.exitant, bytes_of_rows(pass.storage, bins, links.row_count));
+    need(pass, "next", rows.next, bytes_of_rows(pass.storage, bins, links.row_count));
     need(pass, "next_powers", rows.next_powers, links.element_count * color);
     need(pass, "directions", directions, static_cast<std::size_t>(bins) * color);
     need(pass, "sources", leaves.sources, links.leaf_count * color);

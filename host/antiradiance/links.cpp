@@ -8,20 +8,14 @@
 #include <functional>
 #include <future>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <string>
 #include <thread>
-#include <tuple>
 
-#include "antiradiance/exchange.hpp"
-#include "antiradiance/motion_refine.hpp"
-#include "antiradiance/refine.hpp"
+#include "antiradiance/linking.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t tasks_wanted = 4096;  // many for each thread, for they differ in size
 
 // Calls work(thread) in each of them; throws what one of them threw.
@@ -60,27 +54,14 @@ struct Found {
     std::size_t unrefined = 0;
 };
 
-void link_tasks(const Refine& refine, const MotionRefine* motion,
-                const std::vector<ElementPair>& tasks, std::atomic<std::size_t>& next,
-                Exchange exchange, Found& out) {
+void link_tasks(const Linking& linking, const std::vector<ElementPair>& tasks,
+                std::atomic<std::size_t>& next, Found& out) {
+    const auto all = [](std::uint32_t) { return true; };
+    Exchange exchange = linking.exchange();
     std::vector<ElementPair> open;
     for (std::size_t task = next++; task < tasks.size(); task = next++) {
         open.assign(1, tasks[task]);
-        while (!open.empty()) {
-            ElementPair pair = open.back();
-            open.pop_back();
-            if (!refine(pair, open)) continue;
-            ++out.pairs;
-            const auto link = [&](std::uint32_t sender, std::uint32_t receiver) {
-                if (motion && motion->moves(sender, receiver))
-                    exchange.slots(sender, receiver, motion->solid_angle(sender, receiver),
-                                   out.links);
-                else
-                    exchange(sender, receiver, out.links);
-            };
-            if (pair.to_a) link(pair.b, pair.a);
-            if (pair.to_b) link(pair.a, pair.b);
-        }
+        out.pairs += linking(open, all, exchange, out.links);
     }
     out.unrefined = exchange.unrefined();
 }
@@ -89,23 +70,15 @@ void link_tasks(const Refine& refine, const MotionRefine* motion,
 
 Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
                  const std::vector<ElementTree>& poses) {
-    check_linking(tree, bins, options, poses);
+    const Linking linking(tree, bins, options, poses);
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const int threads = options.threads > 0 ? options.threads : cores;
-    std::optional<MotionRefine> motion;
-    if (!poses.empty()) motion.emplace(tree, poses);
-    const MotionRefine* const moving = motion ? &*motion : nullptr;
-    const Refine refine(tree, options.bin_share * 4.0 * pi / bins.count(), moving);
-    const std::vector<double> scales = hemisphere_scales(tree, bins);
-    const std::vector<ElementPair> tasks = make_tasks(tree, refine);
-    std::shared_ptr<const SpreadTable> table;
-    if (options.spread == Spread::gaussian) table = std::make_shared<SpreadTable>(bins);
+    const std::vector<ElementPair> tasks = make_tasks(tree, linking.refine());
 
     std::vector<Found> found(static_cast<std::size_t>(threads));
     std::atomic<std::size_t> next{0};
     on_threads(threads, [&](int t) {
-        link_tasks(refine, moving, tasks, next, Exchange(tree, bins, scales, options, table),
-                   found[static_cast<std::size_t>(t)]);
+        link_tasks(linking, tasks, next, found[static_cast<std::size_t>(t)]);
     });
 
     // By receiver: counted, then put in place; each receiver's own are sorted after that.
@@ -127,27 +100,18 @@ Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkO
         part.links = {};
     }
 
-    out.senders.resize(total);
-    out.bins.resize(total);
-    out.form_factors.resize(total);
+    resize_links(out, total);
     next = 0;
     on_threads(threads, [&](int) {
         for (std::size_t i = next++; i < tree.count(); i = next++) {
             const auto begin = sorted.begin() + out.first[i],
                        end = sorted.begin() + out.first[i + 1];
-            std::sort(begin, end, [](const Link& a, const Link& b) {
-                return std::tie(a.sender, a.part, a.bin) < std::tie(b.sender, b.part, b.bin);
-            });
-            for (std::size_t k = out.first[i]; k < out.first[i + 1]; ++k) {
-                out.senders[k] = sorted[k].sender;
-                out.bins[k] = sorted[k].bin;
-                out.form_factors[k] = sorted[k].form_factor;
-            }
+            std::sort(begin, end, by_sender);
+            for (std::size_t k = out.first[i]; k < out.first[i + 1]; ++k)
+                set_link(out, k, sorted[k]);
         }
     });
-    for (std::uint32_t k = 0; motion && k < total; ++k)
-        if (sorted[k].part != still_part)
-            out.moving.push_back({k, sorted[k].receiver, sorted[k].part});
+    for (std::size_t k = 0; !poses.empty() && k < total; ++k) list_moving(out, k, sorted[k]);
     return out;
 }
 

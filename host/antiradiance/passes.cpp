@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/passes/antiradiance.hpp>
 #include <algorithm>
+#include <clgi/passes/antiradiance.hpp>
 #include <clgi/planes.hpp>
 
 #include "antiradiance/linked.hpp"
@@ -58,7 +58,7 @@ void AntiradiancePasses::build(std::initializer_list<const char*> passes) const 
 }
 
 std::size_t AntiradiancePasses::intensity_bytes(std::size_t rows) const {
-    return intensities(local_, bins_, rows);
+    return bytes_of_rows(local_.storage, bins_, rows);
 }
 
 cl::Event AntiradiancePasses::global(const cl::CommandQueue& queue, const ElementParams& params,

@@ -14,17 +14,24 @@ void need_range(const char* what, int got, int least, int most) {
                     std::to_string(least) + " to " + std::to_string(most) + " needed");
 }
 
+// The largest of the sizes that pages are tried at.
+int largest_page(const AtlasOptions& options) {
+    int size = options.size;
+    while (2 * size <= options.largest_size) size *= 2;
+    return size;
+}
+
 void check(const Scene& scene, const std::vector<std::uint32_t>& region_of,
            const AtlasOptions& options) {
     need_range("size", options.size, 1, 8192);
     need_range("largest_size", options.largest_size, 0, 8192);
     need_range("padding", options.padding, 1, 64);
     need_range("most_pages", options.most_pages, 1, 64);
-    const std::uint64_t texels = std::uint64_t(options.size) * std::uint64_t(options.size) *
-                                 std::uint64_t(options.most_pages);
+    const auto size = static_cast<std::uint64_t>(largest_page(options));
+    const std::uint64_t texels = size * size * std::uint64_t(options.most_pages);
     if (texels > 0xffffffffu)
         throw Error("atlas: most_pages of " + std::to_string(options.most_pages) + " at size " +
-                    std::to_string(options.size) + " has " + std::to_string(texels) +
+                    std::to_string(size) + " has " + std::to_string(texels) +
                     " texels, fewer than 2^32 needed");
     if (!(options.texels_per_metre >= 0.0) || !std::isfinite(options.texels_per_metre))
         throw Error("atlas: texels_per_metre is " + std::to_string(options.texels_per_metre) +
@@ -60,12 +67,13 @@ LightmapUvs choose_uvs(const Scene& scene, const AtlasOptions& options, AtlasLay
 // On the smallest pages from the options' size on that hold all charts; sets that size.
 AtlasPlacement place_on_pages(const Scene& scene, const std::vector<std::uint32_t>& region_of,
                               const Adjacency* mesh, AtlasOptions options, int& size) {
+    const int largest = largest_page(options);
     for (;; options.size *= 2) {
         try {
             size = options.size;
             return place_by_regions(scene, region_of, mesh, options);
         } catch (const InputError&) {  // that they do not fit
-            if (2 * options.size > options.largest_size) throw;
+            if (options.size == largest) throw;
         }
     }
 }
@@ -93,8 +101,9 @@ AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& reg
     out.warnings.insert(out.warnings.end(), lightmap.warnings.begin(), lightmap.warnings.end());
     if (out.uv_set < 0 && region_of.empty())
         throw Error("atlas: region_of is empty, a number for each triangle needed for charts");
-    const AtlasPlacement placed = out.uv_set >= 0 ? place_by_uvs(scene, out.uv_set, options.size)
-                                                  : place_on_pages(scene, region_of, mesh, options, out.size);
+    const AtlasPlacement placed = out.uv_set >= 0
+                                      ? place_by_uvs(scene, out.uv_set, options.size)
+                                      : place_on_pages(scene, region_of, mesh, options, out.size);
     out.pages = placed.pages;
     out.texels_per_metre = placed.texels_per_metre;
     list_texels(scene, placed, out);

@@ -290,7 +290,8 @@ void add_render(CLI::App& app) {
         flags->second_order_only =
             given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates"});
         flags->second_order_asked = flags->second_order_only;
-        for (const std::string& flag : given(*command, {"--vpls", "--environment-lights", "--no-direct"}))
+        for (const std::string& flag :
+             given(*command, {"--vpls", "--environment-lights", "--no-direct"}))
             flags->second_order_asked.push_back(flag);
         flags->shadow_size_given = command->count("--shadow-size") > 0;
         flags->face_size_given = command->count("--face-size") > 0;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "cli/antiradiance_frames.hpp"
 #include "cli/bake_room.hpp"
 #include "cli/effects.hpp"
 #include "cli/motion.hpp"
@@ -12,6 +13,7 @@
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
 #include "report/preview.hpp"
+#include "report/sweep_antiradiance.hpp"
 
 namespace clgi::cli {
 namespace {
@@ -22,39 +24,11 @@ const std::map<std::string, Iteration> iterations = {{"auto", Iteration::automat
 const std::map<std::string, Spread> spreads = {
     {"precise", Spread::precise}, {"gaussian", Spread::gaussian}, {"none", Spread::none}};
 
-std::string name_of(Iteration iteration) {
-    for (const auto& [name, value] : iterations)
-        if (value == iteration) return name;
-    return "";
-}
-
 std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& picture) {
     std::vector<std::string> out;
     if (picture.options().direct) out = direct_effects(scene, picture.emitters());
     if (scene.environment()) out.push_back("environment");
     out.push_back("indirect");
-    return out;
-}
-
-std::vector<std::string> warnings_of(const AntiradianceStatus& status,
-                                     const AntiradianceOptions& options, std::uint32_t in_picture) {
-    std::vector<std::string> out;
-    const std::size_t steps = status.residuals.size();
-    const double residual = steps == 0 ? 1.0 : status.residuals.back();
-    if (status.given_up)
-        out.push_back(fmt::format(
-            "the {} iteration diverged; the picture has no light that it would have brought. {}",
-            name_of(status.iteration),
-            status.iteration == Iteration::symmetric && status.lets_through
-                ? "Try --iteration asymmetric"
-                : "Try --spread precise, more bins or a smaller --bin-share"));
-    else if (!status.converged && (options.steps == 0 || residual >= 1.0))
-        out.push_back(fmt::format("after {} steps the residual is {:.2g}, not below {:.2g}", steps,
-                                  residual, options.steps == 0 ? options.residual : 1.0));
-    if (status.non_finite + in_picture > 0)
-        out.push_back(fmt::format("{} leaves and {} packets of pixels held numbers that were not "
-                                  "finite",
-                                  status.non_finite, in_picture));
     return out;
 }
 
@@ -86,6 +60,7 @@ void run_antiradiance(RenderFlags flags) {
     AntiradianceView view(programs, session.queue, device_scene, solver, picture_options(flags));
     Motion motion(flags, scene, device_scene, session.queue);
     RenderRecord record;
+    AntiradianceFrames frames;
     record.build_ms = 1e3 * build.seconds();
 
     catch_interrupts();
@@ -110,6 +85,7 @@ void run_antiradiance(RenderFlags flags) {
         view.render(step.camera);
         session.queue.finish();
         record.frame_ms.push_back(1e3 * frame_watch.seconds());
+        frames.add(frame, solver.status(), solver.options());
         std::vector<PassEvent> passes = solver.events();
         const std::vector<PassEvent>& shown = view.picture().events();
         passes.insert(passes.end(), shown.begin(), shown.end());
@@ -120,20 +96,20 @@ void run_antiradiance(RenderFlags flags) {
     if (!flags.fps) save_picture(picture(), flags.picture);
     motion.report();
 
-    const AntiradianceStatus status = solver.status();
-    const std::uint32_t in_picture = view.picture().non_finite();
-    record.status.non_finite = status.non_finite + in_picture;
-    const std::vector<std::string> warnings = warnings_of(status, solver.options(), in_picture);
+    const AntiradianceStatus& status = frames.last;
+    const std::uint32_t in_pictures = view.picture().non_finite();
+    record.status.non_finite = frames.non_finite + in_pictures;
+    const std::vector<std::string> warnings = frames.warnings(solver.options(), in_pictures);
     for (const std::string& warning : warnings) notice(false, "warning: " + warning);
     const AntiradianceSummary summary{solver.elements().count(),
                                       solver.elements().leaves,
                                       solver.link_count(),
                                       solver.moving_links(),
                                       solver.options().bins,
-                                      name_of(status.iteration),
-                                      status.diverged,
-                                      status.given_up,
-                                      status.converged,
+                                      report::name_of(status.iteration),
+                                      frames.diverged,
+                                      frames.given_up.count,
+                                      frames.converged,
                                       status.lets_through,
                                       status.residuals.size(),
                                       status.residuals.empty() ? 0.0 : status.residuals.back(),

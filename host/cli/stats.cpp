@@ -80,12 +80,19 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                            {"receiver_pixels", record.transfer->receiver_pixels}};
     if (record.antiradiance) {
         const AntiradianceSummary& a = *record.antiradiance;
-        out["antiradiance"] = {{"elements", a.elements},   {"leaves", a.leaves},
-                               {"links", a.links},         {"moving_links", a.moving_links},
-                               {"bins", a.bins},           {"lets_through", a.lets_through},
-                               {"iteration", a.iteration}, {"diverged", a.diverged},
-                               {"given_up", a.given_up},   {"converged", a.converged},
-                               {"steps", a.steps},         {"residual", a.residual},
+        out["antiradiance"] = {{"elements", a.elements},
+                               {"leaves", a.leaves},
+                               {"links", a.links},
+                               {"moving_links", a.moving_links},
+                               {"bins", a.bins},
+                               {"lets_through", a.lets_through},
+                               {"iteration", a.iteration},
+                               {"diverged", a.diverged},
+                               {"given_up", a.given_up_frames > 0},
+                               {"given_up_frames", a.given_up_frames},
+                               {"converged", a.converged},
+                               {"steps", a.steps},
+                               {"residual", a.residual},
                                {"linking_ms", a.linking_ms}};
     }
     if (record.planned) {

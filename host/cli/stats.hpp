@@ -41,9 +41,9 @@ struct AntiradianceSummary {
     std::size_t moving_links = 0;  // of these
     int bins = 0;
     std::string iteration;
-    bool diverged = false;  // the symmetric iteration did
-    bool given_up = false;  // the one that was used last did: no result
-    bool converged = false;
+    bool diverged = false;      // the symmetric iteration did, in some frame
+    int given_up_frames = 0;    // in which the one that was used did: no result
+    bool converged = false;     // in all frames
     bool lets_through = false;  // something may lie between
     std::size_t steps = 0;
     double residual = 0.0;

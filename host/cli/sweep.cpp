@@ -126,8 +126,7 @@ void run_sweep(const SweepFlags& flags) {
 }  // namespace
 
 Scene open_sweep_scene(const SweepFlags& flags) {
-    Scene scene =
-        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
     pose_scene("sweep", flags.animation, scene);
     return scene;
 }
@@ -151,7 +150,8 @@ void add_sweep(CLI::App& app) {
         ->type_name("FOLDER");
     command->add_option("--method", flags->method, "What to measure")
         ->type_name("METHOD")
-        ->check(CLI::IsMember({"second-order", "reference", "all", "atlas", "transfer", "antiradiance"}));
+        ->check(CLI::IsMember(
+            {"second-order", "reference", "all", "atlas", "transfer", "antiradiance"}));
     command->add_option("--size", flags->size, "Pixels across and down")
         ->type_name("WxH")
         ->default_str("320x240; with --quick 160x120");
@@ -164,7 +164,9 @@ void add_sweep(CLI::App& app) {
                      "atlas: EXR of the irradiance that bakes are compared with")
         ->type_name("FILE")
         ->default_str("made with --spp");
-    command->add_option("--spp", flags->samples, "Samples per pixel, texel or vertex of the references")
+    command
+        ->add_option("--spp", flags->samples,
+                     "Samples per pixel, texel or vertex of the references")
         ->type_name("N")
         ->default_str("192, atlas 400, transfer 1024; with --quick 64, 100, 256")
         ->check(CLI::Range(2, 1 << 20));
@@ -179,7 +181,7 @@ void add_sweep(CLI::App& app) {
     command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
     command->add_flag("--convergence", flags->convergence,
                       "Instead: how the iterations of antiradiance converge, step by step");
-    command->add_option("--bins", flags->bins, "convergence: Bins of directions, an even number")
+    command->add_option("--bins", flags->bins, "convergence: Bins of directions, a multiple of 4")
         ->type_name("N")
         ->default_str("128; with --quick 64")
         ->check(CLI::Range(32, 4096));
@@ -202,14 +204,15 @@ void add_sweep(CLI::App& app) {
         flags->atlas_only = given(*command, {"--atlas-size", "--reference"});
         flags->all_only = given(*command, {"--sheet-time"});
         flags->convergence_only = given(*command, {"--bins", "--elements", "--iterations"});
-        flags->not_convergence = given(*command, {"--method", "--size", "--camera", "--spp",
-                                                  "--rounds", "--atlas-size", "--reference",
-                                                  "--sheet-time"});
+        flags->not_convergence =
+            given(*command, {"--method", "--size", "--camera", "--spp", "--rounds", "--atlas-size",
+                             "--reference", "--sheet-time"});
         flags->command = fmt::format(
             "clgi sweep {} -o {}{}{}", std::filesystem::path(flags->scene).filename().string(),
             std::filesystem::path(flags->output).filename().string(),
             flags->method == "all" ? "" : " --method " + flags->method,
-            (flags->quick ? " --quick" : "") + std::string(flags->convergence ? " --convergence" : "") +
+            (flags->quick ? " --quick" : "") +
+                std::string(flags->convergence ? " --convergence" : "") +
                 (flags->bins > 0 ? fmt::format(" --bins {}", flags->bins) : "") +
                 (flags->elements > 0 ? fmt::format(" --elements {}", flags->elements) : "") +
                 (flags->steps > 0 ? fmt::format(" --iterations {}", flags->steps) : "") +

@@ -79,11 +79,12 @@ void add_raster_lists(BufferTable& table, RasterBuffers& buffers, const DeviceSc
     table.add(buffers.counts, "counts of polygons", lower, views * sizeof(RasterCount));
 }
 
-void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene, std::size_t views) {
+void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene, const ViewSpan& span,
+                Pixels kind) {
+    if (gbuffer.prefers_raster_views(span, scene)) return gbuffer.build({"raster_views"}, kind);
     const std::size_t triangles = scene.info().triangle_count;
-    gbuffer.build({"clear", "put_view", "raster", "raster_large", "resolve"});
-    if (triangles > raster_capacity(triangles)) gbuffer.build({"raster_late"});
-    if (views > 1) gbuffer.build({"raster_views"});  // draw() prefers it for many
+    gbuffer.build({"clear", "raster", "raster_large"}, kind);
+    if (triangles > raster_capacity(triangles)) gbuffer.build({"raster_late"}, kind);
 }
 
 void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceScene& scene,
@@ -99,6 +100,11 @@ void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceSc
         return gbuffer.resolve(queue, view, scene, params, buffers.pixels, out.planes, out.ids,
                                wait);
     });
+}
+
+void build_draw_gbuffer(const GBufferPasses& gbuffer, const DeviceScene& scene) {
+    build_draw(gbuffer, scene, {});
+    gbuffer.build({"put_view", "resolve"});
 }
 
 void check_gbuffer(const char* owner, const GBuffer& given, std::uint32_t stride, Storage storage) {

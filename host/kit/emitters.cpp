@@ -59,8 +59,9 @@ void Emitters::accept(Recorder& record, const LightPasses& passes, const cl::Buf
 }
 
 void Emitters::build(const GBufferPasses& gbuffer) const {
-    if (casts_shadows())
-        gbuffer.build({"clear", "raster", "raster_large", "raster_views"}, buffers_.kind);
+    for (const EmitterRoom::Together& views : room_.together)
+        for (const std::uint32_t count : {views.least, views.most})
+            build_draw(gbuffer, *scene_, {0, count, views.width, views.height, 0}, buffers_.kind);
 }
 
 void Emitters::draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const {

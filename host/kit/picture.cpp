@@ -56,7 +56,7 @@ void Picture::allocate(const BufferTable& table, std::size_t taken) {
                 scene_.bytes() + taken);
     table.allocate(record_);
     bytes_ = table.bytes();
-    build_draw(gbuffer_, scene_, emitters_.set().views.size());
+    build_draw_gbuffer(gbuffer_, scene_);
     emitters_.build(gbuffer_);
     image_.build({"combine"});
     if (options_.direct && scene_.environment()) image_.build({"environment"});

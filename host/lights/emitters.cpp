@@ -7,6 +7,7 @@
 #include <clgi/error.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <map>
 #include <numeric>
 #include <string>
 
@@ -191,6 +192,30 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
     return out;
 }
 
+// The samples of all surfaces, or all directions of the environment, go dark together; each lamp
+// for itself.
+void count_views(const std::vector<Source>& sources, EmitterRoom& room) {
+    std::map<std::uint32_t, EmitterRoom::Together> by_width;
+    std::map<std::pair<std::uint32_t, std::size_t>, std::uint32_t> of_one;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        for (const View& view : sources[i].views) {
+            ++room.views;
+            room.pixels += static_cast<std::size_t>(view.width) * view.height;
+            EmitterRoom::Together& all = by_width[view.width];
+            all.width = view.width;
+            all.height = std::max(all.height, view.height);
+            ++all.most;
+            const std::size_t one = sources[i].group == lamps ? group_count + i : sources[i].group;
+            ++of_one[{view.width, one}];
+        }
+    for (auto& [width, all] : by_width) {
+        all.least = all.most;
+        for (const auto& [key, count] : of_one)
+            if (key.first == width) all.least = std::min(all.least, count);
+        room.together.push_back(all);
+    }
+}
+
 // Largest remainders: shares in proportion to power, their sum exactly `lights`.
 std::vector<std::uint32_t> divide(const std::vector<Source>& sources, int lights) {
     double total = 0.0;
@@ -262,12 +287,8 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     if (!options.shadows)
         for (Source& source : sources) source.views.clear();
     EmitterSet out;
-    for (const Source& source : sources) {
-        ++out.room.emitters;
-        out.room.views += source.views.size();
-        for (const View& view : source.views)
-            out.room.pixels += static_cast<std::size_t>(view.width) * view.height;
-    }
+    out.room.emitters = sources.size();
+    count_views(sources, out.room);
     if (out.room.pixels > most_pixels)
         throw Error(
             "emitters: the sources' views have more than 2^30 pixels; fewer "

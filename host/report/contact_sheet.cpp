@@ -60,7 +60,7 @@ const SweepPoint* shown_point(const Sweep& sweep, const std::string& method, dou
     };
     const SweepPoint *best = nullptr, *fastest = nullptr;
     for (const SweepPoint& point : sweep.points) {
-        if (point.method != method) continue;
+        if (point.method != method || point.given_up) continue;
         if (method == path_tracer_name && point.series != sweep.truths.front().name) continue;
         if (!fastest || point.milliseconds < fastest->milliseconds) fastest = &point;
         if (point.milliseconds <= milliseconds && (!best || error(point) < error(*best)))

@@ -13,7 +13,7 @@ namespace clgi::report {
 
 // Of a method's points, the one with the least error against the first truth whose time is at most
 // `milliseconds`; if none is so fast, the fastest. Of the path tracer, those with all of that
-// truth's light. Null for a method without points.
+// truth's light. Null for a method without points that have a result.
 const SweepPoint* shown_point(const Sweep& sweep, const std::string& method, double milliseconds);
 
 struct SheetPanel {
@@ -29,7 +29,7 @@ struct Sheet {
 };
 
 // Three columns: the first truth, a panel for each of the sweep's methods, in their order, and the
-// path tracer. Methods without points have no panel. Throws Error for a sweep that is not of
+// path tracer. Methods without such a point have no panel. Throws Error for a sweep that is not of
 // pictures.
 Sheet contact_sheet(const Sweep& sweep, double milliseconds);
 

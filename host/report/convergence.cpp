@@ -36,8 +36,8 @@ public:
         progress_.part(0.25, 0.25);
         trace("symmetric", Iteration::symmetric, 0);
         progress_.part(0.5, 0.25);
-        trace(fmt::format("asymmetric, {} to 1", setup_.through_steps),
-              Iteration::asymmetric, setup_.through_steps);
+        trace(fmt::format("asymmetric, {} to 1", setup_.through_steps), Iteration::asymmetric,
+              setup_.through_steps);
         progress_.part(0.75, 0.25);
         trace("asymmetric, as many as it takes", Iteration::asymmetric, 0);
         return std::move(out_);
@@ -54,14 +54,15 @@ private:
         return out;
     }
 
-    // What light comes to, of the iteration that always converges.
+    // What light comes to, by the iteration that converges where any does.
     void solve() {
         AntiradianceSolver solver(programs_, setup_.queue, setup_.scene, device_,
                                   options_of(Iteration::asymmetric, 0, 0));
         if (!solver.run([&](double done) { return progress_.goes_on(done); })) throw_cancelled();
         const AntiradianceStatus status = solver.status();
         if (status.given_up)
-            throw Error("sweep: the asymmetric iteration diverged; there is nothing to converge to");
+            throw Error(
+                "sweep: the asymmetric iteration diverged; there is nothing to converge to");
         out_.elements = solver.elements().count();
         out_.leaves = solver.elements().leaves;
         out_.links = solver.link_count();

@@ -1,4 +1,4 @@
-// Frames of antiradiance, and how far more bins would change them.   [Dachsbacher07]
+// Pictures of antiradiance, and how far more bins would change them.   [Dachsbacher07]
 // SPDX-License-Identifier: MIT
 #include <clgi/solvers/antiradiance_view.hpp>
 
@@ -40,6 +40,7 @@ public:
         return radiance_picture(task_.setup.queue, view.picture());
     }
 
+    bool given_up() const { return solver_.status().given_up; }
     double linking_milliseconds() const { return 1e3 * solver_.linking_seconds(); }
     std::size_t non_finite() const {
         return solver_.status().non_finite + view_.picture().non_finite();
@@ -105,13 +106,15 @@ Measured measure(const PictureTask& task, const AntiradianceSettings& one, Sweep
         out.once = lit.linking_milliseconds();
         out.non_finite = lit.non_finite();
         if (!result) return out;
+        result->given_up = lit.given_up();
         found = pictures(asked, lit);
     }
     judge_all(task, asked, found, *result);
-    if (!one.estimate || !task.alone) return out;
+    if (!one.estimate || !task.alone || result->given_up) return out;
     AntiradianceOptions twice = one.options;
     twice.bins *= 2;
     const Lit finer(task, twice, [&](double done) { return part(0.5 + 0.5 * done); });
+    if (finer.given_up()) return out;
     const std::vector<io::Image> better = pictures(asked, finer);
     for (std::size_t k = 0; k < asked.size(); ++k)
         result->estimated_error[asked[k].truth] = relative_error(found[k], better[k]);

@@ -20,18 +20,18 @@ struct AtlasPicture : SweepSetting {
     int size = 256;
 };
 
-// Scenes of many small charts need larger pages than others.
-bool fits(const Scene& scene, const AtlasPicture& one) {
+// The smallest pages that hold all charts, from the setting's on, up to `largest`; 0: none do.
+int page_of(const Scene& scene, const AtlasPicture& one, int largest) {
     VplOptions vpls;
     vpls.count = one.vpls;
     AtlasOptions atlas;
     atlas.size = one.size;
+    atlas.largest_size = largest;
     try {
-        make_bake_layout(scene, vpls, atlas);
+        return make_bake_layout(scene, vpls, atlas).atlas.size;
     } catch (const InputError&) {  // charts that do not fit
-        return false;
+        return 0;
     }
-    return true;
 }
 
 // The settings whose charts fit. Where those of the usual page do not, all pages are larger.
@@ -39,10 +39,12 @@ std::vector<AtlasPicture> settings_of(const Scene& scene, bool quick) {
     constexpr int largest_page = 4096;
     AtlasPicture base;
     if (quick) base = {{}, 400, 64};
-    while (base.size < largest_page && !fits(scene, base)) base.size *= 2;
+    // Scenes of many small charts need larger pages than others.
+    const int found = page_of(scene, base, largest_page);
+    base.size = found > 0 ? found : largest_page;
     std::vector<AtlasPicture> out;
     const auto add = [&](AtlasPicture one, const std::string& series) {
-        if (!fits(scene, one)) return;
+        if (page_of(scene, one, one.size) == 0) return;
         one.method = light_atlas_method;
         one.series = series + ", atlas";
         one.knobs = {{"vpls", std::to_string(one.vpls)}, {"atlas-size", std::to_string(one.size)}};

@@ -1,5 +1,5 @@
 // Accuracy against time: the settings of a method varied one by one and together, each result
-// measured against ground truth. What sweeps of pictures, light atlases and vertices have in common.
+// measured against ground truth. What sweeps of pictures, atlases and vertices have in common.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -52,8 +52,11 @@ struct SweepPoint : SweepSetting {
     std::vector<double> error;  // [truths] relative_error() against each
     // What the method says of its own error, without a reference, by the name of a truth.
     std::map<std::string, double> estimated_error;
-    double energy = 0.0;        // mean over the mean of the first truth
-    std::vector<bool> front;    // [truths] on its method's Pareto front against this truth
+    double energy = 0.0;  // mean over the mean of the first truth
+    // The method has no result: its iteration diverged. The picture is what it shows instead, and
+    // on no front.
+    bool given_up = false;
+    std::vector<bool> front;  // [truths] on its method's Pareto front against this truth
     io::Image picture;
 };
 inline constexpr const char* path_tracer_name = "path tracer";

@@ -8,6 +8,8 @@
 
 namespace clgi::report {
 
+std::string name_of(Iteration iteration);  // "auto", as --iteration has it
+
 // By series: the knob that is varied alone, from the least accurate value on, or "grid". Those of a
 // sweep of antiradiance alone, or quick ones beside other systems.
 struct AntiradianceSettings : SweepSetting {

@@ -10,12 +10,6 @@ namespace {
 
 constexpr int most_bins = 1024;  // that are asked about an error, twice as many as are judged
 
-std::string name_of(Iteration iteration) {
-    return iteration == Iteration::symmetric    ? "symmetric"
-           : iteration == Iteration::asymmetric ? "asymmetric"
-                                                : "auto";
-}
-
 AntiradianceSettings named(AntiradianceSettings one, const std::string& series) {
     const AntiradianceOptions& options = one.options;
     one.method = antiradiance_method;
@@ -33,6 +27,12 @@ AntiradianceSettings named(AntiradianceSettings one, const std::string& series) 
 
 }  // namespace
 
+std::string name_of(Iteration iteration) {
+    return iteration == Iteration::symmetric    ? "symmetric"
+           : iteration == Iteration::asymmetric ? "asymmetric"
+                                                : "auto";
+}
+
 std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildOptions& build,
                                                         bool alone) {
     const bool few = quick || !alone;  // of each knob
@@ -43,7 +43,6 @@ std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildO
     AntiradianceSettings base;
     base.options.bins = few ? 64 : 128;
     base.options.elements.wished = few ? 1000 : 8192;
-    base.options.emitters.shadow_size = 1024;
     base.options.build = build;
     const auto bins = [](AntiradianceSettings& to, int n) { to.options.bins = n; };
     const auto elements = [](AntiradianceSettings& to, int n) {
@@ -52,8 +51,7 @@ std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildO
     const auto steps = [](AntiradianceSettings& to, int n) { to.options.steps = n; };
     using Values = std::vector<int>;
     vary(base, "bins", few ? Values{32, 64, 128} : Values{64, 128, 208, 512, 1024}, bins, add);
-    vary(base, "elements", few ? Values{250, 1000} : Values{500, 2000, 8192, 32768}, elements,
-         add);
+    vary(base, "elements", few ? Values{250, 1000} : Values{500, 2000, 8192, 32768}, elements, add);
     vary(
         base, "iteration",
         std::vector<Iteration>{Iteration::symmetric, Iteration::asymmetric, Iteration::automatic},

@@ -125,8 +125,8 @@ std::string gallery(const Sweep& sweep, std::size_t truth) {
 // Points have one picture: with the light of all truths but these.
 bool has_gallery(const Sweep& sweep, std::size_t truth) {
     const std::string& name = sweep.truths[truth].name;
-    return sweep.of == SweepOf::atlas || (sweep.of == SweepOf::pictures &&
-                                          name != unshadowed_truth && name != indirect_truth);
+    return sweep.of == SweepOf::atlas ||
+           (sweep.of == SweepOf::pictures && name != unshadowed_truth && name != indirect_truth);
 }
 
 // What each filling takes for the same error.
@@ -157,16 +157,19 @@ std::string once_table(const Sweep& sweep) {
             fmt::format("<tr><td>{}</td><td>{}</td><td>{:.0f}</td><td>{:.2f}</td>", point.method,
                         escaped(knobs_text(point)), *point.once_milliseconds, point.milliseconds);
         for (const double error : point.error)
-            rows += fmt::format("<td>{:.2f}</td>", 100.0 * error);
+            rows += point.given_up ? "<td>diverged</td>"
+                                   : fmt::format("<td>{:.2f}</td>", 100.0 * error);
         rows += "</tr>\n";
     }
     if (rows.empty()) return "";
     std::string out =
         sweep.of == SweepOf::vertices
-            ? "<h2>Visible sets</h2>\n<p>Looking is done once, before all frames, and is no part of "
+            ? "<h2>Visible sets</h2>\n<p>Looking is done once, before all frames, and is no part "
+              "of "
               "their time.</p>\n"
             : "<h2>Done once</h2>\n<p>What stays good while geometry stands still is no part of a "
-              "frame's time: elements and links of antiradiance, layout and first bake of an atlas, "
+              "frame's time: elements and links of antiradiance, layout and first bake of an "
+              "atlas, "
               "transfer vectors.</p>\n";
     out +=
         "<table><tr><th>method</th><th>settings</th><th>once, ms</th>"
@@ -183,15 +186,15 @@ std::string estimates_table(const Sweep& sweep) {
         for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
             const auto found = point.estimated_error.find(sweep.truths[t].name);
             if (found == point.estimated_error.end()) continue;
-            rows += fmt::format(
-                "<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
-                sweep.truths[t].name, escaped(knobs_text(point)), 100.0 * found->second,
-                100.0 * point.error[t]);
+            rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
+                                sweep.truths[t].name, escaped(knobs_text(point)),
+                                100.0 * found->second, 100.0 * point.error[t]);
         }
     if (rows.empty()) return "";
     return "<h2>Estimated errors</h2>\n<p>The difference from the picture with twice as many bins. "
            "It sees what bins cost, not what elements, shadow maps and steps do.</p>\n"
-           "<table><tr><th>reference</th><th>settings</th><th>estimated %</th><th>true %</th></tr>\n" +
+           "<table><tr><th>reference</th><th>settings</th><th>estimated %</th><th>true "
+           "%</th></tr>\n" +
            rows + "</table>\n";
 }
 
@@ -234,8 +237,8 @@ std::string sweep_page(const Sweep& sweep, const SweepNote& note,
         escaped(sweep.scene), sweep.triangles, sweep.width, sweep.height,
         sweep.of == SweepOf::atlas      ? "texels"
         : sweep.of == SweepOf::vertices ? "places of vertices"
-                                        : "pixels", escaped(sweep.device), note.version,
-        escaped(note.command));
+                                        : "pixels",
+        escaped(sweep.device), note.version, escaped(note.command));
     for (const std::string& line : summary(sweep)) out += "<li>" + escaped(line) + "</li>\n";
     out += "</ul>\n";
     for (std::size_t t = 0; t < sweep.truths.size(); ++t) {
@@ -248,8 +251,7 @@ std::string sweep_page(const Sweep& sweep, const SweepNote& note,
         if (has_gallery(sweep, t)) out += gallery(sweep, t);
     }
     return out + (sweep.of == SweepOf::atlas ? fillings_table(sweep) : "") + once_table(sweep) +
-           estimates_table(sweep) +
-           math_table(sweep) + "</body></html>\n";
+           estimates_table(sweep) + math_table(sweep) + "</body></html>\n";
 }
 
 std::string save_sweep(const Sweep& sweep, const SweepNote& note,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <vector>
@@ -12,11 +13,37 @@
 namespace clgi::report {
 namespace {
 
-// What diverged is told by the tables; in the plot it would press all else to the floor.
+// Larger errors are listed in the tables only; they would compress the plot.
 constexpr double most_shown = 10.0;
 
 bool shown(const SweepPoint& point, std::size_t truth) {
-    return point.error[truth] > 0.0 && point.error[truth] <= most_shown;
+    return !point.given_up && point.error[truth] > 0.0 && point.error[truth] <= most_shown;
+}
+
+// How many points the plot leaves out, and why: " (2 diverged, 1 above 1000 % left out)".
+std::string left_out(const Sweep& sweep, std::size_t truth) {
+    std::size_t diverged = 0, not_finite = 0, above = 0, within_noise = 0;
+    for (const SweepPoint& point : sweep.points) {
+        if (point.method == path_tracer_name && point.series != sweep.truths[truth].name) continue;
+        const double error = point.error[truth];
+        if (point.given_up)
+            ++diverged;
+        else if (!std::isfinite(error))
+            ++not_finite;
+        else if (error > most_shown)
+            ++above;
+        else if (!(error > 0.0))
+            ++within_noise;
+    }
+    std::string out;
+    const auto add = [&](std::size_t count, const std::string& what) {
+        if (count > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, what);
+    };
+    add(diverged, "diverged");
+    add(not_finite, "not finite");
+    add(above, fmt::format("above {:.0f} %", 100.0 * most_shown));
+    add(within_noise, "within noise");
+    return out.empty() ? out : " (" + out + " left out)";
 }
 
 // A gnuplot data block: time, error in per cent.
@@ -51,9 +78,8 @@ std::string script(const Sweep& sweep, std::size_t truth, const std::string& fil
     std::string data, plots;
     const auto plot = [&](const std::string& name, const std::vector<const SweepPoint*>& points,
                           const std::string& how) {
-        const bool any = std::any_of(points.begin(), points.end(), [&](const SweepPoint* point) {
-            return shown(*point, truth);
-        });
+        const bool any = std::any_of(points.begin(), points.end(),
+                                     [&](const SweepPoint* point) { return shown(*point, truth); });
         if (!any) return;
         data += block(name, points, truth);
         plots += (plots.empty() ? "plot $" : ", $") + name + " with " + how;
@@ -79,18 +105,12 @@ std::string script(const Sweep& sweep, std::size_t truth, const std::string& fil
         if (point.method == path_tracer_name && point.series == sweep.truths[truth].name)
             traced.push_back(&point);
     plot("traced", traced, "linespoints pt 5 ps 0.6 lw 2 lc rgb '#d95f02' title 'path tracer'");
-    const auto above =
-        std::count_if(sweep.points.begin(), sweep.points.end(), [&](const SweepPoint& point) {
-            return point.method != path_tracer_name && !(point.error[truth] <= most_shown);
-        });
-    const std::string left_out =
-        above > 0 ? fmt::format(" ({} above {:.0f} % left out)", above, 100.0 * most_shown) : "";
     return data + plot_head(file, many ? 960 : 760, 460) +
            fmt::format(
                "set logscale xy\nset xlabel 'milliseconds {}'\n"
                "set ylabel 'relative error, %'\n"
                "set key {}\nset title 'Error against the {} reference{}' noenhanced\n",
-               unit, key, sweep.truths[truth].name, left_out) +
+               unit, key, sweep.truths[truth].name, left_out(sweep, truth)) +
            plots + "\n";
 }
 

@@ -54,7 +54,7 @@ void mark_fronts(Sweep& sweep) {
             std::vector<Cost> costs;
             std::vector<SweepPoint*> points;
             for (SweepPoint& point : sweep.points) {
-                if (point.method != method) continue;
+                if (point.method != method || point.given_up) continue;
                 if (method == path_tracer_name && point.series != sweep.truths[t].name) continue;
                 costs.push_back({point.milliseconds, point.error[t]});
                 points.push_back(&point);

@@ -31,8 +31,8 @@ private:
 // Errors and energy of point.picture. mask: the pixels that count; null: all.
 void judge(SweepPoint& point, const std::vector<SweepTruth>& truths, const Mask* mask = nullptr);
 
-// Marks the points on the Pareto front of each method, against each truth. A point of the path
-// tracer belongs to the truth that it is named after.
+// Marks the points on the Pareto front of each method, against each truth; none that were given up.
+// A point of the path tracer belongs to the truth that it is named after.
 void mark_fronts(Sweep& sweep);
 
 }  // namespace clgi::report

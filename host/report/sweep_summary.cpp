@@ -47,11 +47,11 @@ void add_series(const Sweep& sweep, const std::string& series,
     const std::string knob = knob_of(series);
     std::string errors;
     for (const std::size_t t : truths)
-        errors += fmt::format("{}{} % ({})", errors.empty() ? "" : ", ",
-                              list([&](const SweepPoint& p) {
-                                  return fmt::format("{:.2f}", 100.0 * p.error[t]);
-                              }),
-                              sweep.truths[t].name);
+        errors += fmt::format(
+            "{}{} % ({})", errors.empty() ? "" : ", ", list([&](const SweepPoint& p) {
+                return p.given_up ? "diverged" : fmt::format("{:.2f}", 100.0 * p.error[t]);
+            }),
+            sweep.truths[t].name);
     out.push_back(fmt::format(
         "{}, {} {}: error {} in {} ms.", points.front()->method, knob,
         list([&](const SweepPoint& p) { return p.knobs.at(knob); }), errors,
@@ -134,10 +134,9 @@ void add_speedups(const Sweep& sweep, const std::string& method,
 }
 
 std::vector<std::string> summary(const Sweep& sweep) {
-    std::vector<std::string> out =
-        sweep.of == SweepOf::atlas      ? atlas_summary(sweep)
-        : sweep.of == SweepOf::vertices ? transfer_summary(sweep)
-                                        : pictures_summary(sweep);
+    std::vector<std::string> out = sweep.of == SweepOf::atlas      ? atlas_summary(sweep)
+                                   : sweep.of == SweepOf::vertices ? transfer_summary(sweep)
+                                                                   : pictures_summary(sweep);
     for (const SweepTruth& truth : sweep.truths)
         out.push_back(
             fmt::format("Standard error of the {} reference: {:.2f} %, taken out of all errors.",

@@ -38,7 +38,8 @@ std::string sweep_csv(const Sweep& sweep) {
         out += fmt::format(",error {0},front {0}", sweep.truths[t].name);
         if (estimated[t]) out += fmt::format(",estimated_error {}", sweep.truths[t].name);
     }
-    out += ",energy ratio\n";
+    const bool given_up = any(sweep, [](const SweepPoint& p) { return p.given_up; });
+    out += given_up ? ",energy ratio,given_up\n" : ",energy ratio\n";
     for (const SweepPoint& point : sweep.points) {
         out += fmt::format("{},\"{}\"", point.method, point.series);
         for (const std::string& name : sweep.knobs) out += "," + knob(point, name);
@@ -53,7 +54,8 @@ std::string sweep_csv(const Sweep& sweep) {
                 out += found == point.estimated_error.end() ? ","
                                                             : fmt::format(",{:.6g}", found->second);
         }
-        out += fmt::format(",{:.6g}\n", point.energy);
+        out += fmt::format(",{:.6g}", point.energy);
+        out += given_up ? point.given_up ? ",1\n" : ",0\n" : "\n";
     }
     return out;
 }
@@ -102,6 +104,7 @@ std::string sweep_json(const Sweep& sweep, const SweepNote& note) {
                                       {"knobs", point.knobs},
                                       {"ms", point.milliseconds},
                                       {"energy_ratio", point.energy}};
+        if (point.given_up) row["given_up"] = true;
         if (point.once_milliseconds) row["once_ms"] = *point.once_milliseconds;
         if (!point.estimated_error.empty()) row["estimated_error"] = point.estimated_error;
         for (std::size_t t = 0; t < sweep.truths.size(); ++t) {

@@ -18,9 +18,8 @@ std::size_t bytes_of(const std::vector<cl::Buffer>& buffers) {
 
 }  // namespace
 
-AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on,
-                                 const Scene& file, const DeviceScene& of,
-                                 const AntiradianceOptions& wanted)
+AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on, const Scene& file,
+                                 const DeviceScene& of, const AntiradianceOptions& wanted)
     : AntiradianceBuffers(file, of, wanted),
       programs(all),
       queue(on),
@@ -30,7 +29,8 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
       parallel(programs, options.build),
       record(queue, antiradiance_owner) {
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
-    table(0, 0).check(device, options.memory_budget, scene.bytes());  // as far as is known before it takes time
+    // As far as is known before linking, which takes time.
+    table(0, 0).check(device, options.memory_budget, scene.bytes());
     if (gloss.count > 0) gloss_passes.emplace(programs, options.bins, options.build);
     const auto begin = std::chrono::steady_clock::now();
     const std::vector<ElementTree> poses = posed(file);
@@ -47,7 +47,7 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
     link_total = between.senders.size();
     pair_total = all_links.pairs;
     BufferTable rows_of = table(link_total, between.rows);
-    if (motion) motion->add_to(rows_of);
+    if (motion) motion->add_to(rows_of, tree);
     rows_of.check(device, options.memory_budget, scene.bytes());
     rows_of.allocate(record);
     bytes = rows_of.bytes();
@@ -163,8 +163,8 @@ double AntiradianceSolver::linking_seconds() const { return state_->linking; }
 std::size_t AntiradianceSolver::bytes() const { return state_->bytes; }
 std::size_t AntiradianceSolver::table_bytes() const {
     const ElementRows& rows = state_->rows;
-    return bytes_of({rows.sky, rows.incident, rows.exitant, rows.next, rows.powers,
-                     rows.next_powers});
+    return bytes_of(
+        {rows.sky, rows.incident, rows.exitant, rows.next, rows.powers, rows.next_powers});
 }
 std::size_t AntiradianceSolver::link_bytes() const {
     const LinkBuffers& links = state_->links;

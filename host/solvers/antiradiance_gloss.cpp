@@ -3,6 +3,7 @@
 #include "solvers/antiradiance_state.hpp"
 
 namespace clgi {
+
 void AntiradianceSolver::State::write_gloss() {
     if (gloss.count == 0) return;
     put(gloss.leaves, glossy.leaves);

@@ -24,9 +24,9 @@ constexpr double growth = 4.0;
 constexpr int most_surfaces = 64;
 constexpr double most_growth = 0x1p60;  // C(63, 31) is less
 
-// When light has been let through, what arrives is at most what the sources send and that times the
-// greatest albedo, as often as it was reflected. In the first step the sources' light arrives with
-// nothing in its way. Errors of bins are allowed for as well: more than twice is not one of them.
+// Once light has been let through, each reflection adds at most what arrived in the first step, in
+// which nothing was in the way of the sources' light: albedos are at most 1. So after k reflections
+// at most k + 1 times that arrives. Bins may err, but not by a factor of two.
 constexpr double most_gain = 2.0;
 
 }  // namespace
@@ -142,7 +142,9 @@ bool AntiradianceSolver::State::asymmetric(const Progress& progress) {
     const auto make = [&](std::uint32_t flags) {
         step(flags);
         last = residual();
-        grows = !(last <= most_growth) || (through >= most_surfaces && last > brought);
+        // Changes below the residual may be those of rounding.
+        grows = !(last <= most_growth) ||
+                (through >= most_surfaces && last > std::max(brought, options.residual));
         report(progress);
         return steps_done < limit() && !record.cancelled() && !grows;
     };
@@ -173,13 +175,14 @@ bool AntiradianceSolver::State::asymmetric(const Progress& progress) {
 
 bool AntiradianceSolver::State::iterate(const Progress& progress) {
     found.lets_through = links.row_count > 0;
-    const bool either = options.iteration == Iteration::automatic && found.lets_through;
-    const bool at_once = options.iteration != Iteration::asymmetric || !found.lets_through;
-    if (at_once) {
+    const bool may_switch = options.iteration == Iteration::automatic && found.lets_through;
+    const bool symmetric_first = options.iteration != Iteration::asymmetric || !found.lets_through;
+    if (symmetric_first) {
         found.diverged = !symmetric(progress);
+        if (record.cancelled()) return true;
         // One that neither diverges nor comes to rest is given up as well.
         const bool stuck = options.steps == 0 && !found.converged;
-        if (!either || !(found.diverged || stuck)) return !found.diverged;
+        if (!may_switch || !(found.diverged || stuck)) return !found.diverged;
     }
     return asymmetric(progress);
 }

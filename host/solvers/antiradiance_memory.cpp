@@ -11,6 +11,7 @@
 
 #include "antiradiance/device_links.hpp"
 #include "antiradiance/link_sample.hpp"
+#include "antiradiance/linked.hpp"
 #include "opencl/check.hpp"
 #include "solvers/antiradiance_buffers.hpp"
 #include "solvers/antiradiance_motion.hpp"
@@ -34,9 +35,7 @@ AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scen
     need_range(antiradiance_owner, "most_steps", options.most_steps, 1, 10000);
     need_range(antiradiance_owner, "least_gloss", options.least_gloss, 0.0, 1.0);
     need_range(antiradiance_owner, "residual", options.residual, 1e-6, 1.0);
-    if (options.bins < 32 || options.bins > 4096 || options.bins % 4 != 0)
-        throw Error("antiradiance: bins is " + std::to_string(options.bins) +
-                    ", a multiple of 4 from 32 to 4096 needed");
+    need_bins(options.bins);
     options.emitters.environment_lights = 0;
     options.emitters.vpls = 0;
     options.build.textures = options.build.textures && scene.needs_textures();
@@ -85,8 +84,7 @@ BufferTable AntiradianceBuffers::table(std::size_t link_count, std::uint32_t row
     const auto point_count = static_cast<std::uint32_t>(made.samples.size());
     points.stride = static_cast<std::uint32_t>(plane_stride(point_count));
     point_params = {links.leaf_count, leaf_samples, points.stride, made.first_back};
-    const std::size_t narrow = options.build.storage == Storage::half ? 2 : 1;
-    const std::size_t intensities = row_count * m * color / narrow;
+    const std::size_t intensities = bytes_of_rows(options.build.storage, options.bins, row_count);
     BufferTable t(antiradiance_owner);
     emitters.add_to(t);
     if (emitters.casts_shadows()) add_raster_lists(t, lists, scene);
@@ -129,8 +127,7 @@ void AntiradianceBuffers::add_gloss(BufferTable& t) {
     const char* size = "elements.wished";
     const char* bin = "bins";
     const auto m = static_cast<std::size_t>(options.bins);
-    const std::size_t row =
-        3 * static_cast<std::size_t>(GLOSS_STRIDE(options.bins)) * sizeof(float);
+    const std::size_t row = gloss_row_bytes(options.bins);
     t.add(gloss.leaves, "glossy leaves", size, gloss.count * sizeof(GlossyLeaf));
     t.add(gloss.albedos, "glossy leaves", size, glossy.albedos.size() * sizeof(float));
     t.add(gloss.bins, "directions", bin, row / 3 * 4);
@@ -153,11 +150,16 @@ Estimate estimate(const cl::Device& device, const Scene& scene, const DeviceScen
     // Other leaves read the same rows: clusters see most of the scene from each of them.
     const std::uint32_t rows =
         device_links(buffers.tree, buffers.bins, sample.links, device_scene.frame().scale,
-                     buffers.glossy.leaves, buffers.made.elements)
+                     buffers.glossy.leaves, buffers.made.elements,
+                     options.occlusion == Occlusion::always)
             .rows;
     Estimate out;
-    out.bytes = buffers.table(static_cast<std::size_t>(std::llround(sample.total)), rows).bytes();
-    if (!poses.empty()) out.bytes += moving_bytes(buffers.tree, std::llround(sample.moving));
+    BufferTable table = buffers.table(static_cast<std::size_t>(std::llround(sample.total)), rows);
+    MovingElements moving;
+    if (!poses.empty())
+        add_moving(table, moving, buffers.tree,
+                   static_cast<std::size_t>(std::llround(sample.moving)));
+    out.bytes = table.bytes();
 
     // In pairs of a point and a light, as measured on a CPU with packets of 16
     // (docs/benchmarks.md).

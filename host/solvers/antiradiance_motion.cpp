@@ -37,19 +37,19 @@ AntiradianceMotion::AntiradianceMotion(const Programs& programs, const BuildOpti
     }
 }
 
-std::size_t moving_bytes(const ElementTree& tree, std::size_t moving_links) {
-    const auto moving = std::count(tree.moving.begin(), tree.moving.end(), std::uint8_t{1});
-    return tree.count() * sizeof(ElementPlace) +
-           static_cast<std::size_t>(moving) * sizeof(std::uint32_t) +
-           moving_links * (sizeof(glm::uvec2) + sizeof(std::uint32_t));
+void add_moving(BufferTable& table, MovingElements& moving, const ElementTree& tree,
+                std::size_t moving_links) {
+    const char* size = "elements.wished";
+    const auto listed = static_cast<std::size_t>(
+        std::count(tree.moving.begin(), tree.moving.end(), std::uint8_t{1}));
+    table.add(moving.places, "moving elements", size, tree.count() * sizeof(ElementPlace));
+    table.add(moving.list, "moving elements", size, listed * sizeof(std::uint32_t));
+    table.add(moving.links, "moving links", size, moving_links * sizeof(glm::uvec2));
+    table.add(moving.senders, "moving links", size, moving_links * sizeof(std::uint32_t));
 }
 
-void AntiradianceMotion::add_to(BufferTable& table) {
-    const char* size = "elements.wished";
-    table.add(moving_.places, "moving elements", size, places_.size() * sizeof(ElementPlace));
-    table.add(moving_.list, "moving elements", size, list_.size() * sizeof(std::uint32_t));
-    table.add(moving_.links, "moving links", size, links_.size() * sizeof(glm::uvec2));
-    table.add(moving_.senders, "moving links", size, senders_.size() * sizeof(std::uint32_t));
+void AntiradianceMotion::add_to(BufferTable& table, const ElementTree& tree) {
+    add_moving(table, moving_, tree, links_.size());
 }
 
 void AntiradianceMotion::build() const { passes_.build({"refit", "refit_clusters", "relink"}); }

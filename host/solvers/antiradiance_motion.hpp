@@ -14,8 +14,9 @@
 
 namespace clgi {
 
-// Bytes of the buffers of the class below.
-std::size_t moving_bytes(const ElementTree& tree, std::size_t moving_links);
+// Rows for these buffers, of a tree with elements that move and so many links that do.
+void add_moving(BufferTable& table, MovingElements& moving, const ElementTree& tree,
+                std::size_t moving_links);
 
 class AntiradianceMotion {
 public:
@@ -25,7 +26,7 @@ public:
                        const DirectionBins& bins, const Scene& scene, const DeviceScene& device,
                        const DeviceLinks& links);
 
-    void add_to(BufferTable& table);
+    void add_to(BufferTable& table, const ElementTree& tree);
     void build() const;
     // patches: of LeafSurface.
     void write(Recorder& record, const cl::Buffer& patches);

@@ -57,6 +57,7 @@ struct DynamicTransferView::State {
         if (shadowed() || solver.glossy()) passes.build({"show"});
         if (!shadowed()) open_pixels.build({"open"});
         if (solver.glossy()) passes.build({"add_gloss"});
+        if (!shadowed() && some_pixels() && !all_pixels()) open_receivers.build({"open"});
         if (some_pixels()) passes.build({"pixels", "place", "compare_probes", "undersampled"});
         if (some_pixels() && solver.glossy()) passes.build({"compare_gloss"});
         write();
@@ -135,7 +136,7 @@ struct DynamicTransferView::State {
         put(list.listed, {count()});
     }
 
-    // Receivers at a run of pixels, and what arrives at them.
+    // Receivers at a run of pixels, and with shadows what arrives at them.
     void light_pixels(const PixelParams& run, const PixelList& of) {
         Recorder& record = picture.record();
         const cl::CommandQueue& queue = record.queue();
@@ -144,9 +145,7 @@ struct DynamicTransferView::State {
             return passes.pixels(queue, run, of, scene, picture.gbuffer(), receivers, exponents,
                                  wait);
         });
-        if (!shadowed())
-            return light_openly(open_receivers, RECEIVER_NORMAL, run.count, receivers.stride,
-                                receivers.planes, arriving);
+        if (!shadowed()) return;
         record("transfer.mask", run.count, [&](const WaitList& wait) {
             return solver.passes().mask(queue, receivers, solver.blockers(), solver.drawn(), wait);
         });
@@ -222,6 +221,9 @@ struct DynamicTransferView::State {
         Recorder& record = picture.record();
         const auto number = static_cast<std::uint32_t>(probes.size());
         light_pixels(run_of(0, number), probe_list);
+        if (!shadowed())
+            light_openly(open_receivers, RECEIVER_NORMAL, number, receivers.stride,
+                         receivers.planes, arriving);
         record("transfer.compare_probes", number, [&](const WaitList& wait) {
             return passes.compare_probes(record.queue(), probing, picture.gbuffer(),
                                          picture.irradiance(), arriving, states, wait);

@@ -45,21 +45,23 @@ SecondOrderSolver::State::State(const Programs& programs, const cl::CommandQueue
         helpers.push_back({helper, ImagePasses(own, options.build)});
         helpers.back().image.build({"gather"});
     }
-    build_draw(gbuffer, scene, emitters.set().views.size());
+    build_draw_gbuffer(gbuffer, scene);
     image.build({"combine"});
     if (options.direct && scene.environment()) image.build({"environment"});
-    if (indirect()) {
-        const std::vector<std::uint32_t>& tried = emitters.set().candidates;
-        if (std::any_of(tried.begin(), tried.end(), [](std::uint32_t n) { return n > 0; }))
+    // Also of lights that are dark now, as buffers are.
+    if (options.indirect && options.emitters.vpls > 0 && emitters.set().room.emitters > 0) {
+        const std::vector<Light>& lights = scene.lights();
+        if (std::any_of(lights.begin(), lights.end(),
+                        [](const Light& light) { return light.kind == Light::Kind::spot; }))
             light_passes.build({"accept_mask", "accept_list"});
         light_passes.build({"fetch"});
         if (options.negative_vpls > 0) light_passes.build({"negative"});
         image.build({"gather"});
-    }
-    if (refine()) {
-        gbuffer.build({"downsample"});
-        image.build({"count", "compact", "upsample", "place"});
-        parallel.build({"offsets"});
+        if (refines(options)) {
+            gbuffer.build({"downsample"});
+            image.build({"count", "compact", "upsample", "place"});
+            parallel.build({"offsets"});
+        }
     }
     allocate(options);
 }
@@ -75,6 +77,7 @@ void SecondOrderSolver::State::allocate(const SecondOrderOptions& next) {
     usable = false;
     options = next;
     emitters.adopt(std::move(fresh));
+    emitters.build(gbuffer);
     const BufferTable all = table(buffers, emitters, scene, options, helpers.size());
     record.forget_failed();
     all.allocate(record);
@@ -107,8 +110,8 @@ void SecondOrderSolver::State::light_points(const View& view) {
     if (options.negative_vpls > 0) place_negative(view);
     const std::size_t pixels = pixel_count(options), low_pixels = low_pixel_count(options);
     if (!refine())
-        return gather({"image.gather", pixels, b.stride, b.all_count, b.seen.planes, b.irradiance,
-                       0.4, 0.9});
+        return gather(
+            {"image.gather", pixels, b.stride, b.all_count, b.seen.planes, b.irradiance, 0.4, 0.9});
     const auto step = static_cast<std::uint32_t>(options.low_resolution_step);
     const RefineParams params{view.width,
                               view.height,
@@ -119,9 +122,9 @@ void SecondOrderSolver::State::light_points(const View& view) {
                               step,
                               0};
     record("gbuffer.downsample", low_pixels, [&](const WaitList& wait) {
-        return gbuffer.downsample(
-            queue, {view.width, view.height, b.stride, b.low_stride, step, 0, 0, 0}, b.seen.planes,
-            b.low_points, wait);
+        return gbuffer.downsample(queue,
+                                  {view.width, view.height, b.stride, b.low_stride, step, 0, 0, 0},
+                                  b.seen.planes, b.low_points, wait);
     });
     gather({"image.gather_low", low_pixels, b.low_stride, b.low_count, b.low_points,
             b.low_irradiance, 0.4, 0.6});
@@ -159,7 +162,7 @@ void SecondOrderSolver::State::combine(const View& view, bool emission) {
     if (indirect()) params.effects |= COMBINE_INDIRECT;
     record("image.combine", pixel_count(options), [&](const WaitList& wait) {
         return image.combine(queue, params, view, scene,
-                {emitters.buffers(), buffers.seen, buffers.irradiance,
+                             {emitters.buffers(), buffers.seen, buffers.irradiance,
                               buffers.radiance, buffers.non_finite},
                              wait);
     });

@@ -25,13 +25,15 @@ enum class AtlasUvs {
 
 struct AtlasOptions {
     int size = 512;  // texels, side of a page; 1 to 8192
-    // Where charts do not fit, pages are doubled in size up to this; 0: they are not. At most 8192.
+    // Where charts do not fit, the size of pages is doubled as long as it is at most this. Below
+    // twice `size`, such as 0: it is not. At most 8192.
     int largest_size = 0;
     AtlasUvs uvs = AtlasUvs::automatic;
     int padding = 2;                // texels around a chart that are empty; 1 to 64. None is kept
                                     // free beyond the edge of a page, nor in a UV set
     double texels_per_metre = 0.0;  // of charts; 0: what fills the pages
-    int most_pages = 1;             // for charts; 1 to 64, and fewer than 2^32 texels
+    int most_pages = 1;             // for charts; 1 to 64, and fewer than 2^32 texels,
+                                    // at the largest size that pages may be doubled to
 };
 
 // A texel that the surface covers, entirely or in part. Of several charts in a texel, which only a

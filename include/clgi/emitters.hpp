@@ -11,10 +11,10 @@
 namespace clgi {
 
 struct EmitterOptions {
-    int vpls = 300;         // virtual point lights (VPLs), shared by power
-    int shadow_size = 512;  // pixels per side of a spot or directional light's map
-    int face_size = 256;    // pixels per side of a cube or hemicube face
-    int area_samples = 16;  // sample points on all emissive surfaces together
+    int vpls = 300;               // virtual point lights (VPLs), shared by power
+    int shadow_size = 512;        // pixels per side of a spot or directional light's map
+    int face_size = 256;          // pixels per side of a cube or hemicube face
+    int area_samples = 16;        // sample points on all emissive surfaces together
     int environment_lights = 16;  // directional lights that approximate it
     // 0: the Halton points themselves. Other values: randomised shifts of them (Cranley and
     // Patterson). The differences between replicates estimate the error of one.
@@ -33,6 +33,13 @@ struct EmitterRoom {
     std::size_t emitters = 0;
     std::size_t views = 0;
     std::size_t pixels = 0;
+    // Views of one width are drawn together: with only one of the lights that have such views, the
+    // one with the fewest, and with all of them.
+    struct Together {
+        std::uint32_t width = 0, height = 0;  // pixels, of the largest
+        std::uint32_t least = 0, most = 0;    // views
+    };
+    std::vector<Together> together;
 };
 
 struct EmitterSet {

@@ -85,6 +85,7 @@ inline void second_order(Choices& choices, const Input& input) {
     options.footprint =
         choices.option(static_cast<float>(choices.between(0, 4)), {-1.0f, no_number, infinite});
     options.indirect = !choices.one_in(8);
+    options.emitters.shadows = !choices.one_in(6);
     SecondOrderSolver solver(test::programs(), test::device().queue, input.placed, options);
     solver.render(input.camera).wait();
     const std::size_t pixels = static_cast<std::size_t>(options.width) * options.height;
@@ -104,7 +105,6 @@ inline void light_atlas(Choices& choices, const Input& input) {
     texels.padding = choices.option(choices.integer(1, 3), {0, -1, 65});
     texels.most_pages = choices.option(choices.integer(1, 3), {0, 65});
     if (choices.one_in(6)) texels.texels_per_metre = choices.power_of_two(-24, 12);
-    const BakeLayout layout = make_bake_layout(input.scene, vpls, texels);
 
     LightAtlasOptions options;
     options.emitters = random_emitters(choices);
@@ -122,6 +122,11 @@ inline void light_atlas(Choices& choices, const Input& input) {
     if (choices.one_in(10))
         options.memory_budget = static_cast<std::size_t>(choices.integer(1, 65535));
     options.build = input.build;
+    PictureOptions shown = random_picture(choices, input.build);
+    texels.largest_size = choices.option(choices.any_of({0, 64, 200}), {-1, 1, 1 << 20});
+    options.emitters.shadows = !choices.one_in(6);
+    shown.emitters.shadows = !choices.one_in(6);
+    const BakeLayout layout = make_bake_layout(input.scene, vpls, texels);
     LightAtlasSolver solver(test::programs(), test::device().queue, input.placed, layout.vpls,
                             layout.atlas, options);
     demand(solver.run(), "light atlas: was not cancelled");
@@ -129,8 +134,7 @@ inline void light_atlas(Choices& choices, const Input& input) {
         demand(std::isfinite(e.x + e.y + e.z), "light atlas: irradiance is not finite");
     demand(solver.status().non_finite == 0, "light atlas: counted numbers that are not finite");
 
-    LightAtlasView view(test::programs(), test::device().queue, input.placed, layout.atlas,
-                        random_picture(choices, input.build));
+    LightAtlasView view(test::programs(), test::device().queue, input.placed, layout.atlas, shown);
     view.render(input.camera, solver.irradiance_planes(), solver.stride()).wait();
     demand_picture(view.picture(), "light atlas");
 }
@@ -151,6 +155,13 @@ inline void dynamic_transfer(Choices& choices, const Input& input) {
     if (choices.one_in(10))
         options.memory_budget = static_cast<std::size_t>(choices.integer(1, 65535));
     options.build = input.build;
+    DynamicTransferViewOptions shown;
+    shown.picture = random_picture(choices, input.build);
+    shown.threshold =
+        choices.option(static_cast<float>(choices.between(0, 1)), {-1.0f, no_number, infinite});
+    shown.probe_step = choices.option(choices.any_of({2, 4, 8}), {0, 1, 65, 3});
+    options.shadowed = !choices.one_in(4);
+    shown.picture.emitters.shadows = !choices.one_in(6);
     DynamicTransferSolver solver(test::programs(), test::device().queue, input.scene, input.placed,
                                  options);
     demand(solver.run(), "transfer: was not cancelled");
@@ -160,14 +171,20 @@ inline void dynamic_transfer(Choices& choices, const Input& input) {
            "transfer: counted numbers that are not finite");
     demand_finite(solver.irradiance(), 3, receivers.stride, receivers.count, -infinite, "transfer");
 
-    DynamicTransferViewOptions shown;
-    shown.picture = random_picture(choices, input.build);
-    shown.threshold =
-        choices.option(static_cast<float>(choices.between(0, 1)), {-1.0f, no_number, infinite});
-    shown.probe_step = choices.option(choices.any_of({2, 4, 8}), {0, 1, 65, 3});
     DynamicTransferView view(test::programs(), test::device().queue, input.placed, solver, shown);
     view.render(input.camera).wait();
     demand_picture(view.picture(), "transfer");
+}
+
+// The scene as it is, and with some of its vertices elsewhere within its bounds or beside them.
+inline VertexPoses random_poses(Choices& choices, const Scene& scene) {
+    VertexPoses out = {scene.positions, scene.positions};
+    const Bounds box = bounds(scene);
+    glm::dvec3 way(0.0);
+    for (int k = 0; k < 3; ++k) way[k] = choices.between(-0.5, 0.5) * (box.high[k] - box.low[k]);
+    const auto first = static_cast<std::size_t>(choices.integer(0, 32));
+    for (std::size_t v = first; v < out[1].size(); ++v) out[1][v] += way;
+    return out;
 }
 
 inline void antiradiance(Choices& choices, const Input& input) {
@@ -191,27 +208,44 @@ inline void antiradiance(Choices& choices, const Input& input) {
     if (choices.one_in(10))
         options.memory_budget = static_cast<std::size_t>(choices.integer(1, 65535));
     options.build = input.build;
+    PictureOptions shown = random_picture(choices, input.build);
+    if (choices.one_in(4)) options.occlusion = Occlusion::always;
+    if (choices.one_in(4)) options.links.spread = Spread::none;
+    if (choices.one_in(4)) options.poses = random_poses(choices, input.scene);
+    options.emitters.shadows = !choices.one_in(6);
+    shown.emitters.shadows = !choices.one_in(6);
     AntiradianceSolver solver(test::programs(), test::device().queue, input.scene, input.placed,
                               options);
+    if (solver.moving_elements() > 0) solver.geometry_changed();
     demand(solver.run(), "antiradiance: was not cancelled");
     const AntiradianceStatus status = solver.status();
-    demand(status.non_finite == 0 || options.iteration == Iteration::symmetric,
+    demand(status.non_finite == 0 || options.iteration == Iteration::symmetric || status.given_up,
            "antiradiance: counted numbers that are not finite");
-    if (status.non_finite == 0)
+    const bool finite = status.non_finite == 0 || status.given_up;
+    if (finite)
         for (const glm::vec4& e :
-             test::download<glm::vec4>(solver.leaves().irradiances, solver.elements().leaves))
+             test::download<glm::vec4>(solver.leaves().irradiances, solver.elements().leaves)) {
             demand(std::isfinite(e.x + e.y + e.z), "antiradiance: irradiance is not finite");
+            demand(!status.given_up || glm::vec3(e) == glm::vec3(0.0f),
+                   "antiradiance: light of an iteration that was given up");
+        }
 
-    AntiradianceView view(test::programs(), test::device().queue, input.placed, solver,
-                          random_picture(choices, input.build));
+    AntiradianceView view(test::programs(), test::device().queue, input.placed, solver, shown);
     view.render(input.camera).wait();
-    if (status.non_finite == 0) demand_picture(view.picture(), "antiradiance");
+    if (finite) demand_picture(view.picture(), "antiradiance");
+}
+
+constexpr int solver_count = 4;
+
+// Which one an input is for.
+inline std::size_t solver_of(const std::uint8_t* data, std::size_t size) {
+    return static_cast<std::size_t>(Choices(data, size).integer(0, solver_count - 1));
 }
 
 // Whether the solver took the options. Throws std::logic_error for a promise that is not kept.
 inline bool try_options(const std::uint8_t* data, std::size_t size) {
     Choices choices(data, size);
-    const int solver = choices.integer(0, 3);
+    const int solver = choices.integer(0, solver_count - 1);
     BuildOptions build;  // the usual one mostly: kernels of each are built once a process
     const int mode = choices.integer(0, 15);
     if (mode >= 14) build.math = Math::fast;

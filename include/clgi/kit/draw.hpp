@@ -19,8 +19,8 @@ CLGI_API void draw(Recorder& record, const GBufferPasses& gbuffer, const DeviceS
 // The same always in the form with lists of large triangles, which suits few or large views and
 // devices with many cores.
 CLGI_API void draw_by_lists(Recorder& record, const GBufferPasses& gbuffer,
-                            const DeviceScene& scene, const ViewSpan& span,
-                            const cl::Buffer& views, const RasterBuffers& buffers);
+                            const DeviceScene& scene, const ViewSpan& span, const cl::Buffer& views,
+                            const RasterBuffers& buffers);
 
 // draw() without a recorder: it begins after `wait`; the event completes when all views are drawn.
 CLGI_API cl::Event draw(const cl::CommandQueue& queue, const GBufferPasses& gbuffer,
@@ -28,20 +28,22 @@ CLGI_API cl::Event draw(const cl::CommandQueue& queue, const GBufferPasses& gbuf
                         const RasterBuffers& buffers, const WaitList& wait = {});
 
 // Rows for the lists of large triangles; buffers.pixels is the caller's. views: drawn at a time.
-CLGI_API void add_raster_lists(BufferTable& table, RasterBuffers& buffers,
-                               const DeviceScene& scene, std::uint32_t views = 1);
+CLGI_API void add_raster_lists(BufferTable& table, RasterBuffers& buffers, const DeviceScene& scene,
+                               std::uint32_t views = 1);
 
-// Builds the kernels that draw() takes for so many views at a time, and for a G-buffer.
+// Builds the kernels that draw() takes for such a span and such pixels.
 CLGI_API void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene,
-                         std::size_t views);
+                         const ViewSpan& span, Pixels kind = Pixels::visibility);
 
 // The G-buffer of a view that the host knows: puts the view into `views`, draws it into
 // buffers.pixels and resolves it. Emission is written if the scene has some. more: RESOLVE_DEPTH,
 // RESOLVE_TRIANGLE, if they are needed too.
-CLGI_API void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer,
-                           const DeviceScene& scene, const View& view, const cl::Buffer& views,
-                           const RasterBuffers& buffers, const GBuffer& out,
-                           std::uint32_t more = 0);
+CLGI_API void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceScene& scene,
+                           const View& view, const cl::Buffer& views, const RasterBuffers& buffers,
+                           const GBuffer& out, std::uint32_t more = 0);
+
+// Builds the kernels that draw_gbuffer() takes.
+CLGI_API void build_draw_gbuffer(const GBufferPasses& gbuffer, const DeviceScene& scene);
 
 // Throws Error unless a G-buffer has this stride and storage and is large enough. The message
 // begins with `owner`.

@@ -37,15 +37,16 @@ public:
     // Enqueues the writes of emitters and views to their buffers, without waiting.
     void write(Recorder& record) const;
 
-    // Builds the kernels that draw() takes, none if there are no shadow maps.
+    // Builds the kernels that draw() takes, also when some of the lights are dark; none if there
+    // are no shadow maps.
     void build(const GBufferPasses& gbuffer) const;
 
     // Draws the shadow maps; without EmitterOptions::shadows there are none. lists: as for draw();
     // pixels and kind of it are not used.
     void draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const;
 
-    // Which Halton points of each spot's cone its VPLs are placed at. mask: of most_candidates bits;
-    // accepted: [vpls] uint.
+    // Which Halton points of each spot's cone its VPLs are placed at. mask: of most_candidates
+    // bits; accepted: [vpls] uint.
     void accept(Recorder& record, const LightPasses& passes, const cl::Buffer& mask,
                 const cl::Buffer& accepted) const;
 

@@ -71,19 +71,20 @@ struct AntiradianceStatus {
     // The iteration that was used last diverged: it has no result. Leaves receive nothing and
     // pictures show direct light alone.
     bool given_up = false;
-    bool converged = false;     // the residual is below the bound
-    bool lets_through = false;  // false: nothing can lie between, and there is no antiradiance
-    std::vector<double> residuals;               // of each step that was made, of both iterations
-    std::uint32_t non_finite = 0;  // leaves with numbers that are not finite, in all steps of
-                                   // the iteration that was used
+    bool converged = false;         // the residual is below the bound
+    bool lets_through = false;      // false: nothing can lie between; there is no antiradiance
+    std::vector<double> residuals;  // of each step that was made, of both iterations
+    std::uint32_t non_finite = 0;   // leaves with numbers that are not finite, in all steps of
+                                    // the iteration that was used
 };
 
-// What an AntiradianceSolver of these will allocate and what run() takes, about, before elements
-// are linked: they are made, and the links of 128 leaves are counted, which takes a fifth of the
-// time of linking at most. Bytes are within a twentieth as a rule. Milliseconds are of `steps`
-// steps; where these are 0, of 20, about what the symmetric iteration takes. Where that is given up
-// run() takes ten times as long. scene: what `device_scene` was made from. Throws as the solver
-// does, but no memory is too small for it.
+// What an AntiradianceSolver of these options will allocate, and how long its run() will take,
+// about. Elements are made, and the links of 128 leaves are counted in place of all: that takes a
+// fifth of the time of linking at most. Bytes are within a twentieth as a rule. Milliseconds are of `steps` steps. Where these are 0, they are of 20,
+// about what the symmetric iteration takes; where that is given up run() takes ten times as long.
+// scene: what `device_scene` was made from. Throws for options and scenes that the solver refuses,
+// but not for what only all links show: too little memory, more than 2^32 links, or a form factor
+// that is not finite.
 CLGI_API Estimate estimate(const cl::Device& device, const Scene& scene,
                            const DeviceScene& device_scene,
                            const AntiradianceOptions& options = {});
@@ -99,8 +100,8 @@ CLGI_API Estimate estimate(const cl::Device& device, const Scene& scene,
 // number: where a triangle grows so do they. Triangles that have no normal in the scene's own
 // arrays are no elements in any pose.
 //
-// Surfaces with lobes exchange gloss as well, in bins. What emissive surfaces send comes through their sample points,
-// as direct light. Surfaces with an alpha mask block as a whole.
+// Surfaces with lobes exchange gloss as well, in bins. What emissive surfaces send comes through
+// their sample points, as direct light. Surfaces with an alpha mask block as a whole.
 class CLGI_API AntiradianceSolver {
 public:
     // Makes elements and links, builds kernels and allocates. scene: what `device` was made from;
@@ -138,11 +139,14 @@ public:
     const AntiradianceOptions& options() const;
     const ElementTree& elements() const;
     const DirectionBins& bins() const;
-    std::size_t link_count() const;  // for one direction each
-    std::size_t link_pairs() const;  // Links::pairs
+    std::size_t link_count() const;    // for one direction each
+    std::size_t link_pairs() const;    // Links::pairs
     std::size_t moving_links() const;  // those of which an end moves
     std::size_t moving_elements() const;
-    std::size_t row_count() const;   // elements with antiradiance
+    // Rows of exitant intensity: one for each element of which some link reads what it sends in
+    // directions of their own, and for all elements below those. They are elements with something
+    // behind, glossy leaves, clusters that are not flat, and what moves.
+    std::size_t row_count() const;
     double linking_seconds() const;  // that elements and links took
     std::size_t bytes() const;
     std::size_t table_bytes() const;  // of them, intensities and incident light
