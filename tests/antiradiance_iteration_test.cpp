@@ -132,7 +132,7 @@ TEST_P(AntiradianceIteration, GivesUpWhereLightGoesRoundInABin) {
     }
 }
 
-// Light that has come to rest changes by rounding alone, which may grow from a step to the next.
+// Light that came to rest stays, however many steps follow in which nothing changes.
 TEST_P(AntiradianceIteration, KeepsLightThatCameToRestLongAgo) {
     for (const Storage storage : {Storage::full, Storage::half}) {
         AntiradianceOptions options = options_of(GetParam(), 32, 300);

@@ -113,7 +113,7 @@ inline void light_atlas(Choices& choices, const Input& input) {
                                        {0.0f, -1.0f, no_number, 2.0f});
     options.one_at_a_time = choices.one_in(4);
     options.exchange_samples = static_cast<std::uint32_t>(choices.integer(0, 8));
-    options.hemicube_size = choices.option(choices.any_of({16, 32}), {0, -2, 17});
+    options.hemicube_size = choices.option(choices.any_of({32, 64}), {0, -2, 17});
     options.filling = choices.one_in(4) ? Filling::project : Filling::gather;
     options.refine = choices.option(choices.any_of({1, 2, 4}), {0, 3});
     options.mesh = choices.option(choices.any_of({8, 32, 128}), {0, 7, 1 << 20});
