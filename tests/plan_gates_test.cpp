@@ -1,7 +1,7 @@
 // Plans of random scenes: every method gives finite light or refuses in one line, and what a plan
 // leaves out changes the true picture by no more than it says.
 //
-// CLGI_GATES=1000 in the environment takes as many scenes.
+// CLGI_GATES=1000 in the environment takes as many scenes, CLGI_GATES=57-57 those of these numbers.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <cstdlib>
@@ -19,9 +19,13 @@ using test::distance;
 using test::mean;
 using test::Pixels;
 
-int scene_count() {
+// The first scene, and the one after the last.
+std::pair<int, int> scene_numbers() {
     const char* wanted = std::getenv("CLGI_GATES");
-    return wanted ? std::atoi(wanted) : 40;
+    const std::string text = wanted ? wanted : "40";
+    const std::size_t dash = text.find('-');
+    if (dash == std::string::npos) return {0, std::stoi(text)};
+    return {std::stoi(text), std::stoi(text.substr(dash + 1)) + 1};
 }
 
 struct Given {
@@ -71,11 +75,22 @@ void expect_light(const Pixels& picture) {
             ASSERT_TRUE(std::isfinite(pixel[c]) && pixel[c] >= 0.0f) << pixel[c];
 }
 
+// Pixels that differ by more than a hundredth.
+int unlike(const Pixels& a, const Pixels& b) {
+    int out = 0;
+    for (std::size_t p = 0; p < a.size(); ++p) {
+        const double one = test::luminance_of(a[p]), other = test::luminance_of(b[p]);
+        out += std::abs(one - other) > 0.01 * std::max(one, other);
+    }
+    return out;
+}
+
 TEST(Gates, OfRandomScenesGiveFiniteLightOrRefuseInOneLine) {
     constexpr Method methods[] = {Method::direct, Method::second_order, Method::light_atlas,
                                   Method::antiradiance, Method::dynamic_transfer};
     int taken = 0, refused = 0;
-    for (int seed = 0; seed < scene_count(); ++seed) {
+    const auto [first, end] = scene_numbers();
+    for (int seed = first; seed < end; ++seed) {
         SCOPED_TRACE("scene " + std::to_string(seed));
         const Given of = given(static_cast<unsigned>(seed));
         std::string why;
@@ -97,8 +112,9 @@ TEST(Gates, OfRandomScenesGiveFiniteLightOrRefuseInOneLine) {
 // Against the path tracer, which knows of no plan.
 TEST(Gates, LeaveOutNoMoreThanTheySay) {
     int shadows = 0, bounces = 0, measured = 0;
-    double worst = 0.0;
-    for (int seed = 0; seed < scene_count(); ++seed) {
+    int worst = 0;
+    const auto [first, end] = scene_numbers();
+    for (int seed = first; seed < end; ++seed) {
         SCOPED_TRACE("scene " + std::to_string(seed));
         const Given of = given(static_cast<unsigned>(seed));
         std::string why;
@@ -120,9 +136,10 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
             const auto lean = picture(of, wish, why);
             const Pixels truth = test::traced(of.scene, of.camera, 1, direct);
             ASSERT_TRUE(lean) << why;
-            // Single pixels at the edges of surfaces and cones.
-            EXPECT_LE(distance(*lean, truth), 2e-2 * mean(truth));
-            if (mean(truth) > 0.0) worst = std::max(worst, distance(*lean, truth) / mean(truth));
+            // Edges of surfaces and cones may fall to either side of a pixel's centre.
+            const int other = unlike(*lean, truth);
+            EXPECT_LE(other, 8) << "of " << truth.size() << " pixels";
+            worst = std::max(worst, other);
             ++shadows;
         }
         const bool proven = off(Effect::first_bounce, Ground::proven);
@@ -130,7 +147,8 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
             const Pixels all = test::traced(of.scene, of.camera, 64);
             const Pixels once = test::traced(of.scene, of.camera, 64, direct);
             EXPECT_LE(distance(all, once), (plan.bound + 1e-6) * mean(all))
-                << (proven ? "proven" : "measured") << ", bound " << plan.bound;
+                << (proven ? "proven" : "measured") << ", bound " << plan.bound << ", of the mean "
+                << distance(all, once) / mean(all) << ", pixels " << unlike(all, once);
             ++(proven ? bounces : measured);
         }
     }
@@ -139,7 +157,7 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
     RecordProperty("shadows", shadows);
     RecordProperty("bounces", bounces);
     RecordProperty("measured", measured);
-    RecordProperty("worst", std::to_string(worst));
+    RecordProperty("worst", worst);
 }
 
 }  // namespace

@@ -70,6 +70,10 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
               }),
               Method::light_atlas);  // the only one, however slow
     EXPECT_EQ(method([](SceneFacts& f, PlanWish&) { f.surfaces.triangles = 0; }), Method::direct);
+    EXPECT_EQ(method([](SceneFacts& f, PlanWish&) {
+                  f.surfaces.degenerate = f.surfaces.triangles;  // none has area
+              }),
+              Method::direct);
     EXPECT_EQ(method([](SceneFacts&, PlanWish& w) { w.without = {Effect::indirect_occlusion}; }),
               Method::light_atlas);
     EXPECT_NE(method([](SceneFacts&, PlanWish& w) { w.without = {Effect::further_bounces}; }),

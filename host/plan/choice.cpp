@@ -20,7 +20,8 @@ Choice candidates_for(const Plan& plan) {
     const SceneFacts& facts = plan.facts;
     const bool sky = plan.on(Effect::environment_light) && facts.lights.environment;
     const bool sky_alone = sky && !facts.lights.any_direct() && facts.openness > mostly;
-    if (facts.surfaces.triangles == 0) return {{Method::direct}, "there are no surfaces"};
+    if (facts.surfaces.triangles <= facts.surfaces.degenerate)
+        return {{Method::direct}, "there are no surfaces"};
     if (!plan.on(Effect::first_bounce)) {
         if (!sky) return {{Method::direct}, "there is no indirect light"};
         return {{Method::dynamic_transfer, Method::direct}, "there is the sky's light alone"};
