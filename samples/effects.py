@@ -9,15 +9,16 @@ saving: each scene is rendered by its plan, and with every effect on, for the sa
 what is off, what the plan says that this changes at most, what it does change, and both times.
 same: each scene is rendered by its plan, and by the plan's method with the same settings and no
 effect left out. A row has what is off, the largest difference that the plan allows, the one that is
-there, and both times. Scenes without light get a sky.
+there, and both times. What cannot be loaded is told with its error line.
 race: the error of --method auto after 0.1, 1 and 10 s beside that of the path tracer after the same
-times, against a picture of the path tracer with --truth samples a pixel.
+times, against a picture of the path tracer with --truth samples a pixel, whose noise is taken out.
 Times are of a picture with facts, plan and all that is done before it but loading, upload and
 building kernels.
 SPDX-License-Identifier: MIT
 """
 import argparse
 import json
+import math
 import os
 import subprocess
 import sys
@@ -54,6 +55,11 @@ def render(clgi, scene, name, *flags):
 def difference(clgi, a, b):
     """Root mean squared difference over the mean of b."""
     return json.loads(run(clgi, "compare", a + ".exr", b + ".exr", "--no-flip", "--json"))["rel_rmse"]
+
+
+def without(error, noise):
+    """What is left of an error when the noise of the truth is taken out."""
+    return math.sqrt(max(error * error - noise * noise, 0.0))
 
 
 def percent(value):
@@ -112,21 +118,21 @@ def same(options):
         label = os.path.splitext(os.path.basename(scene))[0]
         name = os.path.join(options.out, label)
         wish = ["--target-error", options.error]
-        lean, full, sky = [], [], []
-        lights = json.loads(run(options.clgi, "plan", scene, "--quiet", "--size", SIZE,
-                                "--json"))["facts"]["lights"]
-        if not any(lights[kind] for kind in ("points", "spots", "directional", "emissive_power",
-                                             "environment")):
-            sky = ["--environment", "1,0.9,0.7"]
+        lean, full = [], []
+        probe = subprocess.run([options.clgi, "plan", scene, "--quiet", "--size", SIZE],
+                               capture_output=True, text=True)
+        if probe.returncode:
+            print(f"{label}: {probe.stderr.strip()}", file=sys.stderr)
+            continue
         for _ in range(options.rounds):
-            a = render(options.clgi, scene, name + "-plan", *wish, *sky)
-            b = render(options.clgi, scene, name + "-all", *whole(a), *sky)
+            a = render(options.clgi, scene, name + "-plan", *wish)
+            b = render(options.clgi, scene, name + "-all", *whole(a))
             lean.append(picture_ms(a))
             full.append(picture_ms(b))
         lean, full = sorted(lean)[len(lean) // 2], sorted(full)[len(full) // 2]
         off = [e["name"] for e in a["plan"]["effects"]
                if not e["on"] and e["ground"] in ("proven", "measured")]
-        print(f"| {label}{', sky' if sky else ''} | {a['scene']['triangles']} | {a['method']} "
+        print(f"| {label} | {a['scene']['triangles']} | {a['method']} "
               f"| {', '.join(off) or 'nothing'} | {percent(a['plan']['bound'])} "
               f"| {percent(difference(options.clgi, name + '-plan', name + '-all'))} "
               f"| {lean:.1f} | {full:.1f} | {full / lean:.1f} |", flush=True)
@@ -149,15 +155,17 @@ def race(options):
         truth = name + "-truth"
         if not os.path.exists(truth + ".exr"):
             run(options.clgi, "reference", scene, "--quiet", "--full", "--size", SIZE, "--spp",
-                options.truth, "-o", truth + ".exr")
+                options.truth, "-o", truth + ".exr", "--stats", truth + ".json")
+        with open(truth + ".json") as file:
+            own = json.load(file)["relative_error"]
         once = trace(options, scene, name + "-path", 1)
         for seconds in (0.1, 1, 10):
             stats = render(options.clgi, scene, name + "-auto", "--time-budget", f"{seconds}s")
             taken = picture_ms(stats) / 1000
-            error = difference(options.clgi, name + "-auto", truth)
+            error = without(difference(options.clgi, name + "-auto", truth), own)
             spp = max(1, int(seconds / once))
             traced = trace(options, scene, name + "-path", spp)
-            noise = difference(options.clgi, name + "-path", truth)
+            noise = without(difference(options.clgi, name + "-path", truth), own)
             print(f"| {os.path.basename(name)} | {seconds:g} | {stats['method']} | {taken:.2f} "
                   f"| {percent(error)} | {spp} | {traced:.2f} | {percent(noise)} |", flush=True)
             rows.append((os.path.basename(name), taken, error, traced, noise))
