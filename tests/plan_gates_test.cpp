@@ -112,7 +112,7 @@ TEST(Gates, OfRandomScenesGiveFiniteLightOrRefuseInOneLine) {
 // Against the path tracer, which knows of no plan.
 TEST(Gates, LeaveOutNoMoreThanTheySay) {
     int shadows = 0, bounces = 0, measured = 0;
-    int worst = 0;
+    double worst = 0.0;
     const auto [first, end] = scene_numbers();
     for (int seed = first; seed < end; ++seed) {
         SCOPED_TRACE("scene " + std::to_string(seed));
@@ -136,10 +136,10 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
             const auto lean = picture(of, wish, why);
             const Pixels truth = test::traced(of.scene, of.camera, 1, direct);
             ASSERT_TRUE(lean) << why;
-            // Edges of surfaces and cones may fall to either side of a pixel's centre.
-            const int other = unlike(*lean, truth);
-            EXPECT_LE(other, 8) << "of " << truth.size() << " pixels";
-            worst = std::max(worst, other);
+            // Single pixels at the edges of surfaces and cones.
+            const double apart = distance(*lean, truth);
+            EXPECT_LE(apart, 2e-2 * mean(truth)) << unlike(*lean, truth) << " pixels differ";
+            if (mean(truth) > 0.0) worst = std::max(worst, apart / mean(truth));
             ++shadows;
         }
         const bool proven = off(Effect::first_bounce, Ground::proven);
@@ -148,7 +148,9 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
             const Pixels once = test::traced(of.scene, of.camera, 64, direct);
             EXPECT_LE(distance(all, once), (plan.bound + 1e-6) * mean(all))
                 << (proven ? "proven" : "measured") << ", bound " << plan.bound << ", of the mean "
-                << distance(all, once) / mean(all) << ", pixels " << unlike(all, once);
+                << distance(all, once) / mean(all) << ", pixels " << unlike(all, once)
+                << ", lights " << lights.points << " " << lights.spots << " " << lights.directional
+                << ", largest albedo " << plan.facts.surfaces.largest_albedo;
             ++(proven ? bounces : measured);
         }
     }
@@ -157,7 +159,7 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
     RecordProperty("shadows", shadows);
     RecordProperty("bounces", bounces);
     RecordProperty("measured", measured);
-    RecordProperty("worst", worst);
+    RecordProperty("worst", std::to_string(worst));
 }
 
 }  // namespace
