@@ -11,6 +11,13 @@ namespace {
 // large ones, and drawing them late takes three times as long.
 constexpr std::size_t most_polygons = 131072;
 
+// Polygons that the list of each view holds.
+std::uint32_t list_capacity(std::size_t triangles, std::uint32_t views) {
+    const std::uint32_t few = raster_capacity(triangles);
+    if (views > 1) return few;
+    return std::max(few, static_cast<std::uint32_t>(std::min(triangles, most_polygons)));
+}
+
 }  // namespace
 
 void draw(Recorder& record, const GBufferPasses& gbuffer, const DeviceScene& scene,
@@ -67,10 +74,7 @@ void add_raster_lists(BufferTable& table, RasterBuffers& buffers, const DeviceSc
     const char* lower = "the scene's triangles";
     const std::size_t triangles = scene.info().triangle_count;
     buffers.views = views;
-    buffers.capacity = raster_capacity(triangles);
-    if (views == 1)
-        buffers.capacity = std::max(buffers.capacity,
-                                    static_cast<std::uint32_t>(std::min(triangles, most_polygons)));
+    buffers.capacity = list_capacity(triangles, views);
     const std::size_t places = std::size_t{views} * buffers.capacity;
     table.add(buffers.polygons, "polygons", lower, places * sizeof(RasterPolygon));
     table.add(buffers.runs, "runs of polygons", lower, places * sizeof(RasterRun));
@@ -84,7 +88,7 @@ void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene, const Vi
     if (gbuffer.prefers_raster_views(span, scene)) return gbuffer.build({"raster_views"}, kind);
     const std::size_t triangles = scene.info().triangle_count;
     gbuffer.build({"clear", "raster", "raster_large"}, kind);
-    if (triangles > raster_capacity(triangles)) gbuffer.build({"raster_late"}, kind);
+    if (list_capacity(triangles, 1) < triangles) gbuffer.build({"raster_late"}, kind);
 }
 
 void draw_gbuffer(Recorder& record, const GBufferPasses& gbuffer, const DeviceScene& scene,

@@ -31,7 +31,8 @@ CLGI_API cl::Event draw(const cl::CommandQueue& queue, const GBufferPasses& gbuf
 CLGI_API void add_raster_lists(BufferTable& table, RasterBuffers& buffers, const DeviceScene& scene,
                                std::uint32_t views = 1);
 
-// Builds the kernels that draw() takes for such a span and such pixels.
+// Builds the kernels that draw() takes for such a span and such pixels, with lists for one view at
+// a time.
 CLGI_API void build_draw(const GBufferPasses& gbuffer, const DeviceScene& scene,
                          const ViewSpan& span, Pixels kind = Pixels::visibility);
 
