@@ -36,18 +36,6 @@ Scene room() {
     return scene;
 }
 
-// Root of the mean square of the difference, over the mean.
-double difference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
-    double square = 0.0, sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const glm::dvec3 d = glm::dvec3(a[i]) - glm::dvec3(b[i]);
-        square += glm::dot(d, d);
-        sum += double{b[i].x} + double{b[i].y} + double{b[i].z};
-    }
-    const double count = 3.0 * static_cast<double>(a.size());
-    return std::sqrt(square / count) / (sum / count);
-}
-
 void expect_same(const Baked& found, const Baked& wanted, const std::string& what) {
     EXPECT_TRUE(test::same_bits(found.texels, wanted.texels)) << what;
     EXPECT_TRUE(test::same_bits(found.vpls, wanted.vpls)) << what;
@@ -146,8 +134,8 @@ TEST_P(LightAtlasMode, OneAtATimeConvergesToAllAtATime) {
     const Baked all = test::bake(small_room(), options);
     options.one_at_a_time = true;
     const Baked alone = test::bake(small_room(), options);
-    EXPECT_LT(difference(alone.texels, all.texels), 2e-4);
-    EXPECT_LT(difference(alone.vpls, all.vpls), 2e-4);
+    EXPECT_LT(test::relative_difference(alone.texels, all.texels), 2e-4);
+    EXPECT_LT(test::relative_difference(alone.vpls, all.vpls), 2e-4);
     for (const LightAtlasStatus& status : {all.status, alone.status}) {
         EXPECT_GT(status.shots, small_room().vpls.vpls.size());
         EXPECT_LT(status.power_left, 2e-4 * status.power_direct);
@@ -168,8 +156,8 @@ TEST_P(LightAtlasMode, KeepsTransportOrNotForAboutTheSameLight) {
         const Baked made = test::bake(small_room(), options);
         EXPECT_TRUE(kept.status.transport_kept);
         EXPECT_FALSE(made.status.transport_kept);
-        EXPECT_LT(difference(made.texels, kept.texels), 0.01);
-        EXPECT_LT(difference(made.vpls, kept.vpls), 0.01);
+        EXPECT_LT(test::relative_difference(made.texels, kept.texels), 0.01);
+        EXPECT_LT(test::relative_difference(made.vpls, kept.vpls), 0.01);
         EXPECT_NEAR(made.status.power_shot, kept.status.power_shot, 0.01 * kept.status.power_shot);
         EXPECT_NEAR(made.status.power_received + made.status.power_lost, made.status.power_shot,
                     1e-5 * made.status.power_shot);
@@ -198,7 +186,7 @@ TEST(LightAtlasModes, WithoutBouncesNeedNoTransportToFillTheAtlas) {
     options.memory_budget = too_little_to_keep(small_room(), options);
     const Baked made = test::bake(small_room(), options);
     EXPECT_FALSE(made.status.transport_kept);
-    EXPECT_LT(difference(made.texels, kept.texels), 1e-6);
+    EXPECT_LT(test::relative_difference(made.texels, kept.texels), 1e-6);
     EXPECT_TRUE(test::same_bits(made.vpls, kept.vpls));
 }
 
@@ -252,7 +240,7 @@ TEST(LightAtlasModes, ChangedLightsGiveTheBitsOfAFreshSolver) {
         ASSERT_TRUE(solver.run());
         const Baked after(solver);
         expect_same(after, test::bake(bakery, options), "changed");
-        EXPECT_GT(difference(after.texels, before.texels), 0.05);
+        EXPECT_GT(test::relative_difference(after.texels, before.texels), 0.05);
     }
 }
 

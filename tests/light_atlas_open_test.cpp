@@ -32,17 +32,6 @@ const Bakery& room() {
     return bakery;
 }
 
-double difference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
-    double square = 0.0, sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const glm::dvec3 d = glm::dvec3(a[i]) - glm::dvec3(b[i]);
-        square += glm::dot(d, d);
-        sum += double{b[i].x} + double{b[i].y} + double{b[i].z};
-    }
-    const double count = 3.0 * static_cast<double>(a.size());
-    return std::sqrt(square / count) / (sum / count);
-}
-
 // In a sphere with the albedo p and a point light I in its middle all places receive
 // I p / ((1 - p) R^2) by reflection. Facets make it 0.3 % smaller.
 TEST_P(LightAtlasOpen, HasTheLightOfASphere) {
@@ -94,9 +83,9 @@ TEST_P(LightAtlasOpen, IsTheLightOfHemicubes) {
     const Baked with = test::bake(room(), drawn),
                 without = test::bake(room(), open_options(options));
     // Pixels of hemicubes beside the sharp edges of this room.
-    EXPECT_LT(difference(without.texels, with.texels), 0.02);
-    EXPECT_LT(difference(without.vpls, with.vpls), 0.02);
-    EXPECT_GT(difference(without.texels, with.texels), 0.0);
+    EXPECT_LT(test::relative_difference(without.texels, with.texels), 0.02);
+    EXPECT_LT(test::relative_difference(without.vpls, with.vpls), 0.02);
+    EXPECT_GT(test::relative_difference(without.texels, with.texels), 0.0);
     EXPECT_NEAR(without.status.power_shot, with.status.power_shot, 2e-3 * with.status.power_shot);
     EXPECT_EQ(without.status.non_finite, 0u);
 }
@@ -112,7 +101,7 @@ TEST_P(LightAtlasOpen, LosesWhatLeavesAnOpenRoom) {
                 without = test::bake(bakery, open_options(options));
     EXPECT_GT(with.status.power_lost, 0.1 * with.status.power_shot);
     EXPECT_NEAR(without.status.power_lost, with.status.power_lost, 0.02 * with.status.power_lost);
-    EXPECT_LT(difference(without.texels, with.texels), 0.03);
+    EXPECT_LT(test::relative_difference(without.texels, with.texels), 0.03);
 }
 
 // Nothing is promised of a scene in which something lies between: light goes through it.
@@ -154,8 +143,8 @@ TEST(LightAtlasOpen, KeepsTransportOrNotForAboutTheSameLight) {
     EXPECT_TRUE(kept.status.transport_kept);
     EXPECT_FALSE(kept.status.visibility_kept);
     EXPECT_FALSE(made.status.transport_kept);
-    EXPECT_LT(difference(made.texels, kept.texels), 0.01);
-    EXPECT_LT(difference(made.vpls, kept.vpls), 0.01);
+    EXPECT_LT(test::relative_difference(made.texels, kept.texels), 0.01);
+    EXPECT_LT(test::relative_difference(made.vpls, kept.vpls), 0.01);
 }
 
 TEST(LightAtlasOpen, GivesTheSameBitsAgainAndAfterACancelledBake) {
@@ -193,8 +182,8 @@ TEST(LightAtlasOpen, FollowsChangedLights) {
     ASSERT_TRUE(solver.update(0.01));
     const Baked updated(solver), fresh = test::bake(bakery, open_options());
     EXPECT_GT(updated.status.sent, 0u);
-    EXPECT_LT(difference(updated.texels, fresh.texels), 0.01);
-    EXPECT_GT(difference(before.texels, fresh.texels), 0.02);
+    EXPECT_LT(test::relative_difference(updated.texels, fresh.texels), 0.01);
+    EXPECT_GT(test::relative_difference(before.texels, fresh.texels), 0.02);
     ASSERT_TRUE(solver.update(0.01));
     EXPECT_EQ(solver.status().sent, 0u);
     EXPECT_TRUE(test::same_bits(solver.irradiance(), updated.texels));

@@ -6,6 +6,7 @@
 #include <clgi/patches.hpp>
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/vpl_layout.hpp>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -138,6 +139,19 @@ inline Spread over_vpls(const Bakery& bakery, const std::vector<glm::vec3>& valu
 inline Spread over_texels(const Bakery& bakery, const std::vector<glm::vec3>& values,
                           const std::function<bool(const AtlasTexel&)>& wanted = nullptr) {
     return spread_over<AtlasTexel>(bakery.atlas.texels, values, wanted);
+}
+
+// Root of the mean square of the difference, over the mean of b.
+inline double relative_difference(const std::vector<glm::vec3>& a,
+                                  const std::vector<glm::vec3>& b) {
+    double square = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const glm::dvec3 d = glm::dvec3(a[i]) - glm::dvec3(b[i]);
+        square += glm::dot(d, d);
+        sum += double{b[i].x} + double{b[i].y} + double{b[i].z};
+    }
+    const double count = 3.0 * static_cast<double>(a.size());
+    return std::sqrt(square / count) / (sum / count);
 }
 
 // The axis, 0 to 2, along which a triangle of a box faces, plus 3 where it faces against it.

@@ -196,6 +196,25 @@ TEST(Plan, FollowsLightsThatChange) {
     }
 }
 
+Scene floor_with(const Light& light) {
+    Scene scene = test::plain_scene({0.6f, 0.5f, 0.2f});
+    test::add_floor(scene, 1.0);
+    scene.lights = {light};
+    scene.lights[0].intensity *= glm::vec3(0.5f, 1.0f, 2.0f);
+    return scene;
+}
+
+TEST(Plan, KnowsNoErrorWhereTheCameraSeesNoLight) {
+    Scene scene = floor_with(test::point_light({0.2, 0.7, 0}, 2.0f));
+    test::add_box(scene, {-0.4, 0.1, -0.4}, {-0.2, 0.3, -0.2}, 1);
+    const Plan seen = plan_of(scene, test::camera_at({0.1, 1.5, 0.6}, {0, 0, 0}, 0.6f), quick());
+    EXPECT_TRUE(seen.error);
+    const Plan blind = plan_of(scene, test::camera_at({0.1, 1.5, 0.6}, {0, 9, 1}, 0.6f), quick());
+    ASSERT_TRUE(blind.probe);
+    EXPECT_TRUE(std::isinf(blind.probe->direct_error));
+    EXPECT_FALSE(blind.error);
+}
+
 // ---- what matters is not left out --------------------------------------------------------------
 
 // A scene whose picture is one effect alone.
@@ -206,14 +225,6 @@ struct Whole {
     double error;  // of the plan's picture to the path tracer's, over the mean of the picture
                    // without the effect or of the truth, whichever is brighter
 };
-
-Scene floor_with(const Light& light) {
-    Scene scene = test::plain_scene({0.6f, 0.5f, 0.2f});
-    test::add_floor(scene, 1.0);
-    scene.lights = {light};
-    scene.lights[0].intensity *= glm::vec3(0.5f, 1.0f, 2.0f);
-    return scene;
-}
 
 std::vector<Whole> wholes() {
     std::vector<Whole> out;

@@ -151,6 +151,13 @@ TEST(Plan, KnowsErrorsWhereTheyWereMeasuredAlone) {
     EXPECT_EQ(plan.method, Method::direct);
     EXPECT_FALSE(plan.error);  // all indirect light is missing
     EXPECT_FALSE(plan.meets_error);
+    facts.surfaces.textures = true;
+    wish.without = {Effect::textures};
+    EXPECT_FALSE(make_plan(device, facts, wish).error);
+    EXPECT_FALSE(make_plan(device, facts, wish).meets_error);
+    wish.without = {Effect::cutouts};  // of which there are none
+    EXPECT_TRUE(make_plan(device, facts, wish).error);
+    EXPECT_TRUE(make_plan(device, facts, wish).meets_error);
     wish.without.clear();
     facts.surfaces.largest_albedo = 0.0;
     plan = make_plan(device, facts, wish);

@@ -46,7 +46,7 @@ struct Planned {
     Plan plan;
     Scene scene;  // planned_scene(), moved out by the method
     Session session;
-    double milliseconds = 0.0;  // that facts, probe and plan took
+    double milliseconds = 0.0;  // that facts and probe took
 };
 
 struct RenderFlags {

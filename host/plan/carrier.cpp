@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "plan/carrier.hpp"
 
+#include "plan/sky.hpp"
+
 namespace clgi {
 namespace {
 
 constexpr Carrier nothing{"nothing"};
-
-// The sky of these methods is a few directional lights, with shadow maps as others have.
-bool has_sky_lights(Method method) {
-    return method == Method::direct || method == Method::second_order ||
-           method == Method::light_atlas;
-}
 
 // VPLs of second order are placed through the shadow maps, which then shadow direct light too.
 bool places_by_maps(const Plan& plan, Method method) {
@@ -23,8 +19,8 @@ Carrier environment_light(Method method) {
 }
 
 Carrier direct_shadows(const Plan& plan, Method method) {
-    const bool of_sky = has_sky_lights(method) && plan.on(Effect::environment_light) &&
-                        plan.facts.lights.environment && plan.on(Effect::environment_shadows);
+    const bool of_sky =
+        has_sky_lights(method) && has_sky(plan) && plan.on(Effect::environment_shadows);
     return {"shadow maps", of_sky || places_by_maps(plan, method)};
 }
 

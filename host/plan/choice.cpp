@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "plan/carrier.hpp"
+#include "plan/sky.hpp"
 
 namespace clgi {
 namespace {
@@ -18,7 +19,7 @@ constexpr std::size_t most_glossy_triangles = 20000;
 
 Choice candidates_for(const Plan& plan) {
     const SceneFacts& facts = plan.facts;
-    const bool sky = plan.on(Effect::environment_light) && facts.lights.environment;
+    const bool sky = has_sky(plan);
     const bool sky_alone = sky && !facts.lights.any_direct() && facts.openness > mostly;
     if (facts.surfaces.triangles <= facts.surfaces.degenerate)
         return {{Method::direct}, "there are no surfaces"};

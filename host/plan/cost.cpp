@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plan/method.hpp"
+#include "plan/sky.hpp"
 #include "solvers/ranges.hpp"
 
 namespace clgi {
@@ -20,10 +21,6 @@ struct Amount {
 void operator+=(Amount& a, const Amount& b) {
     a.ms += b.ms;
     a.bytes += b.bytes;
-}
-
-bool has_sky(const Plan& plan) {
-    return plan.on(Effect::environment_light) && plan.facts.lights.environment;
 }
 
 double triangles(const Plan& plan) { return static_cast<double>(plan.facts.surfaces.triangles); }
@@ -158,8 +155,7 @@ PlanCost dynamic_transfer(const Plan& plan) {
 }  // namespace
 
 double shadow_pixels(const Plan& plan) {
-    const bool sky = has_sky(plan) && plan.method != Method::antiradiance &&
-                     plan.method != Method::dynamic_transfer;
+    const bool sky = has_sky(plan) && has_sky_lights(plan.method);
     return lamps_of(plan, plan.picture.emitters, sky).pixels;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "plan/settings.hpp"
+#include "plan/sky.hpp"
 
 namespace clgi {
 namespace {
@@ -24,15 +25,11 @@ double direct_error(const Plan& plan) {
     return usual / std::sqrt(fineness_of(plan));
 }
 
-// Indirect light that the plan leaves out: none where that is the caller's wish.
-std::optional<double> left_out(const Plan& plan) {
-    const EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
-    if (first.ground == Ground::wished) return std::nullopt;
-    return first.bound;
-}
-
 std::optional<double> indirect_error(const Plan& plan, const Rung& rung) {
-    if (!plan.on(Effect::first_bounce)) return left_out(plan);
+    if (!plan.on(Effect::first_bounce)) {
+        const EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
+        return first.bound;
+    }
     const double relative = rung.error[static_cast<std::size_t>(kind_of(plan))];
     if (!(relative > 0.0)) return std::nullopt;
     return relative * indirect_share(plan);
@@ -45,11 +42,19 @@ std::optional<double> expected_error(const Plan& plan, const Rung& rung) {
         const double whole = rung.error[static_cast<std::size_t>(kind_of(plan))];
         return whole > 0.0 ? std::optional(whole) : std::nullopt;
     }
-    const bool sky = plan.on(Effect::environment_light) && plan.facts.lights.environment;
-    if (plan.method == Method::direct && sky) return std::nullopt;  // a few lights for all of it
+    // A few lights for all of the sky: nobody measured that.
+    if (plan.method == Method::direct && has_sky(plan)) return std::nullopt;
     const std::optional<double> indirect = indirect_error(plan, rung);
     if (!indirect) return std::nullopt;
-    return std::hypot(*indirect, direct_error(plan));
+    const double out = std::hypot(*indirect, direct_error(plan));
+    if (!std::isfinite(out)) return std::nullopt;  // the probe saw no light
+    return out;
+}
+
+bool leaves_out_by_wish(const Plan& plan) {
+    return std::any_of(plan.effects.begin(), plan.effects.end(), [](const EffectChoice& choice) {
+        return !choice.on && choice.ground == Ground::wished;
+    });
 }
 
 std::string ground_of_error(const Plan& plan) {

@@ -16,6 +16,10 @@ namespace clgi {
 // where nothing was measured. plan: as the rung sets it.
 std::optional<double> expected_error(const Plan& plan, const Rung& rung);
 
+// Whether the plan lacks an effect because of the wish: its error against all light is not known,
+// but the errors of settings still compare.
+bool leaves_out_by_wish(const Plan& plan);
+
 // What the error of a plan stands on.
 std::string ground_of_error(const Plan& plan);
 

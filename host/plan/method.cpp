@@ -68,6 +68,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
     const auto right = [&](const Candidate& one) { return one.error && *one.error <= *wish.error; };
 
     const auto quicker = [&](const Candidate& a, const Candidate& b) { return time(a) < time(b); };
+    // Keeps the candidates that are wanted, if there are any, and says whether.
     const auto keep = [&](const auto& wanted) {
         std::vector<Candidate> out;
         std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(out), wanted);
@@ -83,8 +84,8 @@ void choose_method(const cl::Device& device, Plan& plan) {
         if ((wish.seconds || !wish.error) && !keep(quick)) return cheapest();
         if (wish.error && keep(right)) return cheapest();
         keep([&](const Candidate& one) { return time(one) <= 1e3 * patience; });
-        if (!keep(
-                [](const Candidate& one) { return one.error.has_value(); }))  // more work is better
+        const auto known = [](const Candidate& one) { return one.error.has_value(); };
+        if (!keep(known))  // the more work, the better
             return *std::max_element(candidates.begin(), candidates.end(), quicker);
         double least = std::numeric_limits<double>::max();
         for (const Candidate& one : candidates) least = std::min(least, *one.error);
@@ -95,10 +96,10 @@ void choose_method(const cl::Device& device, Plan& plan) {
 
     plan = best.plan;
     plan.why = choice.why;
-    plan.error = best.error;
-    if (best.error) plan.error_ground = ground_of_error(plan);
+    if (!leaves_out_by_wish(plan)) plan.error = best.error;
+    if (plan.error) plan.error_ground = ground_of_error(plan);
     plan.meets_time = !wish.seconds || quick(best);
-    plan.meets_error = !wish.error || right(best);
+    plan.meets_error = !wish.error || (plan.error && right(best));
     plan.unavoidable = unavoidable(plan, plan.method);
     for (EffectChoice& effect : plan.effects)
         effect.by = effect.on ? carrier_of(plan, plan.method, effect.effect).by : "";

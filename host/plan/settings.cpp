@@ -5,18 +5,17 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/sky.hpp"
+
 namespace clgi {
 namespace {
 
 // Brings the settings to the effects: what is off is switched off.
 void apply_effects(Plan& plan) {
     const BuildOptions& build = plan.wish.build;
-    // The sky of these methods is a few directional lights, with shadow maps as others have.
-    const bool sky = plan.method == Method::direct || plan.method == Method::second_order ||
-                     plan.method == Method::light_atlas;
     const bool shadows =
         plan.on(Effect::direct_shadows) ||
-        (sky && plan.on(Effect::environment_light) && plan.on(Effect::environment_shadows));
+        (has_sky_lights(plan.method) && has_sky(plan) && plan.on(Effect::environment_shadows));
     const auto emitters = [&](EmitterOptions& options) { options.shadows = shadows; };
 
     emitters(plan.picture.emitters);
@@ -107,8 +106,7 @@ double fineness_of(const Plan& plan) {
     const auto at_most = [&](int is, int was) {
         out = std::min(out, static_cast<double>(is) / was);
     };
-    const bool sky = plan.on(Effect::environment_light) && plan.facts.lights.environment;
-    if (plan.on(Effect::spot_light) || plan.on(Effect::directional_light) || sky)
+    if (plan.on(Effect::spot_light) || plan.on(Effect::directional_light) || has_sky(plan))
         at_most(options.shadow_size, usual.shadow_size);
     if (plan.on(Effect::point_light) || plan.on(Effect::area_light))
         at_most(options.face_size, usual.face_size);

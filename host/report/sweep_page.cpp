@@ -165,12 +165,10 @@ std::string once_table(const Sweep& sweep) {
     std::string out =
         sweep.of == SweepOf::vertices
             ? "<h2>Visible sets</h2>\n<p>Looking is done once, before all frames, and is no part "
-              "of "
-              "their time.</p>\n"
+              "of their time.</p>\n"
             : "<h2>Done once</h2>\n<p>What stays good while geometry stands still is no part of a "
               "frame's time: elements and links of antiradiance, layout and first bake of an "
-              "atlas, "
-              "transfer vectors.</p>\n";
+              "atlas, transfer vectors.</p>\n";
     out +=
         "<table><tr><th>method</th><th>settings</th><th>once, ms</th>"
         "<th>ms</th>";

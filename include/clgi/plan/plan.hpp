@@ -71,7 +71,8 @@ struct Plan {
     std::vector<Effect> unavoidable;
     PlanCost cost;
     // Error against all light that the method reaches with such settings on scenes of this kind, as
-    // measured, and where; none where nothing was measured.
+    // measured, and where; none where nothing was measured, the probe saw no light, or the wish
+    // leaves out what the scene calls for.
     std::optional<double> error;
     std::string error_ground;
     // As predicted; true where nothing was asked for, meets_error false where the error is unknown.

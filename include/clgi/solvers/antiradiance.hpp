@@ -80,11 +80,11 @@ struct AntiradianceStatus {
 
 // What an AntiradianceSolver of these options will allocate, and how long its run() will take,
 // about. Elements are made, and the links of 128 leaves are counted in place of all: that takes a
-// fifth of the time of linking at most. Bytes are within a twentieth as a rule. Milliseconds are of `steps` steps. Where these are 0, they are of 20,
-// about what the symmetric iteration takes; where that is given up run() takes ten times as long.
-// scene: what `device_scene` was made from. Throws for options and scenes that the solver refuses,
-// but not for what only all links show: too little memory, more than 2^32 links, or a form factor
-// that is not finite.
+// fifth of the time of linking at most. Bytes are within a twentieth as a rule. Milliseconds are of
+// `steps` steps. Where these are 0, they are of 20, about what the symmetric iteration takes; where
+// that is given up run() takes ten times as long. scene: what `device_scene` was made from. Throws
+// for options and scenes that the solver refuses, but not for what only all links show: too little
+// memory, more than 2^32 links, or a form factor that is not finite.
 CLGI_API Estimate estimate(const cl::Device& device, const Scene& scene,
                            const DeviceScene& device_scene,
                            const AntiradianceOptions& options = {});
