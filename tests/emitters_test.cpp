@@ -66,10 +66,40 @@ TEST_P(Shares, OfSourcesWithoutLightsAreSentByTheOthers) {
     world.lights = {test::point_light({0.1, 0, 0}, 10.0f), test::point_light({0, 0.2, 0}, 1.0f)};
     const DeviceScene scene = test::on_device(world);
     for (const int count : {1, 3, 200})
-        EXPECT_NEAR(test::total_flux(
-                        scene, test::place_lights(scene, {.vpls = count}, GetParam()).lights),
-                    0.5 * 4 * pi * 11, 1e-5 * 0.5 * 4 * pi * 11)
+        EXPECT_NEAR(
+            test::total_flux(scene, test::place_lights(scene, {.vpls = count}, GetParam()).lights),
+            0.5 * 4 * pi * 11, 1e-5 * 0.5 * 4 * pi * 11)
             << count;
+}
+
+// In a closed room a lamp, outside a sun of 10^6 times its power.
+TEST_P(Shares, OfADimLampReachItsRoom) {
+    Scene world = test::plain_scene({0.5f, 0.4f, 0.3f});
+    world.materials[0].double_sided = true;
+    test::add_box(world, {-1, -1, -1}, {1, 1, 1}, -1);
+    world.lights = {test::point_light({0.1, 0, 0}, 1.0f), test::directional_light({0.3, -1, 0.2})};
+    world.lights[1].intensity = glm::vec3(1e6f);
+    const DeviceScene scene = test::on_device(world);
+    std::vector<Vpl> inside;
+    for (const Vpl& vpl : test::place_lights(scene, {.vpls = 300}, GetParam()).lights)
+        if (glm::dot(glm::vec3(vpl.position), glm::vec3(vpl.normal)) < 0.0f) inside.push_back(vpl);
+    EXPECT_GE(inside.size(), 37u);
+    EXPECT_NEAR(test::total_flux(scene, inside), 0.5 * 4 * pi, 1e-5 * 0.5 * 4 * pi);
+}
+
+// A sixteenth each: the lamp, the sun, the sky, the glowing floor; not each sample or direction.
+TEST(Emitters, ShareAQuarterOfTheLightsEvenly) {
+    Scene world = scene_of_all();
+    world.lights.resize(2);
+    world.lights[0].intensity = glm::vec3(1e9f);
+    const EmitterSet set = make_emitters(test::on_device(world), {.vpls = 2560});
+    std::size_t of_surfaces = 0, of_sky = 0;
+    for (std::size_t i = 2; i < set.emitters.size(); ++i)
+        (set.emitters[i].kind == EMITTER_AREA ? of_surfaces : of_sky) += set.emitters[i].vpl_count;
+    EXPECT_NEAR(static_cast<double>(set.emitters[0].vpl_count), 2080.0, 1.0);
+    EXPECT_NEAR(static_cast<double>(set.emitters[1].vpl_count), 160.0, 1.0);
+    EXPECT_EQ(of_surfaces, 160u);
+    EXPECT_EQ(of_sky, 160u);
 }
 
 // Lumen of a spot of 1 cd, by the fall-off as KHR_lights_punctual states it, ring by ring.
@@ -86,7 +116,7 @@ double cone_flux(double inner, double outer) {
     return sum * outer / rings;
 }
 
-TEST(Emitters, ShareLightsByTheFluxOfTheirCones) {
+TEST(Emitters, ShareThreeQuartersOfTheLightsByTheFluxOfTheirCones) {
     constexpr int count = 1 << 20;
     const struct {
         double inner, outer;
@@ -104,8 +134,9 @@ TEST(Emitters, ShareLightsByTheFluxOfTheirCones) {
     const EmitterSet set = make_emitters(test::on_device(scene), {.vpls = count});
     ASSERT_EQ(set.emitters.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) {
-        const double wanted =
-            count * double{spots[i].candela} * cone_flux(spots[i].inner, spots[i].outer) / total;
+        const double by_flux =
+            double{spots[i].candela} * cone_flux(spots[i].inner, spots[i].outer) / total;
+        const double wanted = count * (0.75 * by_flux + 0.25 / 4);
         // One light of rounding, and the float angles' own.
         EXPECT_NEAR(set.emitters[i].vpl_count, wanted, 2.0 + 1e-5 * wanted) << i;
     }

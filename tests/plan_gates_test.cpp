@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <cstdlib>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
@@ -19,13 +20,25 @@ using test::distance;
 using test::mean;
 using test::Pixels;
 
-// The first scene, and the one after the last.
-std::pair<int, int> scene_numbers() {
+std::vector<int> scene_numbers() {
     const char* wanted = std::getenv("CLGI_GATES");
-    const std::string text = wanted ? wanted : "40";
+    // Scenes 57, 153 and 277 have a bright lamp that lights nothing beside a dim one; 636 has no
+    // triangle thicker than rounding; in 782 none of those that emit has an area; of 2517's lamp
+    // one direction of fifty meets a wall within its range.
+    if (!wanted) {
+        std::vector<int> out(40);
+        std::iota(out.begin(), out.end(), 0);
+        out.insert(out.end(), {57, 153, 277, 636, 782, 2517});
+        return out;
+    }
+    const std::string text = wanted;
     const std::size_t dash = text.find('-');
-    if (dash == std::string::npos) return {0, std::stoi(text)};
-    return {std::stoi(text), std::stoi(text.substr(dash + 1)) + 1};
+    const int first = dash == std::string::npos ? 0 : std::stoi(text);
+    const int end =
+        dash == std::string::npos ? std::stoi(text) : std::stoi(text.substr(dash + 1)) + 1;
+    std::vector<int> out(static_cast<std::size_t>(std::max(end - first, 0)));
+    std::iota(out.begin(), out.end(), first);
+    return out;
 }
 
 struct Given {
@@ -75,6 +88,13 @@ void expect_light(const Pixels& picture) {
             ASSERT_TRUE(std::isfinite(pixel[c]) && pixel[c] >= 0.0f) << pixel[c];
 }
 
+// Without textures, which the path tracer filters otherwise than the library.
+Given untextured(Given of) {
+    for (Material& material : of.scene.materials)
+        material.base_texture.texture = material.emission_texture.texture = -1;
+    return of;
+}
+
 // Pixels that differ by more than a hundredth.
 int unlike(const Pixels& a, const Pixels& b) {
     int out = 0;
@@ -89,8 +109,7 @@ TEST(Gates, OfRandomScenesGiveFiniteLightOrRefuseInOneLine) {
     constexpr Method methods[] = {Method::direct, Method::second_order, Method::light_atlas,
                                   Method::antiradiance, Method::dynamic_transfer};
     int taken = 0, refused = 0;
-    const auto [first, end] = scene_numbers();
-    for (int seed = first; seed < end; ++seed) {
+    for (const int seed : scene_numbers()) {
         SCOPED_TRACE("scene " + std::to_string(seed));
         const Given of = given(static_cast<unsigned>(seed));
         std::string why;
@@ -113,8 +132,7 @@ TEST(Gates, OfRandomScenesGiveFiniteLightOrRefuseInOneLine) {
 TEST(Gates, LeaveOutNoMoreThanTheySay) {
     int shadows = 0, bounces = 0, measured = 0;
     double worst = 0.0;
-    const auto [first, end] = scene_numbers();
-    for (int seed = first; seed < end; ++seed) {
+    for (const int seed : scene_numbers()) {
         SCOPED_TRACE("scene " + std::to_string(seed));
         const Given of = given(static_cast<unsigned>(seed));
         std::string why;
@@ -133,8 +151,9 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
         if (off(Effect::direct_shadows, Ground::proven)) {
             PlanWish wish = test::quick({}, {Effect::first_bounce});
             wish.method = Method::direct;
-            const auto lean = picture(of, wish, why);
-            const Pixels truth = test::traced(of.scene, of.camera, 1, direct);
+            const Given plain = untextured(of);
+            const auto lean = picture(plain, wish, why);
+            const Pixels truth = test::traced(plain.scene, plain.camera, 1, direct);
             ASSERT_TRUE(lean) << why;
             // Single pixels at the edges of surfaces and cones.
             const double apart = distance(*lean, truth);

@@ -216,15 +216,37 @@ void count_views(const std::vector<Source>& sources, EmitterRoom& room) {
     }
 }
 
-// Largest remainders: shares in proportion to power, their sum exactly `lights`.
+// Of the VPLs, how many are shared evenly, whatever the power: a dim lamp may be all that lights
+// what the camera sees, while most of the power goes by.
+constexpr double even = 0.25;
+
+// Shares of the sources, 1 in sum: by power, and a part of them evenly to each lamp, to all
+// directions and to all samples together.
+std::vector<double> wanted_shares(const std::vector<Source>& sources) {
+    std::array<double, group_count> power{};
+    double total = 0.0, units = 0.0;
+    for (const Source& source : sources) {
+        total += source.power;
+        power[source.group] += source.power;
+        units += source.group == lamps;
+    }
+    for (const Group together : {environment, surfaces}) units += power[together] > 0.0;
+    std::vector<double> out;
+    for (const Source& source : sources) {
+        const double of_unit = source.group == lamps ? 1.0 : source.power / power[source.group];
+        out.push_back((1.0 - even) * (source.power / total) + even * of_unit / units);
+    }
+    return out;
+}
+
+// Whole lights by largest remainders, their sum exactly `lights`.
 std::vector<std::uint32_t> divide(const std::vector<Source>& sources, int lights) {
-    double total = 0.0;
-    for (const Source& source : sources) total += source.power;
+    const std::vector<double> wanted = wanted_shares(sources);
     std::vector<std::uint32_t> shares;
     std::vector<std::pair<double, std::size_t>> rests;
     std::uint32_t given = 0;
     for (std::size_t i = 0; i < sources.size(); ++i) {
-        const double exact = lights * (sources[i].power / total);
+        const double exact = lights * wanted[i];
         shares.push_back(static_cast<std::uint32_t>(exact));
         given += shares.back();
         rests.emplace_back(exact - shares.back(), i);

@@ -43,8 +43,8 @@ Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment
         add(static_cast<double>(lights.points), 6.0, options.face_size);
     if (plan.on(Effect::spot_light)) add(static_cast<double>(lights.spots), 1.0, map);
     if (plan.on(Effect::directional_light)) add(static_cast<double>(lights.directional), 1.0, map);
-    if (plan.on(Effect::area_light) && lights.emissive_triangles > 0)
-        add(options.area_samples, 3.0, options.face_size);  // a whole face and four halves
+    // A whole face and four halves. What has no area here may have some on the device, rounded.
+    if (plan.on(Effect::area_light)) add(options.area_samples, 3.0, options.face_size);
     if (environment) add(options.environment_lights, 1.0, map);
     return out;
 }

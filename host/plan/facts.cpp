@@ -24,6 +24,9 @@ SceneFacts scene_facts(const Scene& scene) {
     out.size = glm::distance(box.low, box.high);
 
     const std::vector<LocalTriangle> triangles = local_triangles(scene);
+    out.surfaces.degenerate = static_cast<std::size_t>(
+        std::count_if(triangles.begin(), triangles.end(),
+                      [](const LocalTriangle& triangle) { return triangle.is_line(); }));
     // moving_bounds: a caller says that it will move vertices.
     if (!out.motion.geometry && !scene.moving_bounds) {
         out.proof = prove_openness(scene, triangles, lights.emissive);

@@ -55,6 +55,7 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
     const auto start = std::chrono::steady_clock::now();  // kernels are built
     const std::vector<double> lit = picture_luminance(queue, solver, solver.render(camera));
     const double flux = options.indirect ? reflected_flux(queue, solver) : 0.0;
+    const bool unseen = options.indirect && !(flux > 0.0);
     options.indirect = false;
     solver.reconfigure(options);
     const std::vector<double> direct = picture_luminance(queue, solver, solver.render(camera));
@@ -68,11 +69,13 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
     const double radiance = lumen / (std::numbers::pi * plan.facts.surfaces.area);
     ProbeFacts out;
     const double level = mean(lit);
-    // A picture without light tells nothing about light that arrives over more bounces.
+    // A picture without light tells nothing about light that arrives over more bounces, and VPLs
+    // without light nothing about what lights the picture.
     out.first_bounce = out.reflected = out.direct_error = std::numeric_limits<double>::infinity();
-    if (level > 0.0) {
-        out.first_bounce = std::sqrt(mean_square_difference(lit, direct)) / level;
+    if (level > 0.0)
         out.direct_error = std::sqrt(coarse * mean_square_difference(direct, finer)) / level;
+    if (level > 0.0 && !unseen) {
+        out.first_bounce = std::sqrt(mean_square_difference(lit, direct)) / level;
         out.reflected = radiance / level;
     }
     out.milliseconds =

@@ -184,12 +184,8 @@ SurfaceFacts surface_facts(const Scene& scene, const std::vector<TriangleAlbedo>
         out.cutouts = out.cutouts || has_holes(scene, scene.materials[m], uses[m]);
     }
     std::vector<double> edges;
-    for (const SceneTriangle& triangle : scene.triangles) {
-        if (triangle_area(scene, triangle) > 0.0)
-            edges.push_back(longest_edge(scene, triangle));
-        else
-            ++out.degenerate;
-    }
+    for (const SceneTriangle& triangle : scene.triangles)
+        if (triangle_area(scene, triangle) > 0.0) edges.push_back(longest_edge(scene, triangle));
     if (edges.empty()) return out;
     const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
     std::nth_element(edges.begin(), middle, edges.end());

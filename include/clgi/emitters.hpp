@@ -11,7 +11,7 @@
 namespace clgi {
 
 struct EmitterOptions {
-    int vpls = 300;               // virtual point lights (VPLs), shared by power
+    int vpls = 300;               // virtual point lights (VPLs), of all emitters together
     int shadow_size = 512;        // pixels per side of a spot or directional light's map
     int face_size = 256;          // pixels per side of a cube or hemicube face
     int area_samples = 16;        // sample points on all emissive surfaces together
@@ -53,9 +53,11 @@ struct EmitterSet {
 
 // One emitter for each punctual light, `area_samples` for the emissive triangles (stratified by
 // power) and `environment_lights` for the environment (median cut [Debevec05]), each with its views
-// (without EmitterOptions::shadows: none) and its share of the VPLs. Lights without power are left
-// out. Emitters too weak for a VPL of their own leave their indirect light to the others of their
-// group (punctual lights, directions, samples). A group without any VPL leaves it to all. Power is
+// (without EmitterOptions::shadows: none) and its share of the VPLs: three quarters of them by
+// power, a quarter evenly to each lamp, to the emissive triangles and to the environment, so that a
+// dim lamp has some beside a bright one that lights nothing. Lights without power are left out.
+// Emitters too weak for a VPL of their own leave their indirect light to the others of their group
+// (punctual lights, directions, samples). A group without any VPL leaves it to all. Power is
 // luminance.
 //
 // A spot of more than 60 degrees from its axis has the views of a cube, like a point light.

@@ -60,6 +60,7 @@ struct EffectChoice {
 using EffectChoices = std::array<EffectChoice, effect_count>;  // by Effect
 
 // What small pictures tell beyond the facts.
+// Infinite where the camera sees no light; the first two also where no VPL has any.
 struct ProbeFacts {
     // Root of the mean squared luminance that one bounce, unshadowed, adds to the camera's picture,
     // over the mean luminance of that picture.
@@ -67,10 +68,10 @@ struct ProbeFacts {
     // Mean luminance of surfaces by what they reflect of direct light, over all of the scene and
     // over the mean luminance of that picture.
     double reflected = 0.0;
-    // What direct light with the defaults of EmitterOptions errs by, about: root of the mean squared
-    // difference of luminance over the mean luminance. From pictures with shadow maps of a quarter
-    // and of half the pixels along a side, and as many points on emissive surfaces: an error of
-    // pixels on edges falls with the square root of these.
+    // What direct light with the defaults of EmitterOptions errs by, about: root of the mean
+    // squared difference of luminance over the mean luminance. From pictures with shadow maps of a
+    // quarter and of half the pixels along a side, and as many points on emissive surfaces: an
+    // error of pixels on edges falls with the square root of these.
     double direct_error = 0.0;
     double milliseconds = 0.0;  // that the pictures took, without building kernels
 };

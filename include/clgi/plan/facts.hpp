@@ -60,7 +60,7 @@ struct SurfaceFacts {
     bool cutouts = false;   // a mask material in use may have alpha below its cutoff
     // m, of the longest edges of triangles with area.
     double smallest_edge = 0.0, median_edge = 0.0, largest_edge = 0.0;
-    std::size_t degenerate = 0;  // triangles without area
+    std::size_t degenerate = 0;  // triangles without area, to within the rounding of positions
 };
 
 struct MotionFacts {
