@@ -159,7 +159,12 @@ TEST(Plan, KnowsErrorsWhereTheyWereMeasuredAlone) {
     EXPECT_TRUE(make_plan(device, facts, wish).error);
     EXPECT_TRUE(make_plan(device, facts, wish).meets_error);
     wish.without.clear();
-    facts.surfaces.largest_albedo = 0.0;
+    facts.surfaces.largest_albedo = 0.0;  // nothing is lit, so no shadow map is wrong
+    plan = make_plan(device, facts, wish);
+    EXPECT_FALSE(plan.on(Effect::direct_shadows));
+    EXPECT_EQ(plan.error, 0.0);
+    facts.surfaces.largest_albedo = 0.5;
+    facts.proof.surfaces_apart = true;
     plan = make_plan(device, facts, wish);
     ASSERT_TRUE(plan.error);
     EXPECT_GT(*plan.error, 0.0);  // shadow maps err

@@ -48,8 +48,13 @@ Decision has(bool present, const char* what) {
                    : absent(std::string("the scene has no ") + what);
 }
 
+constexpr const char* no_reflection = "no surface reflects light";
+
+bool reflects_nothing(const SceneFacts& facts) { return facts.surfaces.largest_albedo <= 0.0; }
+
 Decision direct_shadows(const SceneFacts& facts) {
     if (!facts.lights.any_direct()) return absent("no light but the environment");
+    if (reflects_nothing(facts)) return proven(no_reflection);
     if (facts.proof.lights_open)
         return proven("the surfaces are convex: nothing lies between them and the lights");
     return needed("something may lie between a light and a surface");
@@ -57,6 +62,7 @@ Decision direct_shadows(const SceneFacts& facts) {
 
 Decision environment_shadows(const SceneFacts& facts) {
     if (!facts.lights.environment) return absent("no environment");
+    if (reflects_nothing(facts)) return proven(no_reflection);
     if (facts.proof.environment_open)
         return proven("the surfaces are convex: nothing lies before any of them");
     return needed("something may lie before a surface");
@@ -73,7 +79,7 @@ double further_bound(const SceneFacts& facts, const ProbeFacts& probe) {
 Decision first_bounce(const SceneFacts& facts, double tolerance,
                       const std::optional<ProbeFacts>& probe) {
     if (!facts.lights.any_direct() && !facts.lights.environment) return absent("no light");
-    if (facts.surfaces.largest_albedo <= 0.0) return proven("no surface reflects light");
+    if (reflects_nothing(facts)) return proven(no_reflection);
     if (facts.proof.surfaces_apart) return proven("no surface faces another");
     Decision out = needed("surfaces that reflect light face each other");
     if (!probe || !bounds_indirect_light(facts)) return out;

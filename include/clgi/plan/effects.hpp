@@ -60,7 +60,8 @@ struct EffectChoice {
 using EffectChoices = std::array<EffectChoice, effect_count>;  // by Effect
 
 // What small pictures tell beyond the facts.
-// Infinite where the camera sees no light; the first two also where no VPL has any.
+// 0 where no surface reflects light. Infinite where the camera sees none; the first two also where
+// no VPL has any.
 struct ProbeFacts {
     // Root of the mean squared luminance that one bounce, unshadowed, adds to the camera's picture,
     // over the mean luminance of that picture.
