@@ -73,16 +73,17 @@ TEST(OpenTransport, IsTheSameForEveryWidthGroupAndBatch) {
 
 // ---- the share that surfaces fill --------------------------------------------------------------
 
-// The share of a VPL at a point of the world, the 19th shooter of 21; others lie behind
-// everything.
+// The share of a VPL at a point of the world, the 19th shooter of 21; others lie high above
+// everything and see nothing: they look up, or `down` on what shows its back to them.
 float reach(const Scene& world, const glm::vec3& normal = glm::vec3(0, 0, 1),
-            const glm::dvec3& at = glm::dvec3(0), float lift = 0.0f, Math math = Math::strict) {
+            const glm::dvec3& at = glm::dvec3(0), float lift = 0.0f, Math math = Math::strict,
+            bool down = false) {
     const DeviceScene scene = test::on_device(world);
     std::vector<SitePlace> places;
     std::vector<cl_uint> order;
     for (cl_uint i = 0; i < 24; ++i) {
         const glm::vec3 p = i == 9 ? scene.frame().to_local(at) : glm::vec3(0, 0, 1000);
-        const glm::vec3 n = i == 9 ? normal : glm::vec3(0, 0, 1);
+        const glm::vec3 n = i == 9 ? normal : glm::vec3(0, 0, down ? -1 : 1);
         places.push_back({p, n, 1e-4f, glm::vec3(1.0f), {{p, n, n}}});
         order.push_back((i * 7 + 13) % 24);
     }
@@ -141,8 +142,10 @@ TEST_P(OpenReach, OfARectangleIsItsFormFactor) {
     for (const auto& [a, b, h] : {std::tuple{1.0, 1.0, 1.0}, {3.0, 0.2, 0.5}, {0.05, 2.0, 2.0}}) {
         Scene world = specks();
         test::add_quad(world, {glm::dvec3(0, 0, h), {0, b, h}, {a, b, h}, {a, 0, h}});
-        EXPECT_NEAR(reach(world, {0, 0, 1}, glm::dvec3(0), 0.0f, GetParam()),
-                    corner_factor(a, b, h), 2e-7 + 2e-6 * corner_factor(a, b, h));
+        for (const bool others_see_its_back : {false, true})
+            EXPECT_NEAR(
+                reach(world, {0, 0, 1}, glm::dvec3(0), 0.0f, GetParam(), others_see_its_back),
+                corner_factor(a, b, h), 2e-7 + 2e-6 * corner_factor(a, b, h));
     }
 }
 
