@@ -69,7 +69,7 @@ TEST(SolidAngle, OfTrianglesInClosedForm) {
 
 TEST(BinChoice, IsTheNearestBinThatBothEndsAllow) {
     const DirectionBins bins = direction_bins(128);
-    const BinChoice choose(bins);
+    BinChoice choose(bins);
     test::Random random(4);
     const auto any = [&] {
         return glm::normalize(glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1)));

@@ -15,12 +15,11 @@ using nlohmann::json;
 
 class MovingAntiradianceProgram : public test::Program {
 protected:
-    test::Outcome render(const std::string& flags) const {
+    test::Outcome render(const std::string& flags, int elements = 1500) const {
         const std::string path = file("chess.glb").string();
         if (!std::filesystem::exists(path)) io::save_glb(chess(), path);
-        return run("render " + path +
-                   " --method antiradiance --size 64x48 --elements 1500 --bins 64 --environment "
-                   "1,1,1 -o " +
+        return run("render " + path + " --method antiradiance --size 64x48 --elements " +
+                   std::to_string(elements) + " --bins 64 --environment 1,1,1 -o " +
                    file("out.exr").string() + " " + flags);
     }
     std::vector<float> green(const std::string& name) const {
@@ -53,8 +52,9 @@ TEST_F(MovingAntiradianceProgram, PlaysTheAnimation) {
     const auto first = green("out.0000.exr"), second = green("out.0001.exr");
     EXPECT_GT(apart(first, second), 0.05);
 
-    // The frame of a second is that of the scene posed there.
-    ASSERT_EQ(render("--time 1").code, 0);
+    // The frame of a second is that of the scene posed there, with as many leaves: where nothing
+    // moves, fewer would do.
+    ASSERT_EQ(render("--time 1", found.at("leaves")).code, 0);
     EXPECT_LT(apart(second, green("out.exr")), 0.03);
     EXPECT_LT(apart(second, green("out.exr")), 0.3 * apart(first, second));
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 // What holds for any tree with leaves at vertices. Returns how many it has.
-std::size_t expect_consistent(const ElementTree& tree) {
+std::size_t expect_consistent(const ElementTree& tree, bool joined = false) {
     if (tree.first_thirds.empty()) return 0;
     EXPECT_EQ(tree.first_thirds.size(), tree.count() + 1);
     EXPECT_EQ(tree.first_thirds.back(), tree.thirds.size());
@@ -43,7 +43,9 @@ std::size_t expect_consistent(const ElementTree& tree) {
         for (std::uint32_t t = tree.first_thirds[i]; t < tree.first_thirds[i + 1]; ++t) {
             const VertexThird& third = tree.thirds[t];
             EXPECT_TRUE(used.insert({third.triangle, third.corner, tree.backs[i]}).second);
-            EXPECT_EQ(third.corners[0], tree.thirds[tree.first_thirds[i]].corners[0]);
+            if (!joined) {
+                EXPECT_EQ(third.corners[0], tree.thirds[tree.first_thirds[i]].corners[0]);
+            }
             const auto& p = third.corners;
             across += glm::cross(p[1] - p[0], p[2] - p[0]) / 6.0;
             area += glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) / 6.0;
@@ -68,7 +70,7 @@ double area_of(const Scene& scene) {
 TEST(VertexElements, OfASphereAreItsVertices) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {1, 2, 3}, 0.5, 3, 1);
-    const ElementTree tree = make_elements(scene, {.wished = 100});
+    const ElementTree tree = make_elements(scene, {.wished = 642});
     EXPECT_EQ(expect_consistent(tree), 642u);
     EXPECT_EQ(tree.leaves, 642u);
     EXPECT_EQ(tree.thirds.size(), 3u * 1280u);
@@ -82,7 +84,61 @@ TEST(VertexElements, OfASphereAreItsVertices) {
         EXPECT_EQ(tree.backs[i], 0);
         EXPECT_LT(tree.triangles[i], 1280u);
     }
-    EXPECT_EQ(make_elements(scene, {.wished = 100, .vertices = false}).leaves, 1280u);
+    EXPECT_EQ(make_elements(scene, {.wished = 642, .vertices = false}).leaves, 1280u);
+}
+
+// Where vertices are more than leaves are wished: whole, small, round and facing one way.
+TEST(VertexElements, AreJoinedToTheWishedNumber) {
+    Scene scene = test::plain_scene();
+    test::add_sphere(scene, {1, 2, 3}, 0.5, 5, 1);
+    for (const std::size_t wished : {100u, 700u, 5000u}) {
+        const ElementTree tree = make_elements(scene, {.wished = wished});
+        EXPECT_EQ(expect_consistent(tree, true), tree.leaves);
+        EXPECT_GT(tree.leaves, wished * 2 / 3);
+        EXPECT_LT(tree.leaves, wished * 3 / 2);
+        EXPECT_EQ(tree.thirds.size(), 3u * 20480u);
+        EXPECT_NEAR(tree.areas[0], area_of(scene), 1e-12 * tree.areas[0]);
+        const double mean = tree.areas[0] / static_cast<double>(tree.leaves);
+        for (std::size_t i = 0; i < tree.count(); ++i) {
+            if (!tree.is_leaf(i)) continue;
+            EXPECT_LT(tree.areas[i], 4.0 * mean);
+            EXPECT_LT(tree.radii[i], 3.0 * std::sqrt(mean));
+            const glm::dvec3 out = tree.positions[i] - glm::dvec3(1, 2, 3);
+            EXPECT_GT(glm::dot(glm::normalize(out), tree.normals[i]), 0.99);
+        }
+    }
+}
+
+// Across a sharp crease, between materials and to another piece nothing is joined.
+TEST(VertexElements, AreNotJoinedAcrossCreasesAndMaterials) {
+    Scene scene = test::plain_scene();
+    Material other;
+    const std::uint32_t material = test::add_material(scene, other);
+    const int n = 24;
+    const auto sheet = [&](const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
+                           std::uint32_t of) {
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                const auto at = [&](int i, int j) {
+                    return corner + (double(i) / n) * u + (double(j) / n) * v;
+                };
+                test::add_quad(scene, {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}, of);
+            }
+    };
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    sheet({0, 0, 0}, z, x, 0);         // a floor
+    sheet({0, 0, 0}, x, y, 0);         // a wall on its edge
+    sheet({1, 0, 0}, z, x, material);  // more floor
+    sheet({0, 1e-2, 0}, z, x, 0);      // a board above it
+    const ElementTree tree = make_elements(scene, {.wished = 400});
+    EXPECT_EQ(expect_consistent(tree, true), tree.leaves);
+    EXPECT_LT(tree.leaves, 700u);
+    for (std::size_t i = 0; i < tree.count(); ++i) {
+        if (!tree.is_leaf(i)) continue;
+        const VertexThird& first = tree.thirds[tree.first_thirds[i]];
+        for (std::uint32_t t = tree.first_thirds[i]; t < tree.first_thirds[i + 1]; ++t)
+            EXPECT_EQ(tree.thirds[t].triangle / (2 * n * n), first.triangle / (2 * n * n)) << i;
+    }
 }
 
 // No leaf is larger than it would be without them; pieces of coarser triangles are as they were.
@@ -248,9 +304,11 @@ TEST(VertexElements, SeeClosedRooms) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {0, 0, 0}, 2.0, 4, -1);
     const DirectionBins bins = direction_bins(512);
-    for (const bool vertices : {true, false}) {
-        const ElementTree tree = make_elements(scene, {.wished = 1000, .vertices = vertices});
-        EXPECT_EQ(expect_consistent(tree), vertices ? 2562u : 0u);
+    // At vertices, joined ones, and faces.
+    for (const auto& [wished, vertices] : {std::pair(2562u, true), {1000u, true}, {1000u, false}}) {
+        const ElementTree tree = make_elements(scene, {.wished = wished, .vertices = vertices});
+        EXPECT_EQ(expect_consistent(tree, true), vertices ? tree.leaves : 0u);
+        EXPECT_EQ(tree.leaves == 2562u, wished == 2562u);
         const Links links = make_links(tree, bins);
         for (const float f : links.form_factors) ASSERT_TRUE(std::isfinite(f) && f > 0.0f);
         const test::Arrived all = test::send_one(tree, bins, links);

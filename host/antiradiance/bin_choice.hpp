@@ -4,6 +4,7 @@
 
 #include <clgi/direction_bins.hpp>
 #include <optional>
+#include <vector>
 
 namespace clgi {
 
@@ -17,6 +18,8 @@ struct BinDemand {
     }
 };
 
+// Not for several threads: it remembers the bin of the last direction, which is often that of the
+// next one.
 class BinChoice {
 public:
     explicit BinChoice(const DirectionBins& bins);
@@ -24,11 +27,15 @@ public:
     // The bin nearest to `direction` (unit) among those that meet both demands, at most twice the
     // mean spacing of bins away.
     std::optional<int> operator()(const glm::dvec3& direction, const BinDemand& sender,
-                                  const BinDemand& receiver) const;
+                                  const BinDemand& receiver);
 
 private:
+    int nearest(const glm::dvec3& direction);
+
     const DirectionBins& bins_;
-    double farthest_;  // cosine
+    double farthest_;           // cosine
+    std::vector<double> sure_;  // [bins] cosine of half the angle to the nearest other bin
+    int last_ = 0;
 };
 
 }  // namespace clgi

@@ -260,15 +260,27 @@ void find_flat_clusters(ElementTree& tree) {
     }
 }
 
-// Faces, and leaves at vertices unless there would be fewer leaves than wished.
+// Joined cells have about this share of the area that they may have.
+constexpr double joined_share = 0.7;
+
+// Faces, and leaves at vertices unless there would be fewer leaves than wished; joined ones where
+// there would be more.
 VertexCells mixed_leaves(const Scene& scene, const Faces& faces, double max_area,
                          const ElementOptions& options) {
     const VertexCells all_faces{{}, {}, faces.faces};
     if (!options.vertices) return all_faces;
     VertexCells out = make_vertex_cells(scene, faces, max_area);
-    const double leaves = count_leaves(out.faces, max_area) + static_cast<double>(out.cells.size());
-    const bool too_few = options.max_area == 0.0 && leaves < static_cast<double>(options.wished);
-    return too_few ? all_faces : out;
+    if (options.max_area > 0.0) return out;
+    const auto wished = static_cast<double>(options.wished);
+    const double coarse = count_leaves(out.faces, max_area);
+    const double leaves = coarse + static_cast<double>(out.cells.size());
+    if (leaves < wished) return all_faces;
+    if (leaves == wished || out.cells.empty()) return out;
+    double area = 0.0;
+    for (const VertexCell& cell : out.cells) area += cell.area;
+    const double joined = std::max(wished - coarse, 0.25 * wished);
+    return make_vertex_cells(scene, faces, max_area,
+                             std::min(area / (joined_share * joined), max_area));
 }
 
 void mark_moving(const std::vector<std::uint8_t>& moves, ElementTree& tree) {

@@ -27,6 +27,10 @@ constexpr double least_sent = 1e-2, least_received = 1e-6;
 constexpr double part_share = 0.25;
 constexpr int most_cuts = 8;
 
+// Thirds, and groups of them, are points where their squared radius is less than this share of
+// their squared distance, which is about the error of their solid angle.
+constexpr double far = 1e-2;
+
 constexpr double rounding = 1e-12;  // of heights above a sender, as a share of its radius
 
 }  // namespace
@@ -66,7 +70,7 @@ std::vector<double> hemisphere_scales(const ElementTree& tree, const DirectionBi
 
 Exchange::Exchange(const ElementTree& tree, const DirectionBins& bins,
                    const std::vector<double>& scales, const LinkOptions& options,
-                   std::shared_ptr<const SpreadTable> table)
+                   std::shared_ptr<const SpreadTable> table, const ThirdGroups& groups)
     : tree_(tree),
       bins_(bins),
       scales_(scales),
@@ -75,6 +79,7 @@ Exchange::Exchange(const ElementTree& tree, const DirectionBins& bins,
       limit_(options.bin_share * bin_),
       spread_(options.spread),
       table_(std::move(table)),
+      groups_(groups),
       sums_(bins.directions.size(), 0.0) {}
 
 void Exchange::add(int bin, double solid_angle) {
@@ -122,11 +127,30 @@ void Exchange::spread_around(int bin, double angle) {
 double Exchange::cut_thirds(std::uint32_t sender, double side) {
     halves_.clear();
     double sum = 0.0;
-    for (std::uint32_t k = tree_.first_thirds[sender]; k < tree_.first_thirds[sender + 1]; ++k) {
-        const std::array<glm::dvec3, 4> p = outline(tree_.thirds[k]);
-        for (const Corners& half : {Corners{p[0], p[1], p[2]}, Corners{p[0], p[2], p[3]}}) {
-            halves_.emplace_back(half, side * signed_solid_angle(half, eye_));
-            sum += halves_.back().second;
+    const auto put = [&](const Corners& corners, double angle) {
+        halves_.emplace_back(corners, side * angle);
+        sum += halves_.back().second;
+    };
+    // True: it is far away and no larger than a part that bins tell apart, so it is a point.
+    const auto put_point = [&](const glm::dvec3& middle, const glm::dvec3& turned,
+                               double square_radius) {
+        const glm::dvec3 way = eye_ - middle;
+        const double square = glm::dot(way, way);
+        if (!(square_radius < far * square)) return false;
+        const double angle = glm::dot(turned, way) / (square * std::sqrt(square));
+        if (std::abs(angle) > part_share * bin_) return false;
+        put({middle, middle, middle}, angle);
+        return true;
+    };
+    for (const ThirdGroup& group : groups_.of(sender)) {
+        if (put_point(group.middle, group.vector_area, group.square_radius)) continue;
+        for (std::uint32_t k = group.first; k < group.end; ++k) {
+            const VertexThird& third = tree_.thirds[k];
+            const glm::dvec3 middle = centroid(third), corner = third.corners[0] - middle;
+            if (put_point(middle, vector_area(third), glm::dot(corner, corner))) continue;
+            const std::array<glm::dvec3, 4> p = outline(third);
+            for (const Corners& half : {Corners{p[0], p[1], p[2]}, Corners{p[0], p[2], p[3]}})
+                put(half, signed_solid_angle(half, eye_));
         }
     }
     return sum;

@@ -9,6 +9,7 @@
 
 #include "antiradiance/bin_choice.hpp"
 #include "antiradiance/spread_table.hpp"
+#include "antiradiance/third_groups.hpp"
 
 namespace clgi {
 
@@ -34,7 +35,8 @@ public:
     // scales: of hemisphere_scales()
     // table: for Spread::gaussian
     Exchange(const ElementTree& tree, const DirectionBins& bins, const std::vector<double>& scales,
-             const LinkOptions& options, std::shared_ptr<const SpreadTable> table);
+             const LinkOptions& options, std::shared_ptr<const SpreadTable> table,
+             const ThirdGroups& groups);
 
     // Appends the links from sender to receiver.
     void operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out);
@@ -78,11 +80,12 @@ private:
     const ElementTree& tree_;
     const DirectionBins& bins_;
     const std::vector<double>& scales_;
-    const BinChoice choose_;
+    BinChoice choose_;
     const double bin_;  // sr, mean
     const double limit_;
     const Spread spread_;
     const std::shared_ptr<const SpreadTable> table_;  // of Spread::gaussian alone
+    const ThirdGroups& groups_;
     std::size_t unrefined_ = 0;
 
     // Of the present pair.

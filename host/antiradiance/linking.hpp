@@ -23,7 +23,8 @@ public:
           bins_(bins),
           options_(options),
           refine_(tree, options.bin_share * 4.0 * pi / bins.count(), motion_of(poses)),
-          scales_(hemisphere_scales(tree, bins)) {
+          scales_(hemisphere_scales(tree, bins)),
+          groups_(tree) {
         if (options.spread == Spread::gaussian) table_ = std::make_shared<SpreadTable>(bins);
     }
     Linking(const Linking&) = delete;
@@ -32,7 +33,7 @@ public:
     const Refine& refine() const { return refine_; }
 
     // One for each thread.
-    Exchange exchange() const { return Exchange(tree_, bins_, scales_, options_, table_); }
+    Exchange exchange() const { return Exchange(tree_, bins_, scales_, options_, table_, groups_); }
 
     // Appends the links of these pairs, and of all that stand for them, to `out`; `open` is empty
     // then. wanted: whether links that end at an element, or at one of those below it, are wanted.
@@ -78,6 +79,7 @@ private:
     std::optional<MotionRefine> motion_;  // where something moves
     const Refine refine_;
     const std::vector<double> scales_;
+    const ThirdGroups groups_;
     std::shared_ptr<const SpreadTable> table_;
 };
 

@@ -44,6 +44,9 @@ bool Refine::hidden(std::size_t sender, std::size_t receiver) const {
     const double rise = tree_.is_patch(receiver) || tree_.is_leaf(receiver) ? least_rise : rough;
     if (tree_.is_patch(sender)) return top_of(tree_.corners[sender]) <= rise * glm::length(way);
     if (tree_.is_vertex(sender)) {
+        // Its position lies between its corners.
+        if (height > rise * glm::length(way)) return false;
+        if (height + tree_.radii[sender] <= rise * glm::length(way)) return true;
         for (std::uint32_t k = tree_.first_thirds[sender]; k < tree_.first_thirds[sender + 1]; ++k)
             if (top_of(outline(tree_.thirds[k])) > rise * glm::length(way)) return false;
         return true;

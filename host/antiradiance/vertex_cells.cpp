@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <clgi/adjacency.hpp>
+#include <tuple>
 
+#include "antiradiance/join_cells.hpp"
 #include "scene/disjoint_sets.hpp"
 
 namespace clgi {
@@ -67,12 +69,14 @@ void measure(const VertexCells& all, const std::vector<Face>& faces,
 
 }  // namespace
 
-VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_area) {
+VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_area,
+                              double joined_area) {
     const std::vector<Face>& faces = all.faces;
     const std::size_t triangles = scene.triangles.size();
     const Adjacency& mesh = all.mesh;
     const std::vector<std::uint32_t> fronts = by_triangle(faces, triangles, false);
-    const std::vector<std::uint32_t> corners = smooth_corners(scene, mesh, faces, fronts);
+    const std::vector<std::uint32_t> vertices = smooth_corners(scene, mesh, faces, fronts);
+    const std::vector<std::uint32_t> corners = join_cells(vertices, faces, fronts, joined_area);
 
     // What a piece would have: its largest leaf, how many, and whether one has no normal.
     std::vector<double> largest(mesh.piece_count, 0.0);
@@ -110,12 +114,13 @@ VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_a
     for (const bool back : {false, true}) {
         const std::vector<std::uint32_t> sides =
             back ? by_triangle(faces, triangles, true) : fronts;
-        // By set, then by triangle and corner.
+        // By set, then by vertex, triangle and corner.
         std::vector<std::uint32_t> order;
         for (std::uint32_t c = 0; c < corners.size(); ++c)
             if (sides[c / 3] != no_index && replaced(mesh.pieces[c / 3])) order.push_back(c);
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return corners[a] < corners[b]; });
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::tie(corners[a], vertices[a]) < std::tie(corners[b], vertices[b]);
+        });
         for (std::size_t i = 0; i < order.size(); ++i) {
             const std::uint32_t t = order[i] / 3, corner = order[i] % 3;
             if (i == 0 || corners[order[i]] != corners[order[i - 1]]) {

@@ -32,13 +32,25 @@ struct VertexCells {
 };
 
 // Replaces all faces of the pieces in which no face and no cell is larger than max_area, m^2, and
-// that get fewer cells than they have faces.
-VertexCells make_vertex_cells(const Scene& scene, const Faces& faces, double max_area);
+// that get fewer cells than they have faces. Cells are joined while they stay below joined_area.
+VertexCells make_vertex_cells(const Scene& scene, const Faces& faces, double max_area,
+                              double joined_area = 0.0);
 
 // Corner, middle, centroid, middle: a plane quadrilateral, wound as the triangle is.
 inline std::array<glm::dvec3, 4> outline(const VertexThird& third) {
     const std::array<glm::dvec3, 3>& p = third.corners;
     return {p[0], 0.5 * (p[0] + p[1]), centroid(p), 0.5 * (p[0] + p[2])};
+}
+
+// Its centroid: that of its two halves, which are of one size.
+inline glm::dvec3 centroid(const VertexThird& third) {
+    const std::array<glm::dvec3, 3>& p = third.corners;
+    return (11.0 * p[0] + 3.5 * (p[1] + p[2])) / 18.0;
+}
+
+inline glm::dvec3 vector_area(const VertexThird& third) {
+    const std::array<glm::dvec3, 3>& p = third.corners;
+    return glm::cross(p[1] - p[0], p[2] - p[0]) / 6.0;
 }
 
 }  // namespace clgi

@@ -117,14 +117,16 @@ PlanCost light_atlas(const Plan& plan) {
 PlanCost antiradiance(const Plan& plan) {
     const AntiradianceOptions& options = plan.antiradiance;
     const double wished = static_cast<double>(options.elements.wished);
-    // Small triangles are leaves, and each has links of its own to all that is near.
-    const bool fine = triangles(plan) > wished;
-    const double leaves = fine ? wished + triangles(plan) : wished;
+    // Leaves of fine meshes are joined vertices, each of which is looked at from nearby; where they
+    // move, small triangles are leaves. Each has links of its own to all that is near.
+    const bool fine = triangles(plan) > wished, moves = plan.on(Effect::moving_geometry);
+    const double leaves = fine && moves ? wished + triangles(plan) : wished;
     const double links =
         leaves * options.bins * (fine ? 3.0 : 2.2 * std::pow(leaves / 1000.0, -0.2));
     const double steps = options.steps > 0 ? options.steps : 20.0;
     const Lamps lamps = lamps_of(plan, options.emitters, false);
-    const Amount linking{2e-4 * links + 2e-3 * leaves, 16.0 * links};
+    const Amount linking{2e-4 * links + 2e-3 * leaves + (fine ? 8e-3 * triangles(plan) : 0.0),
+                         16.0 * links};
     // Rows, of antiradiance and of intensities, where something may lie between.
     const bool rows = plan.on(Effect::indirect_occlusion);
     const double beyond_cache = 1.0 + std::min(links / 5e6, 1.6);

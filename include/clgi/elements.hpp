@@ -9,7 +9,8 @@
 // Pieces of the mesh whose triangles are finer than that have leaves at their vertices instead,
 // about half as many [section 4.3, Table 1]. Such a leaf has a third of each triangle around the
 // vertex, and the mean of their normals. A vertex on a crease, or where materials meet, has a leaf
-// for each side of it.
+// for each side of it. Where these are more leaves than wished, those of neighbouring vertices are
+// joined while together they are small, round and face about one way.
 //
 // Light passes an open sheet unless both of its sides are there to block it. So a triangle that is
 // double-sided, or of a piece of the mesh that is not closed, has a second patch that faces
@@ -35,10 +36,11 @@ using VertexPoses = std::vector<std::vector<glm::dvec3>>;
 struct ElementOptions {
     double max_area = 0.0;  // m^2 of a leaf; 0: what gives about the wished number of leaves
     double min_area = 0.0;  // m^2, the least that max_area becomes for the wished number
-    // Leaves, about. Scenes of many small triangles get more: their large triangles are cut to four
-    // times the area that a wished leaf has on average, however many small ones there are.
+    // Leaves, about. In scenes of many small triangles, large ones are cut to four times the area
+    // that a wished leaf has on average, and leaves at vertices are joined until there are about
+    // as many as wished. Small triangles that have no leaves at vertices remain, however many.
     std::size_t wished = 8192;
-    bool backs = true;     // of open sheets
+    bool backs = true;  // of open sheets
     // Leaves at the vertices of fine meshes, where enough leaves remain and nothing moves.
     bool vertices = true;
 };
@@ -62,13 +64,13 @@ struct ElementTree {
     std::vector<std::uint32_t> parents;              // no_index: the root
     std::vector<std::uint32_t> ends;
     std::vector<std::uint32_t> levels;  // 0: the root
-    // Of the scene; no_index for clusters. Of a leaf at a vertex one of those around it, all of
+    // Of the scene; no_index for clusters. Of a leaf at vertices one of those around them, all of
     // which have the same material.
     std::vector<std::uint32_t> triangles;
     std::vector<std::uint8_t> backs;          // 1: a leaf or patch of the back of its triangle
     std::vector<std::uint32_t> first_thirds;  // [elements + 1] in thirds; empty: none has any
     std::vector<VertexThird> thirds;          // of leaves at vertices
-    std::vector<std::uint8_t> moving;      // 1: a vertex of the subtree moves; empty: none does
+    std::vector<std::uint8_t> moving;         // 1: a vertex of the subtree moves; empty: none does
 
     double max_area = 0.0;  // m^2 that triangles were cut to
     std::size_t leaves = 0;
