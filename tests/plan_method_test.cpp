@@ -74,7 +74,10 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
                   f.surfaces.degenerate = f.surfaces.triangles;  // none has area
               }),
               Method::direct);
-    EXPECT_EQ(method([](SceneFacts&, PlanWish& w) { w.without = {Effect::indirect_occlusion}; }),
+    EXPECT_EQ(method([](SceneFacts&, PlanWish& w) {
+                  w.without = {Effect::indirect_occlusion};
+                  w.seconds = 1.0;
+              }),
               Method::light_atlas);
     EXPECT_NE(method([](SceneFacts&, PlanWish& w) { w.without = {Effect::further_bounces}; }),
               Method::antiradiance);

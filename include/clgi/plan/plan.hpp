@@ -52,7 +52,7 @@ struct PlanWish {
 
 // Predictions. Times are rough: constants of one machine, scaled by clock, units and lanes.
 struct PlanCost {
-    double once_ms = 0.0;   // before the first picture
+    double once_ms = 0.0;   // before the first picture of a process whose kernels are built
     double frame_ms = 0.0;  // each picture under the same lights
     double megabytes = 0.0;
     double total_ms() const { return once_ms + frame_ms; }
