@@ -158,9 +158,9 @@ TEST(Fetch, KeepsSourcesApart) {
 // Lamps too weak for a light leave their power to the others.
 TEST(Fetch, HandsOverTheLightOfWeakSources) {
     Scene world = test::oblique_room();
-    world.lights.assign(6, test::oblique_point());
-    for (std::size_t l = 1; l < 6; ++l) world.lights[l].intensity *= 0.01f;
-    const EmitterOptions options{.vpls = 40, .face_size = 256};
+    world.lights.assign(31, test::oblique_point());
+    for (std::size_t l = 1; l < 31; ++l) world.lights[l].intensity *= 0.01f;
+    const EmitterOptions options{.vpls = 40, .face_size = 128};
     EXPECT_GT(make_emitters(test::on_device(world), options).emitters[0].taken_over, 1.01f);
     expect_truth(world, options, 1.0f, 1.0f);
 }
@@ -174,8 +174,7 @@ TEST(Fetch, BoundsTheDiscOfGrazingLight) {
     for (const float rise : {0.004f, 0.03f}) {
         world.lights = {test::directional_light({0.9f, -rise, 0.4f}, 2.0f)};
         const DeviceScene scene = test::on_device(world);
-        const PlacedLights placed =
-            test::place_lights(scene, {.vpls = 3000, .shadow_size = 2048});
+        const PlacedLights placed = test::place_lights(scene, {.vpls = 3000, .shadow_size = 2048});
         const Emitter& sun = placed.set.emitters[0];
         std::size_t lit = 0;
         for (const Vpl& light : placed.lights) {

@@ -7,6 +7,7 @@
 #include "antiradiance/halve.hpp"
 #include "antiradiance/leaf_vertices.hpp"
 #include "antiradiance/patch_weights.hpp"
+#include "antiradiance/vertex_cells.hpp"
 
 namespace clgi {
 namespace {
@@ -76,8 +77,7 @@ void sample_thirds(const ElementTree& tree, std::uint32_t leaf, bool lit,
     std::vector<double> reached(2 * std::size_t{end - first});  // area up to the end of each half
     double sum = 0.0;
     for (std::uint32_t half = 0; half < reached.size(); ++half) {
-        const std::array<glm::dvec3, 3>& p = tree.thirds[first + half / 2].corners;
-        sum += glm::length(glm::cross(p[1] - p[0], p[2] - p[0])) / 12.0;
+        sum += 0.5 * glm::length(vector_area(tree.thirds[first + half / 2]));
         reached[half] = sum;
     }
     const auto area = static_cast<float>(tree.areas[leaf] * scale * scale / leaf_samples);

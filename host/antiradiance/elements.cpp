@@ -262,6 +262,8 @@ void find_flat_clusters(ElementTree& tree) {
 
 // Joined cells have about this share of the area that they may have.
 constexpr double joined_share = 0.7;
+constexpr double enough = 0.6;  // leaves, of the wished ones
+constexpr int most_tries = 3;
 
 // Faces, and leaves at vertices unless there would be fewer leaves than wished; joined ones where
 // there would be more.
@@ -275,12 +277,20 @@ VertexCells mixed_leaves(const Scene& scene, const Faces& faces, double max_area
     const double coarse = count_leaves(out.faces, max_area);
     const double leaves = coarse + static_cast<double>(out.cells.size());
     if (leaves < wished) return all_faces;
-    if (leaves == wished || out.cells.empty()) return out;
+    if (leaves == wished) return out;
     double area = 0.0;
     for (const VertexCell& cell : out.cells) area += cell.area;
-    const double joined = std::max(wished - coarse, 0.25 * wished);
-    return make_vertex_cells(scene, faces, max_area,
-                             std::min(area / (joined_share * joined), max_area));
+    if (out.cells.empty())  // pieces that have none may have joined ones
+        for (const Face& face : faces.faces) area += face.area <= max_area ? face.area : 0.0;
+    double joined = area / (joined_share * std::max(wished - coarse, 0.25 * wished));
+    for (int tries = 0; tries < most_tries; ++tries) {
+        out = make_vertex_cells(scene, faces, max_area, std::min(joined, max_area));
+        const double found =
+            count_leaves(out.faces, max_area) + static_cast<double>(out.cells.size());
+        if (found >= enough * wished) break;
+        joined *= found / wished;  // more pieces have cells than had some before
+    }
+    return out;
 }
 
 void mark_moving(const std::vector<std::uint8_t>& moves, ElementTree& tree) {

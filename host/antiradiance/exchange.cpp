@@ -146,8 +146,8 @@ double Exchange::cut_thirds(std::uint32_t sender, double side) {
         if (put_point(group.middle, group.vector_area, group.square_radius)) continue;
         for (std::uint32_t k = group.first; k < group.end; ++k) {
             const VertexThird& third = tree_.thirds[k];
-            const glm::dvec3 middle = centroid(third), corner = third.corners[0] - middle;
-            if (put_point(middle, vector_area(third), glm::dot(corner, corner))) continue;
+            const glm::dvec3 middle = centroid(third);
+            if (put_point(middle, vector_area(third), square_reach(third, middle))) continue;
             const std::array<glm::dvec3, 4> p = outline(third);
             for (const Corners& half : {Corners{p[0], p[1], p[2]}, Corners{p[0], p[2], p[3]}})
                 put(half, signed_solid_angle(half, eye_));
@@ -181,7 +181,9 @@ double Exchange::aim(std::uint32_t sender, std::uint32_t receiver) {
     sends_ = {height > 0.0 ? tree_.normals[sender] : -tree_.normals[sender], least_sent};
     angle = tree_.is_patch(sender) ? solid_angle(tree_.corners[sender], eye_)
             : near_                ? cut_thirds(sender, height > 0.0 ? 1.0 : -1.0)
-                                   : std::min(angle * std::abs(height) / distance, 2.0 * pi);
+            : tree_.is_vertex(sender)
+                ? groups_.flatness(sender) * angle * std::abs(height) / distance
+                : std::min(angle * std::abs(height) / distance, 2.0 * pi);
     // In the sender's plane rounding would choose a side, within the sender for 2 pi.
     return std::abs(height) > rounding * tree_.radii[sender] ? angle : 0.0;
 }

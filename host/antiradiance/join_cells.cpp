@@ -2,6 +2,7 @@
 #include "antiradiance/join_cells.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "scene/disjoint_sets.hpp"
@@ -36,7 +37,8 @@ struct Cell {
 std::vector<std::uint32_t> join_cells(const std::vector<std::uint32_t>& cells,
                                       const std::vector<Face>& faces,
                                       const std::vector<std::uint32_t>& fronts, double max_area) {
-    std::vector<Cell> joined(cells.size());
+    if (cells.empty() || !(max_area > 0.0)) return cells;
+    std::vector<Cell> joined(*std::max_element(cells.begin(), cells.end()) + std::size_t{1});
     for (std::uint32_t t = 0; t < fronts.size(); ++t) {
         if (fronts[t] == no_index) continue;
         const Face& face = faces[fronts[t]];
@@ -44,7 +46,7 @@ std::vector<std::uint32_t> join_cells(const std::vector<std::uint32_t>& cells,
             joined[cells[3 * t + k]].add(
                 {face.area / 3.0, face.area / 3.0 * face.normal, face.corners[k], face.corners[k]});
     }
-    DisjointSets sets(cells.size());
+    DisjointSets sets(joined.size());
     for (int r = rounds; r-- > 0;)
         for (std::uint32_t t = 0; t < fronts.size(); ++t) {
             if (fronts[t] == no_index) continue;

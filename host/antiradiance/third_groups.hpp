@@ -28,9 +28,16 @@ public:
             first_.push_back(groups_.size());
             for (std::uint32_t k = tree.first_thirds[i]; k < tree.first_thirds[i + 1]; k += most)
                 groups_.push_back(group(tree, k, std::min(k + most, tree.first_thirds[i + 1])));
+            glm::dvec3 turned(0.0);
+            for (std::size_t g = first_.back(); g < groups_.size(); ++g)
+                turned += groups_[g].vector_area;
+            flatness_.push_back(glm::length(turned) / tree.areas[i]);
         }
         first_.push_back(groups_.size());
     }
+
+    // Vector area over area of a leaf at a vertex: from afar it is as large as that.
+    double flatness(std::size_t leaf) const { return flatness_[leaf]; }
 
     // Of a leaf at a vertex.
     std::span<const ThirdGroup> of(std::size_t leaf) const {
@@ -38,7 +45,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t most = 12;  // thirds of two vertices
+    static constexpr std::uint32_t most = 12;  // thirds of about two vertices
 
     static ThirdGroup group(const ElementTree& tree, std::uint32_t first, std::uint32_t end) {
         ThirdGroup out;
@@ -53,15 +60,14 @@ private:
         }
         out.middle /= area;
         for (std::uint32_t k = first; k < end; ++k)
-            for (const glm::dvec3& corner : outline(tree.thirds[k])) {
-                const glm::dvec3 way = corner - out.middle;
-                out.square_radius = std::max(out.square_radius, glm::dot(way, way));
-            }
+            out.square_radius =
+                std::max(out.square_radius, square_reach(tree.thirds[k], out.middle));
         return out;
     }
 
     std::vector<ThirdGroup> groups_;
     std::vector<std::size_t> first_;  // [elements + 1]
+    std::vector<double> flatness_;    // [elements]
 };
 
 }  // namespace clgi

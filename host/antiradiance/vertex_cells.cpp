@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <clgi/adjacency.hpp>
+#include <limits>
 #include <tuple>
 
 #include "antiradiance/join_cells.hpp"
@@ -11,8 +12,9 @@
 namespace clgi {
 namespace {
 
-constexpr double smooth = 0.9;  // cosine between normals of triangles that an edge joins
-constexpr double least = 0.8;   // least vector area of a cell, of its area: needles have no normal
+constexpr double smooth = 0.9;     // cosine between normals of triangles that an edge joins
+constexpr double rounding = 1e-9;  // of sums of areas
+constexpr double least = 0.8;  // least vector area of a cell, of its area: needles have no normal
 
 // [faces] of each triangle's front, or of each back; no_index: none.
 std::vector<std::uint32_t> by_triangle(const std::vector<Face>& faces, std::size_t triangles,
@@ -48,22 +50,34 @@ std::vector<std::uint32_t> smooth_corners(const Scene& scene, const Adjacency& m
     return sets.numbered();
 }
 
+// The centroid of a third that is nearest to the cell's position.
+glm::dvec3 on_surface(const VertexCells& all, const VertexCell& cell) {
+    glm::dvec3 out(0.0);
+    double nearest = std::numeric_limits<double>::max();
+    for (std::uint32_t k = cell.first_third; k < cell.end_third; ++k) {
+        const glm::dvec3 middle = centroid(all.thirds[k]), way = middle - cell.position;
+        if (!(glm::dot(way, way) < nearest)) continue;
+        nearest = glm::dot(way, way);
+        out = middle;
+    }
+    return out;
+}
+
 void measure(const VertexCells& all, const std::vector<Face>& faces,
-             const std::vector<std::uint32_t>& of, VertexCell& cell) {
+             const std::vector<std::uint32_t>& of, bool joined, VertexCell& cell) {
     glm::dvec3 moment(0.0);
     const glm::dvec3& first = faces[of[all.thirds[cell.first_third].triangle]].normal;
     bool flat = true;
     for (std::uint32_t k = cell.first_third; k < cell.end_third; ++k) {
         const Face& face = faces[of[all.thirds[k].triangle]];
-        const std::array<glm::dvec3, 3>& p = all.thirds[k].corners;
         const double third = face.area / 3.0;
         cell.area += third;
         cell.normal += third * face.normal;
         flat = flat && face.normal == first;
-        // The centroid of the outline: that of its two halves, which are of one size.
-        moment += third * (11.0 * p[0] + 3.5 * (p[1] + p[2])) / 18.0;
+        moment += third * centroid(all.thirds[k]);
     }
     cell.position = moment / cell.area;
+    if (joined) cell.position = on_surface(all, cell);
     cell.normal = flat ? first : glm::normalize(cell.normal);
 }
 
@@ -104,8 +118,8 @@ VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_a
                 pointed[mesh.pieces[face.triangle]] = 1;
         }
     const auto replaced = [&](std::uint32_t piece) {
-        return largest[piece] <= max_area && cell_count[piece] < face_count[piece] &&
-               !pointed[piece];
+        return largest[piece] <= max_area * (1.0 + rounding) &&
+               cell_count[piece] < face_count[piece] && !pointed[piece];
     };
 
     VertexCells out;
@@ -136,7 +150,7 @@ VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_a
             out.cells.back().end_third = static_cast<std::uint32_t>(out.thirds.size());
         }
         for (VertexCell& cell : out.cells)
-            if (cell.back == back) measure(out, faces, sides, cell);
+            if (cell.back == back) measure(out, faces, sides, joined_area > 0.0, cell);
     }
     return out;
 }

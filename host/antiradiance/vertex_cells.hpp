@@ -1,14 +1,17 @@
-// Leaves at the vertices of fine meshes, in place of their triangles. [Dachsbacher07, section 4.3,
-// Table 1: "Shared vertex mesh elements are created at vertices yielding fewer samples"]
+// Leaves at the vertices of fine meshes, or at a few neighbouring ones, in place of their
+// triangles. [Dachsbacher07, section 4.3, Table 1: "Shared vertex mesh elements are created at
+// vertices yielding fewer samples"]
 //
 //   area = sum of a_t / 3,  normal = sum of a_t n_t / 3, made unit,  t: triangles around the vertex
 //
-// Areas add up to those of the triangles. The position is the centroid of the thirds, which all but
-// is the vertex in the middle of a smooth surface, and lies beside it on a crease, where leaves of
-// several sides would else coincide.
+// Areas add up to those of the triangles. The position at one vertex is the centroid of the thirds,
+// which all but is the vertex in the middle of a smooth surface, and lies beside it on a crease,
+// where leaves of several sides would else coincide. At several vertices it is the centroid of the
+// third that is nearest to that, which lies on the surface, however curved that is.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <clgi/elements.hpp>
 #include <cstdint>
 #include <vector>
@@ -32,7 +35,8 @@ struct VertexCells {
 };
 
 // Replaces all faces of the pieces in which no face and no cell is larger than max_area, m^2, and
-// that get fewer cells than they have faces. Cells are joined while they stay below joined_area.
+// that get fewer cells than they have faces, and none without a normal. Cells are joined while they
+// stay below joined_area.
 VertexCells make_vertex_cells(const Scene& scene, const Faces& faces, double max_area,
                               double joined_area = 0.0);
 
@@ -46,6 +50,16 @@ inline std::array<glm::dvec3, 4> outline(const VertexThird& third) {
 inline glm::dvec3 centroid(const VertexThird& third) {
     const std::array<glm::dvec3, 3>& p = third.corners;
     return (11.0 * p[0] + 3.5 * (p[1] + p[2])) / 18.0;
+}
+
+// m^2, of the square of the way from `middle` to the farthest corner of the outline.
+inline double square_reach(const VertexThird& third, const glm::dvec3& middle) {
+    double out = 0.0;
+    for (const glm::dvec3& corner : outline(third)) {
+        const glm::dvec3 way = corner - middle;
+        out = std::max(out, glm::dot(way, way));
+    }
+    return out;
 }
 
 inline glm::dvec3 vector_area(const VertexThird& third) {

@@ -109,6 +109,7 @@ ordered_json facts_json(const SceneFacts& facts) {
             {"double_sided_area", s.double_sided_area},
             {"textures", s.textures},
             {"cutouts", s.cutouts},
+            {"vertices", s.vertices},
             {"degenerate", s.degenerate},
             {"longest_edges", {s.smallest_edge, s.median_edge, s.largest_edge}},
             {"lights",

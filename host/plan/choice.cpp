@@ -14,7 +14,7 @@ constexpr double noticeable = 0.02;  // of the light that surfaces reflect, as g
 constexpr double few_backs = 0.05;   // of the area, double-sided
 // Beyond so many triangles, links for all poses take minutes.
 constexpr std::size_t most_moving_triangles = 30000;
-// With more glossy triangles, each of which is a leaf, a picture takes seconds.
+// With more glossy triangles, each of which may be a leaf, a picture takes seconds.
 constexpr std::size_t most_glossy_triangles = 20000;
 
 Choice candidates_for(const Plan& plan) {

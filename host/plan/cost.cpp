@@ -122,9 +122,12 @@ PlanCost antiradiance(const Plan& plan) {
     const AntiradianceOptions& options = plan.antiradiance;
     const double wished = static_cast<double>(options.elements.wished);
     // Leaves of fine meshes are joined vertices, each of which is looked at from nearby; where they
-    // move, small triangles are leaves. Each has links of its own to all that is near.
-    const bool fine = triangles(plan) > wished, moves = plan.on(Effect::moving_geometry);
-    const double leaves = fine && moves ? wished + triangles(plan) : wished;
+    // move or are not shared, small triangles are leaves. Each has links of its own to what is
+    // near.
+    const bool fine = triangles(plan) > wished;
+    const bool joined = !plan.on(Effect::moving_geometry) &&
+                        plan.facts.surfaces.vertices < plan.facts.surfaces.triangles;
+    const double leaves = fine && !joined ? wished + triangles(plan) : wished;
     const double links =
         leaves * options.bins * (fine ? 3.0 : 2.2 * std::pow(leaves / 1000.0, -0.2));
     const double steps = options.steps > 0 ? options.steps : 20.0;

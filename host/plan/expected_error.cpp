@@ -13,8 +13,9 @@ namespace {
 // Of direct light where no probe was taken: about what closed rooms have.
 constexpr double usual_direct_error = 0.03;
 
-// Direct light of points and directions with nothing that shadows it is exact.
+// Direct light of points and directions with nothing that shadows it is exact, and so is none.
 bool exact_direct_light(const Plan& plan) {
+    if (!(plan.facts.surfaces.largest_albedo > 0.0)) return true;
     return !plan.on(Effect::direct_shadows) && !plan.on(Effect::area_light) &&
            !plan.on(Effect::environment_light);
 }

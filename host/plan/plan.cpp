@@ -118,7 +118,7 @@ Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Sc
     const bool one_picture = !wish.animated && !wish.lights_change && !wish.camera_moves;
     const bool open = unprobed.on(Effect::first_bounce) || unprobed.on(Effect::direct_shadows);
     if (!one_picture || !open) return unprobed;
-    // What reflects nothing shows no light, however it is lit.
+    // What reflects nothing looks the same however it is lit.
     if (!(unprobed.facts.surfaces.largest_albedo > 0.0))
         return planned(device, facts, wish, ProbeFacts{});
     const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device,

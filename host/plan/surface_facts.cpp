@@ -176,6 +176,7 @@ std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
 SurfaceFacts surface_facts(const Scene& scene, const std::vector<TriangleAlbedo>& albedos) {
     SurfaceFacts out;
     out.triangles = scene.triangles.size();
+    out.vertices = scene.positions.size();
     add_areas(scene, albedos, out);
     const std::vector<MaterialUse> uses = uses_of(scene);
     for (std::size_t m = 0; m < uses.size(); ++m) {

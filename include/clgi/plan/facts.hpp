@@ -60,6 +60,7 @@ struct SurfaceFacts {
     bool cutouts = false;   // a mask material in use may have alpha below its cutoff
     // m, of the longest edges of triangles with area.
     double smallest_edge = 0.0, median_edge = 0.0, largest_edge = 0.0;
+    std::size_t vertices = 0;    // fewer than triangles where these share them
     std::size_t degenerate = 0;  // triangles without area, to within the rounding of positions
 };
 
