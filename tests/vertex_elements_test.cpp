@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "antiradiance/leaf_vertices.hpp"
 #include "antiradiance/solid_angle.hpp"
 #include "links_checks.hpp"
 #include "spheres.hpp"
@@ -107,6 +108,41 @@ TEST(VertexElements, AreJoinedToTheWishedNumber) {
             EXPECT_GT(glm::dot(glm::normalize(out), tree.normals[i]), 0.99);
         }
     }
+}
+
+// What pixels read: a vertex of a joined leaf has the light of the leaves around it, so that light
+// that falls linearly over the sphere is smooth across leaves.
+TEST(VertexElements, JoinedShareTheirLightWithThoseBeside) {
+    Scene scene = test::plain_scene();
+    test::add_sphere(scene, {0, 0, 0}, 1.0, 5, 1);
+    const ElementTree tree = make_elements(scene, {.wished = 300});
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t i = 0; i < tree.count(); ++i)
+        if (tree.is_leaf(i)) rows.push_back(i);
+    const LeafVertices shared = leaf_vertices(tree, rows);
+    ASSERT_EQ(shared.of_thirds.size(), tree.thirds.size());
+    EXPECT_EQ(shared.first.size(), 10242u + 1u);
+    double mixed = 0.0, alone = 0.0;  // squares of differences from the height of the vertex
+    for (std::uint32_t row = 0; row < rows.size(); ++row)
+        for (std::uint32_t k = tree.first_thirds[rows[row]]; k < tree.first_thirds[rows[row] + 1];
+             ++k) {
+            const std::uint32_t v = shared.of_thirds[k];
+            double sum = 0.0, height = 0.0;
+            bool own = false;
+            for (std::uint32_t l = shared.first[v]; l < shared.first[v + 1]; ++l) {
+                const auto& [leaf, share] = shared.leaves[l];
+                EXPECT_GT(share, 0.0f);
+                sum += double{share};
+                height += double{share} * tree.positions[rows[leaf]].y;
+                own |= leaf == row;
+            }
+            EXPECT_TRUE(own);
+            EXPECT_NEAR(sum, 1.0, 1e-6);
+            const double wanted = tree.thirds[k].corners[0].y;
+            mixed += std::pow(height - wanted, 2);
+            alone += std::pow(tree.positions[rows[row]].y - wanted, 2);
+        }
+    EXPECT_LT(mixed, 0.3 * alone);
 }
 
 // Across a sharp crease, between materials and to another piece nothing is joined.

@@ -116,7 +116,7 @@ void show_vertices(const ElementTree& tree, const LeafVertices& shared,
             }
             const std::uint32_t corner = tree.thirds[k].corner;  // backs are wound the other way
             out.patches[patch].vertex[tree.backs[i] ? (3 - corner) % 3 : corner] =
-                shared.vertices[row][0];
+                shared.of_thirds[k];
         }
     }
 }
