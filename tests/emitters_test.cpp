@@ -102,6 +102,17 @@ TEST(Emitters, ShareAQuarterOfTheLightsEvenly) {
     EXPECT_EQ(of_sky, 160u);
 }
 
+// Without glowing surfaces an eighth each.
+TEST(Emitters, ShareEvenlyAmongWhatIsThereAlone) {
+    Scene world = test::plain_scene();
+    test::add_floor(world, 2.0);
+    world.lights = {test::point_light({0, 1, 0}, 1e9f)};
+    world.environment = test::gradient_sky();
+    const EmitterSet set = make_emitters(test::on_device(world), {.vpls = 1280});
+    ASSERT_EQ(set.emitters.size(), 17u);
+    EXPECT_NEAR(static_cast<double>(set.emitters[0].vpl_count), 1120.0, 1.0);
+}
+
 // Lumen of a spot of 1 cd, by the fall-off as KHR_lights_punctual states it, ring by ring.
 double cone_flux(double inner, double outer) {
     constexpr int rings = 100000;

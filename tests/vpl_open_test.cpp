@@ -149,6 +149,24 @@ TEST_P(OpenReach, OfARectangleIsItsFormFactor) {
     }
 }
 
+// A point looks from where it is lifted to, along each axis and aslant.
+TEST_P(OpenReach, LooksFromAbove) {
+    const double a = 0.8, b = 0.6, h = 1.0, lift = 0.25;
+    const glm::dvec3 ways[] = {
+        {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, glm::normalize(glm::dvec3(1, 2, 3))};
+    for (const glm::dvec3& n : ways) {
+        const glm::dvec3 u = glm::normalize(glm::cross(n, glm::dvec3(0.3, -0.5, 0.8)));
+        const glm::dvec3 v = glm::cross(n, u);
+        Scene world = test::plain_scene();
+        world.materials[0].double_sided = true;
+        test::add_quad(world, {h * n, h * n + b * v, h * n + a * u + b * v, h * n + a * u});
+        const double scale = test::on_device(world).frame().scale;
+        const auto local = static_cast<float>(lift * scale);
+        EXPECT_NEAR(reach(world, glm::vec3(n), glm::dvec3(0), local, GetParam()),
+                    corner_factor(a, b, h - lift), 1e-6);
+    }
+}
+
 // To infinity, beside the point: half of what there is to see, whichever way it is turned.
 TEST_P(OpenReach, OfHalfTheSkyIsAHalf) {
     for (const double side : {-1.0, 1.0}) {

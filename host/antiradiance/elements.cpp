@@ -271,7 +271,8 @@ VertexCells mixed_leaves(const Scene& scene, const Faces& faces, double max_area
                          const ElementOptions& options) {
     const VertexCells all_faces{{}, {}, faces.faces};
     if (!options.vertices) return all_faces;
-    VertexCells out = make_vertex_cells(scene, faces, max_area);
+    const VertexCellMaker cells(scene, faces);
+    VertexCells out = cells(max_area);
     if (options.max_area > 0.0) return out;
     const auto wished = static_cast<double>(options.wished);
     const double coarse = count_leaves(out.faces, max_area);
@@ -284,7 +285,7 @@ VertexCells mixed_leaves(const Scene& scene, const Faces& faces, double max_area
         for (const Face& face : faces.faces) area += face.area <= max_area ? face.area : 0.0;
     double joined = area / (joined_share * std::max(wished - coarse, 0.25 * wished));
     for (int tries = 0; tries < most_tries; ++tries) {
-        out = make_vertex_cells(scene, faces, max_area, std::min(joined, max_area));
+        out = cells(max_area, std::min(joined, max_area));
         const double found =
             count_leaves(out.faces, max_area) + static_cast<double>(out.cells.size());
         if (found >= enough * wished) break;

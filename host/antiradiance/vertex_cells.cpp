@@ -50,8 +50,9 @@ std::vector<std::uint32_t> smooth_corners(const Scene& scene, const Adjacency& m
     return sets.numbered();
 }
 
-// The centroid of a third that is nearest to the cell's position.
-glm::dvec3 on_surface(const VertexCells& all, const VertexCell& cell) {
+// The cell's position, or where that lies below a curved surface, the centroid of the nearest
+// third.
+glm::dvec3 not_below(const VertexCells& all, const VertexCell& cell) {
     glm::dvec3 out(0.0);
     double nearest = std::numeric_limits<double>::max();
     for (std::uint32_t k = cell.first_third; k < cell.end_third; ++k) {
@@ -60,7 +61,7 @@ glm::dvec3 on_surface(const VertexCells& all, const VertexCell& cell) {
         nearest = glm::dot(way, way);
         out = middle;
     }
-    return out;
+    return glm::dot(cell.normal, out - cell.position) > 0.0 ? out : cell.position;
 }
 
 void measure(const VertexCells& all, const std::vector<Face>& faces,
@@ -77,20 +78,22 @@ void measure(const VertexCells& all, const std::vector<Face>& faces,
         moment += third * centroid(all.thirds[k]);
     }
     cell.position = moment / cell.area;
-    if (joined) cell.position = on_surface(all, cell);
     cell.normal = flat ? first : glm::normalize(cell.normal);
+    if (joined) cell.position = not_below(all, cell);
 }
 
 }  // namespace
 
-VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_area,
-                              double joined_area) {
-    const std::vector<Face>& faces = all.faces;
-    const std::size_t triangles = scene.triangles.size();
-    const Adjacency& mesh = all.mesh;
-    const std::vector<std::uint32_t> fronts = by_triangle(faces, triangles, false);
-    const std::vector<std::uint32_t> vertices = smooth_corners(scene, mesh, faces, fronts);
-    const std::vector<std::uint32_t> corners = join_cells(vertices, faces, fronts, joined_area);
+VertexCellMaker::VertexCellMaker(const Scene& scene, const Faces& faces)
+    : all_(faces),
+      fronts_(by_triangle(faces.faces, scene.triangles.size(), false)),
+      backs_(by_triangle(faces.faces, scene.triangles.size(), true)),
+      vertices_(smooth_corners(scene, faces.mesh, faces.faces, fronts_)) {}
+
+VertexCells VertexCellMaker::operator()(double max_area, double joined_area) const {
+    const std::vector<Face>& faces = all_.faces;
+    const Adjacency& mesh = all_.mesh;
+    const std::vector<std::uint32_t> corners = join_cells(vertices_, faces, fronts_, joined_area);
 
     // What a piece would have: its largest leaf, how many, and whether one has no normal.
     std::vector<double> largest(mesh.piece_count, 0.0);
@@ -126,14 +129,13 @@ VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_a
     for (const Face& face : faces)
         if (!replaced(mesh.pieces[face.triangle])) out.faces.push_back(face);
     for (const bool back : {false, true}) {
-        const std::vector<std::uint32_t> sides =
-            back ? by_triangle(faces, triangles, true) : fronts;
+        const std::vector<std::uint32_t>& sides = back ? backs_ : fronts_;
         // By set, then by vertex, triangle and corner.
         std::vector<std::uint32_t> order;
         for (std::uint32_t c = 0; c < corners.size(); ++c)
             if (sides[c / 3] != no_index && replaced(mesh.pieces[c / 3])) order.push_back(c);
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::tie(corners[a], vertices[a]) < std::tie(corners[b], vertices[b]);
+            return std::tie(corners[a], vertices_[a]) < std::tie(corners[b], vertices_[b]);
         });
         for (std::size_t i = 0; i < order.size(); ++i) {
             const std::uint32_t t = order[i] / 3, corner = order[i] % 3;
@@ -143,7 +145,7 @@ VertexCells make_vertex_cells(const Scene& scene, const Faces& all, double max_a
                 out.cells.back().back = back;
             }
             // Corners of backs run the other way round, from the same first one.
-            const std::array<glm::dvec3, 3>& p = faces[fronts[t]].corners;
+            const std::array<glm::dvec3, 3>& p = faces[fronts_[t]].corners;
             const std::uint32_t next = (corner + (back ? 2 : 1)) % 3;
             const std::uint32_t last = (corner + (back ? 1 : 2)) % 3;
             out.thirds.push_back({{p[corner], p[next], p[last]}, t, corner});

@@ -6,8 +6,8 @@
 //
 // Areas add up to those of the triangles. The position at one vertex is the centroid of the thirds,
 // which all but is the vertex in the middle of a smooth surface, and lies beside it on a crease,
-// where leaves of several sides would else coincide. At several vertices it is the centroid of the
-// third that is nearest to that, which lies on the surface, however curved that is.
+// where leaves of several sides would else coincide. Of several vertices that may lie far below a
+// surface that is curved outwards: there it is the centroid of the nearest third.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -34,11 +34,21 @@ struct VertexCells {
     std::vector<Face> faces;          // that no cell replaces, in their order
 };
 
-// Replaces all faces of the pieces in which no face and no cell is larger than max_area, m^2, and
-// that get fewer cells than they have faces, and none without a normal. Cells are joined while they
-// stay below joined_area.
-VertexCells make_vertex_cells(const Scene& scene, const Faces& faces, double max_area,
-                              double joined_area = 0.0);
+class VertexCellMaker {
+public:
+    // Both must outlive this object.
+    VertexCellMaker(const Scene& scene, const Faces& faces);
+
+    // Replaces all faces of the pieces in which no face and no cell is larger than max_area, m^2,
+    // and that get fewer cells than they have faces, and none without a normal. Cells are joined
+    // while they stay below joined_area.
+    VertexCells operator()(double max_area, double joined_area = 0.0) const;
+
+private:
+    const Faces& all_;
+    std::vector<std::uint32_t> fronts_, backs_;  // [triangles] in faces; no_index: none
+    std::vector<std::uint32_t> vertices_;        // [3 * triangles] that corners meet at
+};
 
 // Corner, middle, centroid, middle: a plane quadrilateral, wound as the triangle is.
 inline std::array<glm::dvec3, 4> outline(const VertexThird& third) {

@@ -19,14 +19,11 @@ SceneFacts scene_facts(const Scene& scene) {
     const LightsFound lights = light_facts(scene);
     const Bounds box = bounds(scene);
     out.lights = lights.facts;
-    out.surfaces = surface_facts(scene, albedos);
     out.motion = motion_facts(scene);
     out.size = glm::distance(box.low, box.high);
 
     const std::vector<LocalTriangle> triangles = local_triangles(scene);
-    out.surfaces.degenerate = static_cast<std::size_t>(
-        std::count_if(triangles.begin(), triangles.end(),
-                      [](const LocalTriangle& triangle) { return triangle.is_line(); }));
+    out.surfaces = surface_facts(scene, triangles, albedos);
     // moving_bounds: a caller says that it will move vertices.
     if (!out.motion.geometry && !scene.moving_bounds) {
         out.proof = prove_openness(scene, triangles, lights.emissive);

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "plan/local_triangles.hpp"
+
 namespace clgi {
 
 // What each triangle reflects of what meets it, per channel.
@@ -17,8 +19,9 @@ struct TriangleAlbedo {
 };
 std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene);
 
-// [triangles of the scene] albedos.
-SurfaceFacts surface_facts(const Scene& scene, const std::vector<TriangleAlbedo>& albedos);
+// [triangles of the scene] triangles and albedos.
+SurfaceFacts surface_facts(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+                           const std::vector<TriangleAlbedo>& albedos);
 
 double triangle_area(const Scene& scene, const SceneTriangle& triangle);  // m^2, one side
 

@@ -173,10 +173,14 @@ std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
     return out;
 }
 
-SurfaceFacts surface_facts(const Scene& scene, const std::vector<TriangleAlbedo>& albedos) {
+SurfaceFacts surface_facts(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+                           const std::vector<TriangleAlbedo>& albedos) {
     SurfaceFacts out;
     out.triangles = scene.triangles.size();
     out.vertices = scene.positions.size();
+    out.degenerate = static_cast<std::size_t>(
+        std::count_if(triangles.begin(), triangles.end(),
+                      [](const LocalTriangle& triangle) { return triangle.is_line(); }));
     add_areas(scene, albedos, out);
     const std::vector<MaterialUse> uses = uses_of(scene);
     for (std::size_t m = 0; m < uses.size(); ++m) {
