@@ -221,6 +221,7 @@ inline Scene carried_off(Scene scene, double scale, const glm::dvec3& by) {
     for (Light& light : scene.lights) {
         light.position = turn * (scale * light.position) + by;
         light.direction = glm::vec3(turn * glm::dvec3(light.direction));
+        light.range *= static_cast<float>(scale);
     }
     return scene;
 }

@@ -20,8 +20,6 @@ namespace {
 using test::Proven;
 
 constexpr double pi = std::numbers::pi;
-constexpr double facing_squares = 0.1998248957;  // form factor of unit squares 1 apart, and
-                                                 // of a face of a cube and the one across
 
 // Surfaces are shaded flat, unless told.
 void expect_proven(const Scene& scene, const Proven& wanted, const std::string& name,
@@ -185,47 +183,6 @@ TEST(MotionFacts, OfSkinsAreThoseOfTheirJoints) {
     EXPECT_NEAR(facts.travel, std::sqrt(2.0 / 5.0), 1e-6);
 }
 
-void expect_open(const Scene& scene, double open, double backs, const std::string& name) {
-    const SceneFacts facts = scene_facts(scene);
-    EXPECT_NEAR(facts.openness, open, 3.0 * facts.openness_error) << name;
-    EXPECT_NEAR(facts.backs, backs, 3.0 * facts.openness_error) << name;
-    // Of 1024 rays, a half open: 1/64.
-    EXPECT_LE(facts.openness_error, 0.016) << name;
-    EXPECT_GE(facts.openness_error, 0.0009) << name;
-}
-
-TEST(Openness, IsThatOfViewFactors) {
-    using test::tiles;
-    const SceneFacts floor = scene_facts(tiles({{0, 0}}));
-    EXPECT_EQ(floor.openness, 1.0);
-    EXPECT_EQ(floor.openness_error, 0.0);
-    EXPECT_EQ(scene_facts(test::both_sided(tiles({{0, 0}}))).openness, 1.0);
-    EXPECT_EQ(scene_facts(test::unit_box(1)).openness, 1.0);
-    EXPECT_EQ(scene_facts(Scene()).openness, 1.0);
-    EXPECT_EQ(scene_facts(test::unit_box(-1)).openness, 0.0);
-    EXPECT_EQ(scene_facts(test::carried_off(test::unit_box(-1), 3.0, {1e5, 0, 0})).openness, 0.0);
-    expect_open(test::unit_box(-1), 0.0, 0.0, "room");
-    // Five unit faces see an opening of 1 as often as it sees them.
-    expect_open(test::open_box(), 0.2, 0.0, "open box");
-    expect_open(test::both_sided(test::open_box()), 0.6, 0.0, "both sides of an open box");
-    expect_open(tiles({{0, 0}, {0, 1, -1}}), 1.0 - facing_squares, 0.0, "facing squares");
-    expect_open(test::both_sided(tiles({{0, 0}, {0, 1}})), 1.0 - 0.5 * facing_squares, 0.0,
-                "both sides of squares");
-    expect_open(tiles({{0, 0}, {0, 1}}), 1.0 - 0.5 * facing_squares, 0.5 * facing_squares,
-                "squares that face up");
-    expect_open(test::masked(tiles({{0, 0}, {0, 1, -1}})), 1.0 - facing_squares, 0.0, "masked");
-
-    // A unit square and one twice its height on a common edge: 0.2328526 and half of it.
-    Scene corner = tiles({{0, 0}});
-    corner.materials.push_back(corner.materials[0]);
-    test::add_quad(corner, {glm::dvec3(0, 0, 0), {1, 0, 0}, {1, 2, 0}, {0, 2, 0}}, 1);
-    expect_open(corner, 1.0 - 2.0 / 3.0 * 0.2328526028, 0.0, "corner");
-    corner.materials[1].base_color = glm::vec4(0, 0, 0, 1);
-    expect_open(corner, 1.0 - 0.2328526028, 0.0, "beside black");
-    std::swap(corner.materials[0], corner.materials[1]);
-    expect_open(corner, 1.0 - 0.1164263014, 0.0, "black");
-}
-
 TEST(SurfaceFacts, AreSumsOverTriangles) {
     Scene scene = test::plain_scene({0.2f, 0.4f, 0.8f});
     test::add_tile(scene, 0, 0);
@@ -243,6 +200,7 @@ TEST(SurfaceFacts, AreSumsOverTriangles) {
     EXPECT_NEAR(facts.area, 4.0, 1e-12);
     const glm::dvec3 mean((0.2 + 1.5) / 4, (0.4 + 0.75) / 4, (0.8 + 3.0) / 4);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(facts.mean_albedo[c], mean[c], 1e-7) << c;
+    EXPECT_NEAR(facts.smallest_albedo, 0.2, 1e-7);
     EXPECT_NEAR(facts.largest_albedo, 1.0, 1e-7);
     const auto luminance = [](double r, double g, double b) {
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -261,8 +219,12 @@ TEST(SurfaceFacts, AreSumsOverTriangles) {
     EXPECT_NEAR(scene_facts(scene).surfaces.mean_albedo.x, (0.2 + 3.0 * (0.5 * 0.97 + 0.03)) / 4,
                 1e-7);
     scene.colors.assign(scene.positions.size(), glm::vec4(0.5f, 1.0f, 1.0f, 1.0f));
-    EXPECT_NEAR(scene_facts(scene).surfaces.mean_albedo.x, (0.1 + 3.0 * (0.25 * 0.97 + 0.03)) / 4,
-                1e-7);
+    const SurfaceFacts coloured = scene_facts(scene).surfaces;
+    EXPECT_NEAR(coloured.mean_albedo.x, (0.1 + 3.0 * (0.25 * 0.97 + 0.03)) / 4, 1e-7);
+    EXPECT_NEAR(coloured.smallest_albedo, 0.1, 1e-7);
+    EXPECT_NEAR(coloured.largest_albedo, 0.97 + 0.03, 1e-7);
+    scene.colors[0].r = 0.25f;
+    EXPECT_NEAR(scene_facts(scene).surfaces.smallest_albedo, 0.05, 1e-7);
 }
 
 // A tile with a texture of two texels, left and right.
@@ -288,11 +250,16 @@ TEST(SurfaceFacts, ReadTextures) {
     EXPECT_NEAR(facts.mean_albedo.x, 0.5, 1e-7);
     EXPECT_NEAR(facts.mean_albedo.y, 0.25, 1e-7);
     EXPECT_NEAR(facts.mean_albedo.z, 0.1, 1e-7);
+    EXPECT_NEAR(facts.smallest_albedo, 0.0, 1e-7) << "of the darkest texel";
     EXPECT_NEAR(facts.largest_albedo, 0.5, 1e-7) << "of the brightest texel";
     scene.materials.push_back(scene.materials[0]);
     scene.materials[0].base_texture.texture = -1;
     EXPECT_FALSE(scene_facts(scene).surfaces.textures) << "of a material not in use";
-    EXPECT_FALSE(scene_facts(textured({9, 8, 7, 255, 9, 8, 7, 0})).surfaces.textures);
+    EXPECT_NEAR(scene_facts(textured({0, 0, 0, 255, 255, 255, 255, 255})).surfaces.largest_albedo,
+                0.5, 1e-7);
+    facts = scene_facts(textured({9, 8, 7, 255, 9, 8, 7, 0})).surfaces;
+    EXPECT_FALSE(facts.textures);
+    EXPECT_NEAR(facts.smallest_albedo, 0.5 * 7 / 255, 1e-7);
 
     scene = textured({9, 8, 7, 255, 9, 8, 7, 102});  // alpha 0.4
     EXPECT_FALSE(scene_facts(scene).surfaces.cutouts);

@@ -15,7 +15,8 @@ namespace clgi {
 struct TriangleAlbedo {
     glm::dvec3 all = glm::dvec3(0.0);    // diffuse and gloss
     glm::dvec3 gloss = glm::dvec3(0.0);  // of lobe and coat alone
-    glm::dvec3 most = glm::dvec3(0.0);   // no point of it reflects more
+    glm::dvec3 least = glm::dvec3(0.0);  // no point of it reflects less
+    glm::dvec3 most = glm::dvec3(0.0);   // nor more
 };
 std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene);
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <clgi/device_scene.hpp>
 #include <cmath>
+#include <limits>
 
 #include "plan/one_colour.hpp"
 #include "plan/parts.hpp"
@@ -78,7 +79,7 @@ std::vector<Reflectance> reflectances_of(const Scene& scene) {
 // Areas and what they reflect, as sums; then as means and shares.
 void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, SurfaceFacts& out) {
     const std::vector<Reflectance> reflectances = reflectances_of(scene);
-    double gloss = 0.0;
+    double gloss = 0.0, least = std::numeric_limits<double>::infinity();
     for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
         const double area = triangle_area(scene, scene.triangles[t]);
         const TriangleAlbedo& albedo = albedos[t];
@@ -90,10 +91,13 @@ void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, S
         if (double{shares.coat} + double{shares.lobe} > least_gloss) out.glossy_area += area;
         if (material.double_sided) out.double_sided_area += area;
         if (!(area > 0.0)) continue;
-        for (int c = 0; c < 3; ++c)
+        for (int c = 0; c < 3; ++c) {
+            least = std::min(least, albedo.least[c]);
             out.largest_albedo = std::max(out.largest_albedo, albedo.most[c]);
+        }
     }
     if (!(out.area > 0.0)) return;
+    out.smallest_albedo = least;
     const double reflected = luminance(out.mean_albedo);
     if (reflected > 0.0) out.gloss = gloss / reflected;
     out.mean_albedo /= out.area;
@@ -101,43 +105,57 @@ void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, S
     out.double_sided_area /= out.area;
 }
 
-// [textures] per channel, linear; 0 where no base colour reads them.
-std::vector<glm::dvec3> brightest_texels(const Scene& scene) {
+// Per channel, linear.
+struct Texels {
+    glm::dvec3 darkest = glm::dvec3(1.0), brightest = glm::dvec3(1.0);
+};
+
+Texels texels_of(const Texture& texture, const std::vector<float>& srgb) {
+    std::array<std::uint8_t, 64> least,
+        most{};  // of 16 texels next to each other: vectors of bytes
+    least.fill(255);
+    const auto take = [&](std::size_t c, std::uint8_t low, std::uint8_t high) {
+        least[c] = std::min(least[c], low);
+        most[c] = std::max(most[c], high);
+    };
+    const std::vector<std::uint8_t>& bytes = texture.rgba;
+    std::size_t i = 0;
+    for (; i + most.size() <= bytes.size(); i += most.size())
+        for (std::size_t c = 0; c < most.size(); ++c) take(c, bytes[i + c], bytes[i + c]);
+    for (; i < bytes.size(); ++i) take(i % 4, bytes[i], bytes[i]);
+    for (std::size_t c = 4; c < most.size(); ++c) take(c % 4, least[c], most[c]);
+    const auto linear = [&](std::uint8_t byte) {
+        return texture.srgb ? double{srgb[byte]} : double_of(byte);
+    };
+    return {{linear(least[0]), linear(least[1]), linear(least[2])},
+            {linear(most[0]), linear(most[1]), linear(most[2])}};
+}
+
+// [textures] 1 where no base colour reads them.
+std::vector<Texels> darkest_and_brightest(const Scene& scene) {
     const std::vector<float> srgb = srgb_decode_table();
     std::vector<bool> read(scene.textures.size());
     for (const Material& material : scene.materials)
         if (material.base_texture.texture >= 0)
             read[static_cast<std::size_t>(material.base_texture.texture)] = true;
-    std::vector<glm::dvec3> out(scene.textures.size(), glm::dvec3(0.0));
-    for (std::size_t index = 0; index < out.size(); ++index) {
-        if (!read[index]) continue;
-        const Texture& texture = scene.textures[index];
-        std::array<std::uint8_t, 64> most{};  // of 16 texels next to each other: vectors of bytes
-        std::size_t i = 0;
-        for (; i + most.size() <= texture.rgba.size(); i += most.size())
-            for (std::size_t c = 0; c < most.size(); ++c)
-                most[c] = std::max(most[c], texture.rgba[i + c]);
-        for (; i < texture.rgba.size(); ++i) most[i % 4] = std::max(most[i % 4], texture.rgba[i]);
-        for (std::size_t c = 4; c < most.size(); ++c) most[c % 4] = std::max(most[c % 4], most[c]);
-        glm::dvec3& linear = out[index];
-        for (int c = 0; c < 3; ++c) {
-            const std::uint8_t byte = most[static_cast<std::size_t>(c)];
-            linear[c] = texture.srgb ? double{srgb[byte]} : double_of(byte);
-        }
-    }
+    std::vector<Texels> out(scene.textures.size());
+    for (std::size_t index = 0; index < out.size(); ++index)
+        if (read[index]) out[index] = texels_of(scene.textures[index], srgb);
     return out;
 }
 
-// What the colours at its corners make of a triangle's base colour: the mean, and at most.
+// What the colours at its corners make of a triangle's base colour.
 struct VertexColours {
-    glm::dvec3 mean = glm::dvec3(1.0), most = glm::dvec3(1.0);
+    glm::dvec3 mean = glm::dvec3(1.0), least = glm::dvec3(1.0), most = glm::dvec3(1.0);
 };
 VertexColours vertex_colours(const Scene& scene, const SceneTriangle& triangle) {
     if (scene.colors.empty()) return {};
-    VertexColours out{glm::dvec3(0.0), glm::dvec3(0.0)};
+    VertexColours out{glm::dvec3(0.0), glm::dvec3(std::numeric_limits<double>::infinity()),
+                      glm::dvec3(0.0)};
     for (const std::uint32_t vertex : triangle.vertex) {
         const glm::dvec3 color(scene.colors[vertex]);
         out.mean += color / 3.0;
+        out.least = glm::min(out.least, color);
         out.most = glm::max(out.most, color);
     }
     return out;
@@ -154,7 +172,7 @@ double triangle_area(const Scene& scene, const SceneTriangle& triangle) {
 std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
     const BaseColorMeans base_colors(scene, false);
     const int side = scene.triangles.size() <= few_triangles ? 3 : 1;
-    const std::vector<glm::dvec3> brightest = brightest_texels(scene);
+    const std::vector<Texels> texels = darkest_and_brightest(scene);
     const std::vector<Reflectance> reflectances = reflectances_of(scene);
     std::vector<TriangleAlbedo> out;
     out.reserve(scene.triangles.size());
@@ -163,12 +181,15 @@ std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
         const Reflectance& shares = reflectances[triangle.material];
         const VertexColours colours = vertex_colours(scene, triangle);
         const glm::dvec3 base = base_colors.estimate(triangle, side) * colours.mean;
-        glm::dvec3 most = glm::dvec3(material.base_color) * colours.most;
-        if (material.base_texture.texture >= 0)
-            most *= brightest[static_cast<std::size_t>(material.base_texture.texture)];
+        const glm::dvec3 color(material.base_color);
+        const int texture = material.base_texture.texture;
+        const Texels read = texture >= 0 ? texels[static_cast<std::size_t>(texture)] : Texels();
+        const glm::dvec3 least = color * colours.least * read.darkest;
+        const glm::dvec3 most = color * colours.most * read.brightest;
         const double coat = shares.coat, lobe = shares.lobe, diffuse = shares.diffuse;
         const glm::dvec3 gloss = base * lobe + coat;
-        out.push_back({base * diffuse + gloss, gloss, most * (diffuse + lobe) + coat});
+        const auto reflected = [&](const glm::dvec3& of) { return of * (diffuse + lobe) + coat; };
+        out.push_back({base * diffuse + gloss, gloss, reflected(least), reflected(most)});
     }
     return out;
 }

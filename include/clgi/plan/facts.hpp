@@ -50,11 +50,12 @@ struct LightFacts {
 // by one in scenes of more than 30,000 triangles, with texels that a mask cuts out.
 struct SurfaceFacts {
     std::size_t triangles = 0;
-    double area = 0.0;            // m^2, both sides of double-sided ones are one
-    glm::dvec3 mean_albedo{0.0};  // of diffuse and gloss together, per channel
-    double largest_albedo = 0.0;  // no point of a triangle reflects more in any channel
-    double gloss = 0.0;           // share of `mean_albedo`, luminance, that lobes and coats reflect
-    double glossy_area = 0.0;     // share of area whose lobe and coat reflect more than 1e-4
+    double area = 0.0;             // m^2, both sides of double-sided ones are one
+    glm::dvec3 mean_albedo{0.0};   // of diffuse and gloss together, per channel
+    double smallest_albedo = 0.0;  // no point of a triangle reflects less in any channel
+    double largest_albedo = 0.0;   // nor more
+    double gloss = 0.0;        // share of `mean_albedo`, luminance, that lobes and coats reflect
+    double glossy_area = 0.0;  // share of area whose lobe and coat reflect more than 1e-4
     double double_sided_area = 0.0;  // share
     bool textures = false;  // a texture of a material in use, base or emission, is not one colour
     bool cutouts = false;   // a mask material in use may have alpha below its cutoff
@@ -77,13 +78,27 @@ struct SceneFacts {
     MotionFacts motion;
     OpennessProof proof;
     double size = 0.0;  // m, diagonal of the bounds
-    // Share of cosine-weighted directions from the sides of surfaces that reflect, weighted by
-    // area, in which nothing is seen; estimated by 64 to 1024 rays, with its standard error. Exact
-    // where surfaces_apart: 1, error 0. Masked triangles count as whole; geometry that moves is
-    // where the scene's arrays have it.
+
+    // Estimated by rays from points spread evenly over the sides of surfaces that reflect, by area.
+    // Where nothing reflects there are none, and all of it is 0. Masked triangles count as whole;
+    // geometry that moves is where the scene's arrays have it.
+
+    // Share of cosine-weighted directions in which nothing is seen, by 64 to 1024 rays, with its
+    // standard error. Exact where surfaces_apart: 1, error 0.
     double openness = 0.0, openness_error = 0.0;
     // Share of the same rays that end on the back of a single-sided surface, where light is lost.
     double backs = 0.0;
+    // Of 64 to 256 of the points, to a standard error of 1/16 to 1/32 at most: the share that a
+    // point, spot or directional light with power or an emissive surface meets, and of these the
+    // share that several do. All emissive surfaces are one light, which is looked for at one of its
+    // points. Of more than 16 lights each point looks for 16.
+    double lit = 0.0, lit_twice = 0.0;
+    // Of as many points on single-sided surfaces: the share that lies on walls thinner than a
+    // hundredth of `size`, straight through to where the wall ends; and the least thickness found,
+    // m, 0 if no wall ends. Light and shadow of one side may come to the other there, where texels,
+    // pixels of shadow maps or leaves are larger.
+    double thin = 0.0, thinnest = 0.0;
+
     double milliseconds = 0.0;  // that reading the facts took
 };
 

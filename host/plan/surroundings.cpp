@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "plan/surroundings.hpp"
+
+#include <clgi/shared/halton.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "plan/rays.hpp"
+#include "plan/surface_points.hpp"
+#include "scene/local_frame.hpp"
+#include "scene/luminance.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr double wished_tests = 5e6;
+constexpr double fewest_points = 64.0, most_points = 1024.0;
+constexpr std::size_t most_seekers = 256;  // points that look for lights and walls
+constexpr std::size_t most_lights = 16;    // for each of them
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A unit vector about n, its density in proportion to the cosine. [Malley's method]
+glm::dvec3 about(const glm::dvec3& n, double u, double v) {
+    const glm::dvec3 helper =
+        std::abs(n.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 right = glm::normalize(glm::cross(n, helper));
+    const glm::dvec3 up = glm::cross(n, right);
+    const double radius = std::sqrt(u), angle = 2.0 * std::numbers::pi * v;
+    return radius * std::cos(angle) * right + radius * std::sin(angle) * up +
+           std::sqrt(1.0 - u) * n;
+}
+
+struct Way {
+    glm::dvec3 along;  // unit
+    double distance;   // infinity: to a direction
+};
+
+std::optional<Way> way_to(const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 way = to - from;
+    const double distance = glm::length(way);
+    if (!(distance > same_place)) return std::nullopt;
+    return Way{way / distance, distance};
+}
+
+// From a point to a light, if that sends something there where nothing is between.
+std::optional<Way> way_to(const Light& light, const SceneFrame& frame, const glm::dvec3& from) {
+    if (light.kind == Light::Kind::directional)
+        return Way{-glm::normalize(glm::dvec3(light.direction)), infinity};
+    const std::optional<Way> way = way_to(from, (light.position - frame.origin) * frame.scale);
+    if (!way) return way;
+    if (light.range > 0.0f && way->distance >= double{light.range} * frame.scale)
+        return std::nullopt;
+    const double along = -glm::dot(way->along, glm::normalize(glm::dvec3(light.direction)));
+    if (light.kind == Light::Kind::spot && along <= std::cos(double{light.outer_angle}))
+        return std::nullopt;
+    return way;
+}
+
+// The lights that points look for: of those with power at most so many, and emissive surfaces.
+class Lights {
+public:
+    Lights(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+           const std::vector<std::uint32_t>& emissive)
+        : frame_(local_frame(bounds(scene))) {
+        std::vector<double> emits(triangles.size(), 0.0);
+        for (const std::uint32_t t : emissive) emits[t] = 1.0;
+        emitters_ = surface_points(triangles, emits, most_seekers);
+        for (const Light& light : scene.lights)
+            if (luminance(light.intensity) > 0.0f) lights_.push_back(&light);
+    }
+
+    // Calls add(way) for each light that a point may be met by.
+    template <typename Add>
+    void each(const SurfacePoint& point, std::size_t number, const Add& add) const {
+        const auto look = [&](const std::optional<Way>& way) {
+            if (way && glm::dot(point.normal, way->along) > 0.0) add(*way);
+        };
+        const std::size_t count = std::min(lights_.size(), most_lights);
+        for (std::size_t k = 0; k < count; ++k)  // others for the next point
+            look(way_to(*lights_[(k * lights_.size() / count + number) % lights_.size()], frame_,
+                        point.position));
+        if (emitters_.empty()) return;
+        const double at = radical_inverse(static_cast<std::uint32_t>(number) + 1, 5);
+        const SurfacePoint& emitter =
+            emitters_[static_cast<std::size_t>(at * static_cast<double>(emitters_.size()))];
+        const std::optional<Way> way = way_to(point.position, emitter.position);
+        if (way && glm::dot(emitter.normal, way->along) < 0.0) look(way);
+    }
+
+private:
+    const SceneFrame frame_;
+    std::vector<const Light*> lights_;
+    std::vector<SurfacePoint> emitters_;
+};
+
+double share(std::size_t some, std::size_t all) {
+    return all > 0 ? static_cast<double>(some) / static_cast<double>(all) : 0.0;
+}
+
+// What rays that belong together begin with, and how many they are.
+struct Run {
+    std::size_t first = 0, count = 0;
+};
+
+void add_lit(const Rays& rays, const std::vector<Run>& to_lights, Surroundings& out) {
+    std::size_t once = 0, twice = 0;
+    for (const Run& run : to_lights) {
+        std::size_t lights = 0;
+        for (std::size_t i = run.first; i < run.first + run.count; ++i)
+            lights += rays.met(i) ? 0 : 1;
+        once += lights > 0 ? 1 : 0;
+        twice += lights > 1 ? 1 : 0;
+    }
+    out.lit = share(once, to_lights.size());
+    out.lit_twice = share(twice, once);
+}
+
+// A wall ends where a ray into it comes out of the back of a surface.
+void add_thickness(const Rays& rays, const Run& into, double thin, Surroundings& out) {
+    std::size_t thinner = 0;
+    double least = infinity;
+    for (std::size_t i = into.first; i < into.first + into.count; ++i) {
+        if (!rays.met_back(i)) continue;
+        least = std::min(least, rays.distance(i));
+        thinner += rays.distance(i) < thin ? 1 : 0;
+    }
+    out.thin = share(thinner, into.count);
+    out.thinnest = least < infinity ? least : 0.0;
+}
+
+}  // namespace
+
+Surroundings survey(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+                    const std::vector<double>& weights, const std::vector<std::uint32_t>& emissive,
+                    const SurroundingsOptions& options) {
+    const double wished =
+        wished_tests / static_cast<double>(std::max<std::size_t>(triangles.size(), 1));
+    auto count = static_cast<std::size_t>(std::clamp(wished, fewest_points, most_points));
+    if (!options.open) count = std::min(count, most_seekers);
+    const std::vector<SurfacePoint> points = surface_points(triangles, weights, count);
+    Surroundings out;
+    out.points = points.size();
+    if (points.empty()) return out;
+
+    Rays rays;
+    if (options.open)
+        for (std::uint32_t i = 0; i < points.size(); ++i)
+            rays.add(points[i].position,
+                     about(points[i].normal, radical_inverse(i + 1, 5), radical_inverse(i + 1, 7)),
+                     infinity);
+    const Run open{0, rays.count()};
+    const std::vector<SurfacePoint> seekers =
+        surface_points(triangles, weights, std::min(count, most_seekers));
+    for (const SurfacePoint& point : seekers)
+        if (!triangles[point.triangle].double_sided)
+            rays.add(point.position, -point.normal, infinity);
+    const Run into{open.count, rays.count() - open.count};
+    const Lights lights(scene, triangles, emissive);
+    std::vector<Run> to_lights;
+    for (const SurfacePoint& point : seekers) {
+        const std::size_t first = rays.count();
+        lights.each(point, to_lights.size(), [&](const Way& way) {
+            rays.add(point.position, way.along, way.distance - same_place);
+        });
+        to_lights.push_back({first, rays.count() - first});
+    }
+    rays.trace(triangles);
+
+    std::size_t missed = 0, backs = 0;
+    for (std::size_t i = 0; i < open.count; ++i) {
+        missed += rays.met(i) ? 0 : 1;
+        backs += rays.met_back(i) ? 1 : 0;
+    }
+    out.open = options.open ? share(missed, open.count) : 1.0;
+    out.backs = share(backs, open.count);
+    add_lit(rays, to_lights, out);
+    add_thickness(rays, into, options.thin, out);
+    return out;
+}
+
+}  // namespace clgi
