@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 
-#include "antiradiance/bin_choice.hpp"
 #include "antiradiance/solid_angle.hpp"
 #include "links_checks.hpp"
 #include "scenes.hpp"
@@ -65,34 +64,6 @@ TEST(SolidAngle, OfTrianglesInClosedForm) {
     EXPECT_NEAR(solid_angle({1e-60 * x, 1e-60 * y, 1e-60 * z}, none), pi / 2.0, 1e-15);
     EXPECT_EQ(solid_angle({x, y, none}, none), 0.0);                       // at a corner
     EXPECT_NEAR(solid_angle({x, y, none}, {3.0, -2.0, 0.0}), 0.0, 1e-15);  // in the plane
-}
-
-TEST(BinChoice, IsTheNearestBinThatBothEndsAllow) {
-    const DirectionBins bins = direction_bins(128);
-    BinChoice choose(bins);
-    test::Random random(4);
-    const auto any = [&] {
-        return glm::normalize(glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1)));
-    };
-    int none = 0;
-    for (int draw = 0; draw < 500; ++draw) {
-        const glm::dvec3 w = any();
-        const BinDemand sender{any(), 0.3}, receiver{any(), 0.1};
-        int best = -1;
-        for (int j = 0; j < bins.count(); ++j) {
-            const glm::dvec3& bin = bins.directions[static_cast<std::size_t>(j)];
-            if (glm::dot(bin, sender.normal) < 0.3 || glm::dot(bin, receiver.normal) < 0.1)
-                continue;
-            if (glm::dot(bin, w) < std::cos(2.0 * std::sqrt(4.0 * pi / 128.0))) continue;
-            const auto at = static_cast<std::size_t>(best);
-            if (best < 0 || glm::dot(bin, w) > glm::dot(bins.directions[at], w)) best = j;
-        }
-        none += best < 0;
-        EXPECT_EQ(choose(w, sender, receiver).value_or(-1), best);
-        EXPECT_EQ(choose(w, {}, {}), bins.nearest(w));
-    }
-    EXPECT_GT(none, 100);
-    EXPECT_LT(none, 400);
 }
 
 TEST(Links, BetweenTwoTrianglesCarryTheirSolidAngles) {

@@ -4,7 +4,8 @@
 
 #include <clgi/direction_bins.hpp>
 #include <optional>
-#include <vector>
+
+#include "antiradiance/bin_grid.hpp"
 
 namespace clgi {
 
@@ -18,24 +19,19 @@ struct BinDemand {
     }
 };
 
-// Not for several threads: it remembers the bin of the last direction, which is often that of the
-// next one.
 class BinChoice {
 public:
-    explicit BinChoice(const DirectionBins& bins);
+    explicit BinChoice(const DirectionBins& bins);  // that must outlive this object
 
     // The bin nearest to `direction` (unit) among those that meet both demands, at most twice the
-    // mean spacing of bins away.
+    // mean spacing of bins, and a right angle, away.
     std::optional<int> operator()(const glm::dvec3& direction, const BinDemand& sender,
-                                  const BinDemand& receiver);
+                                  const BinDemand& receiver) const;
 
 private:
-    int nearest(const glm::dvec3& direction);
-
     const DirectionBins& bins_;
-    double farthest_;           // cosine
-    std::vector<double> sure_;  // [bins] cosine of half the angle to the nearest other bin
-    int last_ = 0;
+    const double farthest_;  // cosine
+    const BinGrid grid_;
 };
 
 }  // namespace clgi

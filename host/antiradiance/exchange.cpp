@@ -68,13 +68,13 @@ std::vector<double> hemisphere_scales(const ElementTree& tree, const DirectionBi
     return out;
 }
 
-Exchange::Exchange(const ElementTree& tree, const DirectionBins& bins,
+Exchange::Exchange(const ElementTree& tree, const DirectionBins& bins, const BinChoice& choose,
                    const std::vector<double>& scales, const LinkOptions& options,
                    std::shared_ptr<const SpreadTable> table, const ThirdGroups& groups)
     : tree_(tree),
       bins_(bins),
       scales_(scales),
-      choose_(bins),
+      choose_(choose),
       bin_(4.0 * pi / bins.count()),
       limit_(options.bin_share * bin_),
       spread_(options.spread),
@@ -105,9 +105,12 @@ void Exchange::spread(const Corners& p, double angle, int depth) {
             spread(part, solid_angle(part, eye_), depth + 1);
         return;
     }
-    const glm::dvec3 way = eye_ - centroid(p);
+    if (angle > 0.0) send(eye_ - centroid(p), angle);
+}
+
+void Exchange::send(const glm::dvec3& way, double angle) {
     const double distance = glm::length(way);
-    if (!(angle > 0.0 && distance > 0.0) || !arrives(way)) return;
+    if (!(distance > 0.0) || !arrives(way)) return;
     if (const std::optional<int> bin = choose_(way / distance, sends_, receives_)) add(*bin, angle);
 }
 
@@ -126,40 +129,42 @@ void Exchange::spread_around(int bin, double angle) {
 
 double Exchange::cut_thirds(std::uint32_t sender, double side) {
     halves_.clear();
+    points_.clear();
     double sum = 0.0;
-    const auto put = [&](const Corners& corners, double angle) {
-        halves_.emplace_back(corners, side * angle);
-        sum += halves_.back().second;
-    };
     // True: it is far away and no larger than a part that bins tell apart, so it is a point.
-    const auto put_point = [&](const glm::dvec3& middle, const glm::dvec3& turned,
-                               double square_radius) {
-        const glm::dvec3 way = eye_ - middle;
+    const auto put_point = [&](const ThirdGroup& group) {
+        const glm::dvec3 way = eye_ - group.middle;
         const double square = glm::dot(way, way);
-        if (!(square_radius < far * square)) return false;
-        const double angle = glm::dot(turned, way) / (square * std::sqrt(square));
+        if (!(group.square_radius < far * square)) return false;
+        const double angle = side * glm::dot(group.vector_area, way) / (square * std::sqrt(square));
         if (std::abs(angle) > part_share * bin_) return false;
-        put({middle, middle, middle}, angle);
+        sum += angle;
+        if (angle > 0.0) points_.emplace_back(way, angle);
         return true;
     };
-    for (const ThirdGroup& group : groups_.of(sender)) {
-        if (put_point(group.middle, group.vector_area, group.square_radius)) continue;
-        for (std::uint32_t k = group.first; k < group.end; ++k) {
-            const VertexThird& third = tree_.thirds[k];
-            const glm::dvec3 middle = centroid(third);
-            if (put_point(middle, vector_area(third), square_reach(third, middle))) continue;
-            const std::array<glm::dvec3, 4> p = outline(third);
-            for (const Corners& half : {Corners{p[0], p[1], p[2]}, Corners{p[0], p[2], p[3]}})
-                put(half, signed_solid_angle(half, eye_));
+    const std::span<const ThirdGroup> groups = groups_.of(sender);
+    for (std::size_t g = 0; g < groups.size();) {
+        const bool point = put_point(groups[g]);
+        if (!point && groups[g].third != no_index) {
+            const std::array<glm::dvec3, 4> p = outline(tree_.thirds[groups[g].third]);
+            for (const Corners& half : {Corners{p[0], p[1], p[2]}, Corners{p[0], p[2], p[3]}}) {
+                const double angle = side * signed_solid_angle(half, eye_);
+                sum += angle;
+                if (angle > 0.0) halves_.emplace_back(half, angle);
+            }
         }
+        g = point ? groups[g].next : g + 1;
     }
     return sum;
 }
 
 void Exchange::spread_thirds(double angle) {
     double seen = 0.0;
+    for (const auto& [way, part] : points_) {
+        seen += part;
+        send(way, part);
+    }
     for (const auto& [half, part] : halves_) {
-        if (!(part > 0.0)) continue;
         seen += part;
         spread(half, part, 0);
     }

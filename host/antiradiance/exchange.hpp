@@ -34,9 +34,9 @@ class Exchange {
 public:
     // scales: of hemisphere_scales()
     // table: for Spread::gaussian
-    Exchange(const ElementTree& tree, const DirectionBins& bins, const std::vector<double>& scales,
-             const LinkOptions& options, std::shared_ptr<const SpreadTable> table,
-             const ThirdGroups& groups);
+    Exchange(const ElementTree& tree, const DirectionBins& bins, const BinChoice& choose,
+             const std::vector<double>& scales, const LinkOptions& options,
+             std::shared_ptr<const SpreadTable> table, const ThirdGroups& groups);
 
     // Appends the links from sender to receiver.
     void operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out);
@@ -70,17 +70,19 @@ private:
     bool is_ahead(std::size_t sender, std::size_t receiver, int bin) const;
     void spread(const Corners& corners, double solid_angle, int depth);
     void spread_around(int bin, double solid_angle);
-    // Of a leaf at a vertex: cuts its thirds into halves and adds up their solid angles, those that
-    // face away from the side (1: front, -1: back) as negative. So the sum depends on the outline
-    // of the leaf alone, and a closed surface of leaves covers what it hides once.
+    // To the bin of a direction towards the receiver.
+    void send(const glm::dvec3& way, double solid_angle);
+    // Of a leaf at a vertex: cuts its thirds into points and halves and adds up their solid angles,
+    // those that face away from the side (1: front, -1: back) as negative. So the sum depends on
+    // the outline of the leaf alone, and a closed surface of leaves covers what it hides once.
     double cut_thirds(std::uint32_t sender, double side);
-    // The halves that face that side, together as large as the sum.
+    // Those that face that side, together as large as the sum.
     void spread_thirds(double solid_angle);
 
     const ElementTree& tree_;
     const DirectionBins& bins_;
     const std::vector<double>& scales_;
-    BinChoice choose_;
+    const BinChoice& choose_;
     const double bin_;  // sr, mean
     const double limit_;
     const Spread spread_;
@@ -92,9 +94,10 @@ private:
     glm::dvec3 eye_{0.0};  // the receiver's position
     BinDemand sends_, receives_;
     bool near_ = false;  // the sender is a leaf at a vertex, and its thirds count
-    std::vector<std::pair<Corners, double>> halves_;  // of thirds, with their solid angles
-    std::vector<double> sums_;                        // [bins] sr; zero between calls
-    std::vector<int> used_;                           // bins that are not zero
+    std::vector<std::pair<Corners, double>> halves_;     // of thirds, with their solid angles
+    std::vector<std::pair<glm::dvec3, double>> points_;  // way and solid angle of far thirds
+    std::vector<double> sums_;                           // [bins] sr; zero between calls
+    std::vector<int> used_;                              // bins that are not zero
 };
 
 }  // namespace clgi

@@ -22,9 +22,10 @@ public:
         : tree_(checked(tree, bins, options, poses)),
           bins_(bins),
           options_(options),
-          refine_(tree, options.bin_share * 4.0 * pi / bins.count(), motion_of(poses)),
+          groups_(tree),
+          refine_(tree, groups_, options.bin_share * 4.0 * pi / bins.count(), motion_of(poses)),
           scales_(hemisphere_scales(tree, bins)),
-          groups_(tree) {
+          choose_(bins) {
         if (options.spread == Spread::gaussian) table_ = std::make_shared<SpreadTable>(bins);
     }
     Linking(const Linking&) = delete;
@@ -33,7 +34,9 @@ public:
     const Refine& refine() const { return refine_; }
 
     // One for each thread.
-    Exchange exchange() const { return Exchange(tree_, bins_, scales_, options_, table_, groups_); }
+    Exchange exchange() const {
+        return Exchange(tree_, bins_, choose_, scales_, options_, table_, groups_);
+    }
 
     // Appends the links of these pairs, and of all that stand for them, to `out`; `open` is empty
     // then. wanted: whether links that end at an element, or at one of those below it, are wanted.
@@ -76,10 +79,11 @@ private:
     const ElementTree& tree_;
     const DirectionBins& bins_;
     const LinkOptions& options_;
+    const ThirdGroups groups_;
     std::optional<MotionRefine> motion_;  // where something moves
     const Refine refine_;
     const std::vector<double> scales_;
-    const ThirdGroups groups_;
+    const BinChoice choose_;
     std::shared_ptr<const SpreadTable> table_;
 };
 

@@ -37,7 +37,8 @@ private:
 
     const ElementTree& tree_;
     const std::vector<ElementTree>& poses_;
-    std::vector<Refine> at_;  // [poses]
+    std::vector<ThirdGroups> groups_;  // [poses]
+    std::vector<Refine> at_;           // [poses]
     std::vector<double> radii_;
 };
 

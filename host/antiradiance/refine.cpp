@@ -29,6 +29,23 @@ double Refine::seen(std::size_t element, std::size_t from) const {
     return angle * std::min(1.0, height / distance);
 }
 
+bool Refine::below(std::size_t leaf, const glm::dvec3& normal, const glm::dvec3& position,
+                   double height) const {
+    const std::span<const ThirdGroup> groups = groups_.of(leaf);
+    for (std::size_t g = 0; g < groups.size();) {
+        const double least = height - glm::dot(normal, groups[g].middle - position);
+        if (least >= 0.0 && groups[g].square_radius <= least * least) {
+            g = groups[g].next;
+            continue;
+        }
+        if (groups[g].third != no_index)
+            for (const glm::dvec3& corner : outline(tree_.thirds[groups[g].third]))
+                if (glm::dot(normal, corner - position) > height) return false;
+        ++g;
+    }
+    return true;
+}
+
 bool Refine::hidden(std::size_t sender, std::size_t receiver) const {
     if (motion_ && motion_->moves(sender, receiver)) return motion_->hidden(sender, receiver);
     if (!tree_.is_flat(receiver)) return false;
@@ -47,9 +64,7 @@ bool Refine::hidden(std::size_t sender, std::size_t receiver) const {
         // Its position lies between its corners.
         if (height > rise * glm::length(way)) return false;
         if (height + tree_.radii[sender] <= rise * glm::length(way)) return true;
-        for (std::uint32_t k = tree_.first_thirds[sender]; k < tree_.first_thirds[sender + 1]; ++k)
-            if (top_of(outline(tree_.thirds[k])) > rise * glm::length(way)) return false;
-        return true;
+        return below(sender, normal, tree_.positions[receiver], rise * glm::length(way));
     }
     if (!tree_.is_flat(sender)) return height + tree_.radii[sender] <= 0.0;
     const double tilt = glm::length(glm::cross(normal, tree_.normals[sender]));

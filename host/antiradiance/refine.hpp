@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "antiradiance/third_groups.hpp"
+
 namespace clgi {
 
 // Two elements, neither of which holds the other, or one twice: everything within it.
@@ -28,10 +30,11 @@ class MotionRefine;
 
 class Refine {
 public:
-    // limit: sr that an element may have, seen from the other. motion: it answers for pairs of
-    // which an end moves; null: none does.
-    Refine(const ElementTree& tree, double limit, const MotionRefine* motion = nullptr)
-        : tree_(tree), limit_(limit), motion_(motion) {}
+    // groups: of the tree. limit: sr that an element may have, seen from the other. motion: it
+    // answers for pairs of which an end moves; null: none does.
+    Refine(const ElementTree& tree, const ThirdGroups& groups, double limit,
+           const MotionRefine* motion = nullptr)
+        : tree_(tree), groups_(groups), limit_(limit), motion_(motion) {}
 
     // True: the pair is to be linked as it is. False: the pairs added to `children` stand for it;
     // there are none where no light is exchanged. Takes back to_a and to_b where the other element
@@ -53,7 +56,12 @@ private:
     bool far_apart(std::size_t a, std::size_t b) const;
     double radius(std::size_t i) const;
 
+    // Whether all thirds of a leaf at a vertex lie below this height above the plane.
+    bool below(std::size_t leaf, const glm::dvec3& normal, const glm::dvec3& position,
+               double height) const;
+
     const ElementTree& tree_;
+    const ThirdGroups& groups_;
     const double limit_;
     const MotionRefine* const motion_;
 };

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "antiradiance/third_groups.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "antiradiance/vertex_cells.hpp"
+
+namespace clgi {
+namespace {
+
+// What is no part of a group yet, with its place among the thirds of the tree.
+struct Third {
+    glm::dvec3 middle;
+    std::uint32_t place;
+};
+using Iterator = std::vector<Third>::iterator;
+
+// At the median of the longest axis of the box of middles.
+Iterator split(Iterator first, Iterator last) {
+    glm::dvec3 low = first->middle, high = low;
+    for (Iterator one = first; one != last; ++one) {
+        low = glm::min(low, one->middle);
+        high = glm::max(high, one->middle);
+    }
+    const glm::dvec3 size = high - low;
+    const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+    const Iterator middle = first + (last - first + 1) / 2;
+    std::nth_element(first, middle, last, [&](const Third& a, const Third& b) {
+        return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis]
+                                                : a.place < b.place;
+    });
+    return middle;
+}
+
+// Makes the groups of one leaf after the other.
+class Grouping {
+public:
+    Grouping(const ElementTree& tree, std::vector<ThirdGroup>& groups)
+        : tree_(tree), groups_(groups) {}
+
+    void operator()(std::size_t leaf) {
+        begin_ = groups_.size();
+        areas_.clear();
+        thirds_.clear();
+        for (std::uint32_t k = tree_.first_thirds[leaf]; k < tree_.first_thirds[leaf + 1]; ++k)
+            thirds_.push_back({centroid(tree_.thirds[k]), k});
+        if (!thirds_.empty()) group(thirds_.begin(), thirds_.end());
+    }
+
+private:
+    void group(Iterator first, Iterator last) {
+        if (last - first == 1) return alone(*first);
+        const std::size_t place = groups_.size();
+        groups_.emplace_back();
+        areas_.push_back(0.0);
+        const Iterator middle = split(first, last);
+        for (const auto& [from, to] : {std::pair(first, middle), std::pair(middle, last)}) {
+            if (to - from == 1) {
+                alone(*from);
+                continue;
+            }
+            const Iterator quarter = split(from, to);
+            group(from, quarter);
+            group(quarter, to);
+        }
+        measure(place);
+    }
+
+    void alone(const Third& third) {
+        ThirdGroup out;
+        out.middle = third.middle;
+        out.vector_area = vector_area(tree_.thirds[third.place]);
+        out.square_radius = square_reach(tree_.thirds[third.place], third.middle);
+        out.next = static_cast<std::uint32_t>(groups_.size() - begin_) + 1;
+        out.third = third.place;
+        groups_.push_back(out);
+        areas_.push_back(glm::length(out.vector_area));
+    }
+
+    // From its parts, which follow it.
+    void measure(std::size_t place) {
+        ThirdGroup& out = groups_[place];
+        out.next = static_cast<std::uint32_t>(groups_.size() - begin_);
+        double& area = areas_[place - begin_];
+        const auto each = [&](const auto& visit) {
+            for (std::size_t k = place + 1; k < groups_.size(); k = begin_ + groups_[k].next)
+                visit(groups_[k], areas_[k - begin_]);
+        };
+        each([&](const ThirdGroup& part, double part_area) {
+            area += part_area;
+            out.middle += part_area * part.middle;
+            out.vector_area += part.vector_area;
+        });
+        out.middle /= area;
+        double radius = 0.0;
+        each([&](const ThirdGroup& part, double) {
+            radius = std::max(
+                radius, glm::distance(part.middle, out.middle) + std::sqrt(part.square_radius));
+        });
+        out.square_radius = radius * radius;
+    }
+
+    const ElementTree& tree_;
+    std::vector<ThirdGroup>& groups_;
+    std::size_t begin_ = 0;      // of the present leaf
+    std::vector<double> areas_;  // m^2, of its groups
+    std::vector<Third> thirds_;
+};
+
+}  // namespace
+
+ThirdGroups::ThirdGroups(const ElementTree& tree) {
+    if (tree.first_thirds.empty()) return;
+    Grouping make(tree, groups_);
+    for (std::size_t i = 0; i < tree.count(); ++i) {
+        first_.push_back(groups_.size());
+        make(i);
+        flatness_.push_back(
+            tree.is_vertex(i) ? glm::length(groups_[first_[i]].vector_area) / tree.areas[i] : 1.0);
+    }
+    first_.push_back(groups_.size());
+}
+
+}  // namespace clgi
