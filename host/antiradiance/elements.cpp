@@ -269,29 +269,24 @@ constexpr int most_tries = 3;
 // there would be more.
 VertexCells mixed_leaves(const Scene& scene, const Faces& faces, double max_area,
                          const ElementOptions& options) {
-    const VertexCells all_faces{{}, {}, faces.faces};
-    if (!options.vertices) return all_faces;
-    const VertexCellMaker cells(scene, faces);
-    VertexCells out = cells(max_area);
-    if (options.max_area > 0.0) return out;
+    if (!options.vertices) return {{}, {}, faces.faces};
+    const VertexCellMaker maker(scene, faces);
+    CellPlan plan = maker.plan(max_area);
+    if (options.max_area > 0.0) return maker(plan);
     const auto wished = static_cast<double>(options.wished);
-    const double coarse = count_leaves(out.faces, max_area);
-    const double leaves = coarse + static_cast<double>(out.cells.size());
-    if (leaves < wished) return all_faces;
-    if (leaves == wished) return out;
-    double area = 0.0;
-    for (const VertexCell& cell : out.cells) area += cell.area;
-    if (out.cells.empty())  // pieces that have none may have joined ones
+    if (plan.leaves < wished) return {{}, {}, faces.faces};
+    if (plan.leaves == wished) return maker(plan);
+    double area = plan.area;
+    if (plan.count == 0.0)  // pieces that have none may have joined ones
         for (const Face& face : faces.faces) area += face.area <= max_area ? face.area : 0.0;
+    const double coarse = plan.leaves - plan.count;
     double joined = area / (joined_share * std::max(wished - coarse, 0.25 * wished));
     for (int tries = 0; tries < most_tries; ++tries) {
-        out = cells(max_area, std::min(joined, max_area));
-        const double found =
-            count_leaves(out.faces, max_area) + static_cast<double>(out.cells.size());
-        if (found >= enough * wished) break;
-        joined *= found / wished;  // more pieces have cells than had some before
+        plan = maker.plan(max_area, std::min(joined, max_area));
+        if (plan.leaves >= enough * wished) break;
+        joined *= plan.leaves / wished;  // more pieces have cells than had some before
     }
-    return out;
+    return maker(plan);
 }
 
 void mark_moving(const std::vector<std::uint8_t>& moves, ElementTree& tree) {

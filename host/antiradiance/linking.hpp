@@ -22,7 +22,7 @@ public:
         : tree_(checked(tree, bins, options, poses)),
           bins_(bins),
           options_(options),
-          groups_(tree),
+          groups_(tree, options.threads),
           refine_(tree, groups_, options.bin_share * 4.0 * pi / bins.count(), motion_of(poses)),
           scales_(hemisphere_scales(tree, bins)),
           choose_(bins) {

@@ -5,26 +5,16 @@
 #include <atomic>
 #include <clgi/error.hpp>
 #include <cmath>
-#include <functional>
-#include <future>
 #include <limits>
 #include <string>
-#include <thread>
 
 #include "antiradiance/linking.hpp"
+#include "antiradiance/on_threads.hpp"
 
 namespace clgi {
 namespace {
 
 constexpr std::size_t tasks_wanted = 4096;  // many for each thread, for they differ in size
-
-// Calls work(thread) in each of them; throws what one of them threw.
-void on_threads(int threads, const std::function<void(int)>& work) {
-    std::vector<std::future<void>> others;
-    for (int t = 1; t < threads; ++t) others.push_back(std::async(std::launch::async, work, t));
-    work(0);
-    for (std::future<void>& other : others) other.get();
-}
 
 // Pairs that stand for everything, enough of them to be shared among threads.
 std::vector<ElementPair> make_tasks(const ElementTree& tree, const Refine& refine) {
@@ -71,8 +61,7 @@ void link_tasks(const Linking& linking, const std::vector<ElementPair>& tasks,
 Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
                  const std::vector<ElementTree>& poses) {
     const Linking linking(tree, bins, options, poses);
-    const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    const int threads = options.threads > 0 ? options.threads : cores;
+    const int threads = thread_count(options.threads);
     const std::vector<ElementPair> tasks = make_tasks(tree, linking.refine());
 
     std::vector<Found> found(static_cast<std::size_t>(threads));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "antiradiance/on_threads.hpp"
 #include "antiradiance/vertex_cells.hpp"
 
 namespace clgi {
@@ -111,16 +112,40 @@ private:
 
 }  // namespace
 
-ThirdGroups::ThirdGroups(const ElementTree& tree) {
+ThirdGroups::ThirdGroups(const ElementTree& tree, int threads) {
     if (tree.first_thirds.empty()) return;
-    Grouping make(tree, groups_);
+    const int used = thread_count(threads);
+    std::vector<std::vector<ThirdGroup>> parts(static_cast<std::size_t>(used));
+    std::vector<std::size_t> counts(tree.count());
+    // Elements from share to share of the thirds.
+    const auto begin = [&](int thread) {
+        const std::size_t third =
+            tree.thirds.size() * static_cast<std::size_t>(thread) / parts.size();
+        const auto found =
+            std::lower_bound(tree.first_thirds.begin(), tree.first_thirds.end(), third);
+        return thread == used ? tree.count()
+                              : static_cast<std::size_t>(found - tree.first_thirds.begin());
+    };
+    on_threads(used, [&](int thread) {
+        std::vector<ThirdGroup>& groups = parts[static_cast<std::size_t>(thread)];
+        Grouping make(tree, groups);
+        for (std::size_t i = begin(thread); i < begin(thread + 1); ++i) {
+            const std::size_t before = groups.size();
+            make(i);
+            counts[i] = groups.size() - before;
+        }
+    });
+    std::size_t all = 0;
+    for (const std::vector<ThirdGroup>& part : parts) all += part.size();
+    groups_.reserve(all);
+    for (const std::vector<ThirdGroup>& part : parts)
+        groups_.insert(groups_.end(), part.begin(), part.end());
+    first_.push_back(0);
     for (std::size_t i = 0; i < tree.count(); ++i) {
-        first_.push_back(groups_.size());
-        make(i);
+        first_.push_back(first_.back() + counts[i]);
         flatness_.push_back(
-            tree.is_vertex(i) ? glm::length(groups_[first_[i]].vector_area) / tree.areas[i] : 1.0);
+            counts[i] > 0 ? glm::length(groups_[first_[i]].vector_area) / tree.areas[i] : 1.0);
     }
-    first_.push_back(groups_.size());
 }
 
 }  // namespace clgi

@@ -20,7 +20,8 @@ struct ThirdGroup {
 
 class ThirdGroups {
 public:
-    explicit ThirdGroups(const ElementTree& tree);
+    // threads: 0: one for each core. Groups are the same for all of them.
+    explicit ThirdGroups(const ElementTree& tree, int threads = 1);
 
     // Of a leaf at a vertex, depth-first: the first one is all of it.
     std::span<const ThirdGroup> of(std::size_t leaf) const {

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <clgi/adjacency.hpp>
+#include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "antiradiance/join_cells.hpp"
+#include "antiradiance/leaf_area.hpp"
 #include "scene/disjoint_sets.hpp"
 
 namespace clgi {
@@ -90,56 +91,96 @@ VertexCellMaker::VertexCellMaker(const Scene& scene, const Faces& faces)
       backs_(by_triangle(faces.faces, scene.triangles.size(), true)),
       vertices_(smooth_corners(scene, faces.mesh, faces.faces, fronts_)) {}
 
-VertexCells VertexCellMaker::operator()(double max_area, double joined_area) const {
-    const std::vector<Face>& faces = all_.faces;
+// What a piece would have: its largest leaf, how many, and whether one has no normal.
+void VertexCellMaker::choose_pieces(double max_area, CellPlan& plan) const {
     const Adjacency& mesh = all_.mesh;
-    const std::vector<std::uint32_t> corners = join_cells(vertices_, faces, fronts_, joined_area);
-
-    // What a piece would have: its largest leaf, how many, and whether one has no normal.
+    const std::vector<std::uint32_t>& cells = plan.cells;
     std::vector<double> largest(mesh.piece_count, 0.0);
     std::vector<std::uint8_t> pointed(mesh.piece_count, 0);
     std::vector<std::uint32_t> face_count(mesh.piece_count, 0), cell_count(mesh.piece_count, 0);
-    std::vector<double> cell_areas(corners.size(), 0.0);
-    std::vector<glm::dvec3> cell_normals(corners.size(), glm::dvec3(0.0));
-    for (const Face& face : faces) {
+    std::vector<double> areas(cells.size(), 0.0);
+    std::vector<glm::dvec3> normals(cells.size(), glm::dvec3(0.0));
+    for (const Face& face : all_.faces) {
         const std::uint32_t piece = mesh.pieces[face.triangle];
         largest[piece] = std::max(largest[piece], face.area);
         if (face.back) continue;
         ++face_count[piece];
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t cell = corners[3 * face.triangle + k];
-            if (cell_areas[cell] == 0.0) ++cell_count[piece];
-            cell_areas[cell] += face.area / 3.0;
-            cell_normals[cell] += face.area / 3.0 * face.normal;
-            largest[piece] = std::max(largest[piece], cell_areas[cell]);
+            const std::uint32_t cell = cells[3 * face.triangle + k];
+            if (areas[cell] == 0.0) ++cell_count[piece];
+            areas[cell] += face.area / 3.0;
+            normals[cell] += face.area / 3.0 * face.normal;
+            largest[piece] = std::max(largest[piece], areas[cell]);
         }
     }
-    for (const Face& face : faces)
+    for (const Face& face : all_.faces)
         for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t cell = corners[3 * face.triangle + k];
-            if (glm::length(cell_normals[cell]) < least * cell_areas[cell])
+            const std::uint32_t cell = cells[3 * face.triangle + k];
+            if (glm::length(normals[cell]) < least * areas[cell])
                 pointed[mesh.pieces[face.triangle]] = 1;
         }
-    const auto replaced = [&](std::uint32_t piece) {
-        return largest[piece] <= max_area * (1.0 + rounding) &&
-               cell_count[piece] < face_count[piece] && !pointed[piece];
-    };
+    plan.replaced.resize(mesh.piece_count);
+    for (std::size_t piece = 0; piece < mesh.piece_count; ++piece)
+        plan.replaced[piece] = largest[piece] <= max_area * (1.0 + rounding) &&
+                               cell_count[piece] < face_count[piece] && !pointed[piece];
+}
 
+void VertexCellMaker::count(double max_area, CellPlan& plan) const {
+    std::vector<std::uint8_t> seen(2 * plan.cells.size(), 0);  // fronts, then backs
+    for (const Face& face : all_.faces) {
+        if (plan.replaced[all_.mesh.pieces[face.triangle]] == 0) {
+            plan.leaves += std::ldexp(1.0, halvings(face.area, max_area));
+            continue;
+        }
+        plan.area += face.area;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            std::uint8_t& here =
+                seen[plan.cells[3 * face.triangle + k] + (face.back ? plan.cells.size() : 0)];
+            if (here == 0) plan.count += 1.0;
+            here = 1;
+        }
+    }
+    plan.leaves += plan.count;
+}
+
+CellPlan VertexCellMaker::plan(double max_area, double joined_area) const {
+    CellPlan out;
+    out.cells = join_cells(vertices_, all_.faces, fronts_, joined_area);
+    out.joined = joined_area > 0.0;
+    choose_pieces(max_area, out);
+    count(max_area, out);
+    return out;
+}
+
+std::vector<std::uint32_t> VertexCellMaker::by_cell(const CellPlan& plan,
+                                                    const std::vector<std::uint32_t>& sides) const {
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t c = 0; c < plan.cells.size(); ++c)
+        if (sides[c / 3] != no_index && plan.replaced[all_.mesh.pieces[c / 3]] != 0)
+            order.push_back(c);
+    // Numbers of vertices and cells are below that of corners: counted, the last digit first.
+    for (const std::vector<std::uint32_t>* keys : {&vertices_, &plan.cells}) {
+        std::vector<std::uint32_t> place(keys->size() + 1, 0), sorted(order.size());
+        for (const std::uint32_t c : order) ++place[(*keys)[c] + 1];
+        for (std::size_t k = 1; k < place.size(); ++k) place[k] += place[k - 1];
+        for (const std::uint32_t c : order) sorted[place[(*keys)[c]]++] = c;
+        order.swap(sorted);
+    }
+    return order;
+}
+
+VertexCells VertexCellMaker::operator()(const CellPlan& plan) const {
+    const std::vector<Face>& faces = all_.faces;
     VertexCells out;
     for (const Face& face : faces)
-        if (!replaced(mesh.pieces[face.triangle])) out.faces.push_back(face);
+        if (plan.replaced[all_.mesh.pieces[face.triangle]] == 0) out.faces.push_back(face);
     for (const bool back : {false, true}) {
         const std::vector<std::uint32_t>& sides = back ? backs_ : fronts_;
-        // By set, then by vertex, triangle and corner.
-        std::vector<std::uint32_t> order;
-        for (std::uint32_t c = 0; c < corners.size(); ++c)
-            if (sides[c / 3] != no_index && replaced(mesh.pieces[c / 3])) order.push_back(c);
-        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::tie(corners[a], vertices_[a]) < std::tie(corners[b], vertices_[b]);
-        });
+        const std::vector<std::uint32_t> order = by_cell(plan, sides);
+        out.thirds.reserve(out.thirds.size() + order.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             const std::uint32_t t = order[i] / 3, corner = order[i] % 3;
-            if (i == 0 || corners[order[i]] != corners[order[i - 1]]) {
+            if (i == 0 || plan.cells[order[i]] != plan.cells[order[i - 1]]) {
                 out.cells.emplace_back();
                 out.cells.back().first_third = static_cast<std::uint32_t>(out.thirds.size());
                 out.cells.back().back = back;
@@ -152,7 +193,7 @@ VertexCells VertexCellMaker::operator()(double max_area, double joined_area) con
             out.cells.back().end_third = static_cast<std::uint32_t>(out.thirds.size());
         }
         for (VertexCell& cell : out.cells)
-            if (cell.back == back) measure(out, faces, sides, joined_area > 0.0, cell);
+            if (cell.back == back) measure(out, faces, sides, plan.joined, cell);
     }
     return out;
 }

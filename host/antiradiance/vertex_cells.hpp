@@ -34,6 +34,16 @@ struct VertexCells {
     std::vector<Face> faces;          // that no cell replaces, in their order
 };
 
+// Which cells there would be.
+struct CellPlan {
+    std::vector<std::uint32_t> cells;    // [3 * triangles] of corners
+    std::vector<std::uint8_t> replaced;  // [pieces] have cells in place of faces
+    bool joined = false;                 // cells are of several vertices
+    double area = 0.0;                   // m^2, of all cells
+    double count = 0.0;                  // of cells
+    double leaves = 0.0;                 // these, and what faces are halved to
+};
+
 class VertexCellMaker {
 public:
     // Both must outlive this object.
@@ -42,9 +52,17 @@ public:
     // Replaces all faces of the pieces in which no face and no cell is larger than max_area, m^2,
     // and that get fewer cells than they have faces, and none without a normal. Cells are joined
     // while they stay below joined_area.
-    VertexCells operator()(double max_area, double joined_area = 0.0) const;
+    CellPlan plan(double max_area, double joined_area = 0.0) const;
+
+    VertexCells operator()(const CellPlan& plan) const;
 
 private:
+    // Corners of one side whose faces are replaced: by cell, then by vertex, triangle and corner.
+    std::vector<std::uint32_t> by_cell(const CellPlan& plan,
+                                       const std::vector<std::uint32_t>& sides) const;
+    void choose_pieces(double max_area, CellPlan& plan) const;
+    void count(double max_area, CellPlan& plan) const;
+
     const Faces& all_;
     std::vector<std::uint32_t> fronts_, backs_;  // [triangles] in faces; no_index: none
     std::vector<std::uint32_t> vertices_;        // [3 * triangles] that corners meet at
