@@ -206,16 +206,16 @@ private:
 
 // From a position to the farthest point of a leaf or a patch.
 double reach(const ElementTree& tree, std::size_t i, const glm::dvec3& position) {
-    double out = 0.0;
-    const auto take = [&](const glm::dvec3& corner) {
-        out = std::max(out, glm::length(corner - position));
-    };
+    double square = 0.0;
     if (tree.is_patch(i))
-        for (const glm::dvec3& corner : tree.corners[i]) take(corner);
+        for (const glm::dvec3& corner : tree.corners[i]) {
+            const glm::dvec3 way = corner - position;
+            square = std::max(square, glm::dot(way, way));
+        }
     if (tree.is_vertex(i))
         for (std::uint32_t k = tree.first_thirds[i]; k < tree.first_thirds[i + 1]; ++k)
-            for (const glm::dvec3& corner : outline(tree.thirds[k])) take(corner);
-    return out;
+            square = std::max(square, square_reach(tree.thirds[k], position));
+    return std::sqrt(square);
 }
 
 // Area and position of clusters: children come after their parents.

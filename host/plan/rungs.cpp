@@ -55,6 +55,7 @@ const std::vector<Rung>& rungs() {
         {Method::antiradiance, 64, 500, {0.0854, 0.134, 0.351, 1.05, 0.493}},
         {Method::antiradiance, 64, 1000, {0.0879, 0.122, 0.332, 0.936, 0.424}},
         {Method::antiradiance, 128, 2000, {0.0499, 0.086, 0.279, 0.83, 0.299}},
+        {Method::antiradiance, 64, 8192, {0, 0, 0.2, 0, 0}},
         {Method::antiradiance, 128, 8192, {0.0575, 0.0629, 0.183, 0.552, 0.121}},
         {Method::antiradiance, 128, 16384, {0, 0, 0.148, 0, 0}},
         {Method::antiradiance, 128, 32768, {0, 0, 0.12, 0, 0}},
