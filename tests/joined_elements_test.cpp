@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "antiradiance/leaf_vertices.hpp"
+#include "antiradiance/refine.hpp"
 #include "links_checks.hpp"
 #include "spheres.hpp"
 #include "vertex_leaves.hpp"
@@ -198,6 +199,64 @@ TEST(JoinedElements, AreFromAfarAsLargeAsTheirThirds) {
         }
     }
     EXPECT_GT(curved, 4);
+}
+
+// At the edge of a sphere parts of a leaf face away: no light comes from them.
+TEST(JoinedElements, SendFromWhatFacesTheReceiverAlone) {
+    Scene scene = test::plain_scene();
+    test::add_sphere(scene, {0, 0, 0}, 0.5, 5, 1);
+    const auto plates = static_cast<std::uint32_t>(scene.triangles.size());
+    test::Random random(3);
+    for (int k = 0; k < 40; ++k) {
+        const glm::dvec3 out =
+            glm::normalize(glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1)));
+        const glm::dvec3 u = 1e-3 * glm::normalize(glm::cross(out, glm::dvec3(0.3, 0.5, 0.8)));
+        const glm::dvec3 v = glm::cross(out, u), at = 1.1 * out;
+        test::add_triangle(scene, at, at + v, at + u);
+    }
+    const ElementTree tree = make_elements(scene, {.wished = 60});
+    const DirectionBins bins = direction_bins(4096);
+    const Links links = make_links(tree, bins);
+    std::size_t found = 0;
+    for (std::uint32_t i = 0; i < tree.count(); ++i) {
+        if (!tree.is_leaf(i) || tree.triangles[i] < plates) continue;
+        found += links.first[i + 1] - links.first[i];
+        for (std::uint32_t k = links.first[i]; k < links.first[i + 1]; ++k)
+            EXPECT_GT(links.form_factors[k], 0.0f) << k;
+    }
+    EXPECT_GT(found, 40u * 40u);
+}
+
+// A leaf that rises above a receiver's plane with a part is not hidden, wherever its middle is.
+TEST(JoinedElements, AreHiddenWhereNoPartIsAboveThePlane) {
+    Scene scene = test::plain_scene();
+    test::add_sphere(scene, {0, 0, 0}, 1.0, 4, 1);
+    test::add_sphere(scene, {1.5, 0.4, 0.2}, 0.7, 4, 1);
+    const ElementTree tree = make_elements(scene, {.wished = 150});
+    ASSERT_EQ(test::expect_consistent(tree, true), tree.leaves);
+    const ThirdGroups groups(tree);
+    const Refine refine(tree, groups, 1.0);
+    int hidden = 0, rises = 0;
+    for (std::size_t sender = 0; sender < tree.count(); ++sender)
+        for (std::size_t receiver = 0; receiver < tree.count(); ++receiver) {
+            if (sender == receiver || !tree.is_leaf(sender) || !tree.is_leaf(receiver)) continue;
+            const glm::dvec3 &n = tree.normals[receiver], &at = tree.positions[receiver];
+            const glm::dvec3 way = tree.positions[sender] - at;
+            double top = -std::numeric_limits<double>::infinity();
+            for (std::uint32_t t = tree.first_thirds[sender]; t < tree.first_thirds[sender + 1];
+                 ++t) {
+                const auto& [a, b, c] = tree.thirds[t].corners;
+                for (const glm::dvec3& corner :
+                     {a, 0.5 * (a + b), 0.5 * (a + c), (a + b + c) / 3.0})
+                    top = std::max(top, glm::dot(n, corner - at));
+            }
+            const bool wanted = top <= least_rise * glm::length(way);
+            EXPECT_EQ(refine.hidden(sender, receiver), wanted) << sender << " " << receiver;
+            hidden += wanted;
+            rises += !wanted && glm::dot(n, way) < 0.0;
+        }
+    EXPECT_GT(hidden, 1000);
+    EXPECT_GT(rises, 100);
 }
 
 }  // namespace
