@@ -132,7 +132,7 @@ PlanCost antiradiance(const Plan& plan) {
         leaves * options.bins * (fine ? 3.0 : 2.2 * std::pow(leaves / 1000.0, -0.2));
     const double steps = options.steps > 0 ? options.steps : 20.0;
     const Lamps lamps = lamps_of(plan, options.emitters, false);
-    const double once = fine ? 6e-3 * triangles(plan) : 0.0;
+    const double once = fine ? 7e-3 * triangles(plan) : 0.0;
     const Amount linking{(fine ? 2.2e-4 : 1.7e-4) * links + 2e-3 * leaves + once, 16.0 * links};
     // Rows, of antiradiance and of intensities, where something may lie between.
     const bool rows = plan.on(Effect::indirect_occlusion);
