@@ -259,5 +259,44 @@ TEST(JoinedElements, AreHiddenWhereNoPartIsAboveThePlane) {
     EXPECT_GT(rises, 100);
 }
 
+// Groups hold each third once, are as large as all of it and the same for any number of threads.
+TEST(JoinedElements, HaveTheSameGroupsForAnyThreads) {
+    Scene scene = test::plain_scene();
+    test::add_sphere(scene, {0, 0, 0}, 1.0, 4, 1);
+    test::add_sheet(scene, 12, [](double x, double z) { return 2.0 + 0.1 * std::sin(3 * x + z); });
+    for (const std::size_t wished : {10u, 200u, 2900u}) {
+        const ElementTree tree = make_elements(scene, {.wished = wished});
+        ASSERT_GT(test::expect_consistent(tree, true), 0u);
+        const ThirdGroups one(tree, 1);
+        std::vector<std::uint32_t> thirds = one.thirds();
+        std::sort(thirds.begin(), thirds.end());
+        for (std::size_t k = 0; k < tree.thirds.size(); ++k) ASSERT_EQ(thirds[k], k);
+        const Links links = make_links(tree, direction_bins(64), {.threads = 1});
+        for (const int threads : {2, 3, 7, 64}) {
+            const ThirdGroups other(tree, threads);
+            EXPECT_EQ(one.thirds(), other.thirds());
+            for (std::size_t i = 0; i < tree.count(); ++i) {
+                ASSERT_EQ(one.of(i).size(), other.of(i).size()) << i;
+                EXPECT_EQ(one.flatness(i), other.flatness(i)) << i;
+                for (std::size_t g = 0; g < one.of(i).size(); ++g) {
+                    const ThirdGroup &a = one.of(i)[g], &b = other.of(i)[g];
+                    EXPECT_TRUE(a.middle == b.middle && a.vector_area == b.vector_area &&
+                                a.square_radius == b.square_radius && a.next == b.next &&
+                                a.first == b.first && a.end == b.end);
+                    for (std::uint32_t k = a.first; k < a.end; ++k) {
+                        const auto& [p, q, r] = tree.thirds[one.thirds()[k]].corners;
+                        EXPECT_LE(glm::length((p + q + r) / 3.0 - a.middle),
+                                  std::sqrt(a.square_radius) * (1 + 1e-12));
+                    }
+                }
+            }
+            const Links same = make_links(tree, direction_bins(64), {.threads = threads});
+            EXPECT_EQ(links.senders, same.senders);
+            EXPECT_EQ(links.bins, same.bins);
+            EXPECT_EQ(links.form_factors, same.form_factors);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace clgi

@@ -140,6 +140,28 @@ TEST(LitParts, OfManyLightsAreEstimates) {
     EXPECT_NEAR(scene_facts(scene).lit, 0.75 * 16.0 / 40.0, few_points);
     scene.lights.assign(40, scene.lights[17]);
     expect_lit(scene, 0.75, 1.0, "all");
+    // The last eighth of very many from above: each point looks for two of it.
+    scene.lights.assign(10000, test::directional_light({0, 1, 0}));
+    for (std::size_t k = 8750; k < 10000; ++k) scene.lights[k].direction = {0, -1, 0};
+    expect_lit(scene, 0.75, 1.0, "the last");
+}
+
+// Light along a wall, and a lamp that is flush with others: rounding does not decide.
+TEST(LitParts, AreNotWhatLightGrazes) {
+    const int n = 12;
+    Scene wall = test::plain_scene();
+    for (int x = 0; x < n; ++x)
+        for (int y = 0; y < n; ++y) test::add_tile(wall, x, y);
+    wall.lights = {test::directional_light({1, 0, 0})};
+    Scene lamp = test::plain_scene();
+    lamp.materials[0].emission = glm::vec3(1.0f);
+    for (int x = 0; x < n; ++x) test::add_tile(lamp, x, 0);
+    for (int turn = 0; turn < 20; ++turn) {
+        wall = test::carried_off(wall, 1.0, {0.1 * turn, 0.3, 0.2});
+        lamp = test::carried_off(lamp, 1.0, {0.1 * turn, 0.3, 0.2});
+        EXPECT_EQ(scene_facts(wall).lit, 0.0) << turn;
+        EXPECT_EQ(scene_facts(lamp).lit, 0.0) << turn;
+    }
 }
 
 TEST(Walls, AreAsThickAsTheyAre) {

@@ -9,7 +9,7 @@ namespace clgi {
 namespace {
 
 constexpr double most_tests = 2e7;  // of a square and a bin
-constexpr double rounding = 1e-9;   // radians
+constexpr double rounding = 1e-7;   // radians, of angles near 0
 
 // So many squares that few bins may be nearest in each; fewer where there are very many bins.
 int side_for(int bins) {
@@ -25,7 +25,8 @@ BinGrid::BinGrid(const DirectionBins& bins, double farthest)
     : bins_(bins), side_(side_for(bins.count())) {
     std::vector<double> cosines(static_cast<std::size_t>(bins.count()) / 2);
     const auto append = [&](double angle, Lists& out) {
-        const double least = std::cos(std::min(angle + rounding, 0.5 * std::numbers::pi));
+        const double reach = angle + rounding;
+        const double least = reach < 0.5 * std::numbers::pi ? std::cos(reach) : 0.0;
         for (std::size_t i = 0; i < cosines.size(); ++i)
             if (cosines[i] >= least) out.bins.push_back(static_cast<std::uint16_t>(i));
         out.first.push_back(static_cast<std::uint32_t>(out.bins.size()));

@@ -28,7 +28,8 @@ constexpr double part_share = 0.25;
 constexpr int most_cuts = 8;
 
 // Thirds, and groups of them, are points where their squared radius is less than this share of
-// their squared distance, which is about the error of their solid angle.
+// their squared distance. Of a flat one that is about the error of its solid angle; of a curved one
+// its radius over its distance, times the sine of half the angle that it bends by, adds to that.
 constexpr double far = 1e-2;
 
 constexpr double rounding = 1e-12;  // of heights above a sender, as a share of its radius
@@ -132,11 +133,12 @@ double Exchange::cut_thirds(std::uint32_t sender, double side) {
     points_.clear();
     double sum = 0.0;
     // True: it is far away and no larger than a part that bins tell apart, so it is a point.
-    const auto put_point = [&](const ThirdGroup& group) {
-        const glm::dvec3 way = eye_ - group.middle;
+    const auto put_point = [&](const glm::dvec3& middle, const glm::dvec3& turned,
+                               double square_radius) {
+        const glm::dvec3 way = eye_ - middle;
         const double square = glm::dot(way, way);
-        if (!(group.square_radius < far * square)) return false;
-        const double angle = side * glm::dot(group.vector_area, way) / (square * std::sqrt(square));
+        if (!(square_radius < far * square)) return false;
+        const double angle = side * glm::dot(turned, way) / (square * std::sqrt(square));
         if (std::abs(angle) > part_share * bin_) return false;
         sum += angle;
         if (angle > 0.0) points_.emplace_back(way, angle);
@@ -144,16 +146,22 @@ double Exchange::cut_thirds(std::uint32_t sender, double side) {
     };
     const std::span<const ThirdGroup> groups = groups_.of(sender);
     for (std::size_t g = 0; g < groups.size();) {
-        const bool point = put_point(groups[g]);
-        if (!point && groups[g].third != no_index) {
-            const std::array<glm::dvec3, 4> p = outline(tree_.thirds[groups[g].third]);
+        const ThirdGroup& group = groups[g++];
+        if (put_point(group.middle, group.vector_area, group.square_radius)) {
+            g = group.next;
+            continue;
+        }
+        for (std::uint32_t k = group.first; k < group.end; ++k) {
+            const VertexThird& third = tree_.thirds[groups_.thirds()[k]];
+            const glm::dvec3 middle = centroid(third);
+            if (put_point(middle, vector_area(third), square_reach(third, middle))) continue;
+            const std::array<glm::dvec3, 4> p = outline(third);
             for (const Corners& half : {Corners{p[0], p[1], p[2]}, Corners{p[0], p[2], p[3]}}) {
                 const double angle = side * signed_solid_angle(half, eye_);
                 sum += angle;
                 if (angle > 0.0) halves_.emplace_back(half, angle);
             }
         }
-        g = point ? groups[g].next : g + 1;
     }
     return sum;
 }

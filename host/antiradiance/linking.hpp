@@ -73,7 +73,7 @@ private:
         return tree;
     }
     const MotionRefine* motion_of(const std::vector<ElementTree>& poses) {
-        return poses.empty() ? nullptr : &motion_.emplace(tree_, poses);
+        return poses.empty() || tree_.moving.empty() ? nullptr : &motion_.emplace(tree_, poses);
     }
 
     const ElementTree& tree_;

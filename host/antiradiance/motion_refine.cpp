@@ -32,8 +32,7 @@ std::vector<double> largest_radii(const std::vector<ElementTree>& poses) {
 
 MotionRefine::MotionRefine(const ElementTree& tree, const std::vector<ElementTree>& poses)
     : tree_(tree), poses_(poses), radii_(largest_radii(poses)) {
-    groups_.reserve(poses.size());
-    for (const ElementTree& pose : poses) at_.emplace_back(pose, groups_.emplace_back(pose), 0.0);
+    for (const ElementTree& pose : poses) at_.emplace_back(pose, no_groups_, 0.0);
 }
 
 double MotionRefine::least_distance(std::size_t a, std::size_t b) const {

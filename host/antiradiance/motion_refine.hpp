@@ -37,8 +37,8 @@ private:
 
     const ElementTree& tree_;
     const std::vector<ElementTree>& poses_;
-    std::vector<ThirdGroups> groups_;  // [poses]
-    std::vector<Refine> at_;           // [poses]
+    const ThirdGroups no_groups_;  // no leaf of a tree with something that moves is at a vertex
+    std::vector<Refine> at_;       // [poses]
     std::vector<double> radii_;
 };
 

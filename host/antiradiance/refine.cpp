@@ -33,15 +33,15 @@ bool Refine::below(std::size_t leaf, const glm::dvec3& normal, const glm::dvec3&
                    double height) const {
     const std::span<const ThirdGroup> groups = groups_.of(leaf);
     for (std::size_t g = 0; g < groups.size();) {
-        const double least = height - glm::dot(normal, groups[g].middle - position);
-        if (least >= 0.0 && groups[g].square_radius <= least * least) {
-            g = groups[g].next;
+        const ThirdGroup& group = groups[g++];
+        const double least = height - glm::dot(normal, group.middle - position);
+        if (least >= 0.0 && group.square_radius <= least * least) {
+            g = group.next;
             continue;
         }
-        if (groups[g].third != no_index)
-            for (const glm::dvec3& corner : outline(tree_.thirds[groups[g].third]))
+        for (std::uint32_t k = group.first; k < group.end; ++k)
+            for (const glm::dvec3& corner : outline(tree_.thirds[groups_.thirds()[k]]))
                 if (glm::dot(normal, corner - position) > height) return false;
-        ++g;
     }
     return true;
 }

@@ -18,6 +18,8 @@ struct Third {
 };
 using Iterator = std::vector<Third>::iterator;
 
+constexpr std::ptrdiff_t few = 4;  // thirds that are a group without groups
+
 // At the median of the longest axis of the box of middles.
 Iterator split(Iterator first, Iterator last) {
     glm::dvec3 low = first->middle, high = low;
@@ -38,52 +40,61 @@ Iterator split(Iterator first, Iterator last) {
 // Makes the groups of one leaf after the other.
 class Grouping {
 public:
-    Grouping(const ElementTree& tree, std::vector<ThirdGroup>& groups)
-        : tree_(tree), groups_(groups) {}
+    // order: [thirds of the tree] written for the leaves that are asked for.
+    Grouping(const ElementTree& tree, std::vector<std::uint32_t>& order,
+             std::vector<ThirdGroup>& groups)
+        : tree_(tree), order_(order), groups_(groups) {}
 
     void operator()(std::size_t leaf) {
         begin_ = groups_.size();
+        place_ = tree_.first_thirds[leaf];
         areas_.clear();
         thirds_.clear();
-        for (std::uint32_t k = tree_.first_thirds[leaf]; k < tree_.first_thirds[leaf + 1]; ++k)
+        for (std::uint32_t k = place_; k < tree_.first_thirds[leaf + 1]; ++k)
             thirds_.push_back({centroid(tree_.thirds[k]), k});
         if (!thirds_.empty()) group(thirds_.begin(), thirds_.end());
     }
 
 private:
     void group(Iterator first, Iterator last) {
-        if (last - first == 1) return alone(*first);
         const std::size_t place = groups_.size();
         groups_.emplace_back();
         areas_.push_back(0.0);
-        const Iterator middle = split(first, last);
-        for (const auto& [from, to] : {std::pair(first, middle), std::pair(middle, last)}) {
-            if (to - from == 1) {
-                alone(*from);
-                continue;
+        if (last - first <= few) {
+            gather(first, last, place);
+        } else {
+            const Iterator middle = split(first, last);
+            for (const auto& [from, to] : {std::pair(first, middle), std::pair(middle, last)}) {
+                const Iterator quarter = split(from, to);
+                group(from, quarter);
+                group(quarter, to);
             }
-            const Iterator quarter = split(from, to);
-            group(from, quarter);
-            group(quarter, to);
+            measure(place);
         }
-        measure(place);
+        groups_[place].next = static_cast<std::uint32_t>(groups_.size() - begin_);
     }
 
-    void alone(const Third& third) {
-        ThirdGroup out;
-        out.middle = third.middle;
-        out.vector_area = vector_area(tree_.thirds[third.place]);
-        out.square_radius = square_reach(tree_.thirds[third.place], third.middle);
-        out.next = static_cast<std::uint32_t>(groups_.size() - begin_) + 1;
-        out.third = third.place;
-        groups_.push_back(out);
-        areas_.push_back(glm::length(out.vector_area));
+    void gather(Iterator first, Iterator last, std::size_t place) {
+        ThirdGroup& out = groups_[place];
+        double& area = areas_[place - begin_];
+        out.first = place_;
+        for (Iterator one = first; one != last; ++one) {
+            const glm::dvec3 turned = vector_area(tree_.thirds[one->place]);
+            area += glm::length(turned);
+            out.middle += glm::length(turned) * one->middle;
+            out.vector_area += turned;
+            order_[place_++] = one->place;
+        }
+        out.end = place_;
+        out.middle /= area;
+        for (Iterator one = first; one != last; ++one)
+            out.square_radius =
+                std::max(out.square_radius, square_reach(tree_.thirds[one->place], out.middle));
     }
 
     // From its parts, which follow it.
     void measure(std::size_t place) {
         ThirdGroup& out = groups_[place];
-        out.next = static_cast<std::uint32_t>(groups_.size() - begin_);
         double& area = areas_[place - begin_];
         const auto each = [&](const auto& visit) {
             for (std::size_t k = place + 1; k < groups_.size(); k = begin_ + groups_[k].next)
@@ -104,8 +115,10 @@ private:
     }
 
     const ElementTree& tree_;
+    std::vector<std::uint32_t>& order_;
     std::vector<ThirdGroup>& groups_;
     std::size_t begin_ = 0;      // of the present leaf
+    std::uint32_t place_ = 0;    // in order_
     std::vector<double> areas_;  // m^2, of its groups
     std::vector<Third> thirds_;
 };
@@ -117,6 +130,7 @@ ThirdGroups::ThirdGroups(const ElementTree& tree, int threads) {
     const int used = thread_count(threads);
     std::vector<std::vector<ThirdGroup>> parts(static_cast<std::size_t>(used));
     std::vector<std::size_t> counts(tree.count());
+    thirds_.resize(tree.thirds.size());
     // Elements from share to share of the thirds.
     const auto begin = [&](int thread) {
         const std::size_t third =
@@ -128,7 +142,7 @@ ThirdGroups::ThirdGroups(const ElementTree& tree, int threads) {
     };
     on_threads(used, [&](int thread) {
         std::vector<ThirdGroup>& groups = parts[static_cast<std::size_t>(thread)];
-        Grouping make(tree, groups);
+        Grouping make(tree, thirds_, groups);
         for (std::size_t i = begin(thread); i < begin(thread + 1); ++i) {
             const std::size_t before = groups.size();
             make(i);
@@ -138,8 +152,10 @@ ThirdGroups::ThirdGroups(const ElementTree& tree, int threads) {
     std::size_t all = 0;
     for (const std::vector<ThirdGroup>& part : parts) all += part.size();
     groups_.reserve(all);
-    for (const std::vector<ThirdGroup>& part : parts)
+    for (std::vector<ThirdGroup>& part : parts) {
         groups_.insert(groups_.end(), part.begin(), part.end());
+        part = {};
+    }
     first_.push_back(0);
     for (std::size_t i = 0; i < tree.count(); ++i) {
         first_.push_back(first_.back() + counts[i]);

@@ -14,7 +14,7 @@ constexpr double box_slack = 1e-9;  // for rounding, of the scene's radius
 
 }  // namespace
 
-std::size_t Rays::add(const glm::dvec3& from, const glm::dvec3& along, double longest) {
+void Rays::add(const glm::dvec3& from, const glm::dvec3& along, double longest, Search search) {
     for (int k = 0; k < 3; ++k) {
         from_[k].push_back(from[k]);
         along_[k].push_back(along[k]);
@@ -23,7 +23,7 @@ std::size_t Rays::add(const glm::dvec3& from, const glm::dvec3& along, double lo
     }
     nearest_.push_back(longest);
     met_.push_back(nothing);
-    return count() - 1;
+    search_.push_back(search);
 }
 
 void Rays::choose(const LocalTriangle* first, const LocalTriangle* last) {
@@ -64,7 +64,8 @@ void Rays::meet(const LocalTriangle& triangle) {
         const bool hit = u >= -edge && v >= -edge && u + v <= 1.0 + edge && distance > same_place &&
                          distance < nearest_[i];
         if (!hit) continue;
-        nearest_[i] = distance;
+        nearest_[i] =
+            search_[i] == any ? -1.0 : distance;  // before all boxes: it is not asked again
         met_[i] = facing < 0.0 && !triangle.double_sided ? back : front;
     }
 }

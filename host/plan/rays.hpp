@@ -12,17 +12,22 @@ namespace clgi {
 
 class Rays {
 public:
-    // along: unit. longest: what is met farther away does not count. Returns its index.
-    std::size_t add(const glm::dvec3& from, const glm::dvec3& along, double longest);
+    // What a ray looks for: the nearest triangle, or whether there is any.
+    enum Search : std::uint8_t { nearest, any };
 
-    // Finds the nearest triangle of each ray. What lies in the place of the start, the own triangle
+    // along: unit. longest: what is met farther away does not count.
+    void add(const glm::dvec3& from, const glm::dvec3& along, double longest,
+             Search search = nearest);
+
+    // What lies in the place of the start, the own triangle
     // above all, is not met.
     void trace(const std::vector<LocalTriangle>& triangles);
 
     std::size_t count() const { return nearest_.size(); }
     bool met(std::size_t i) const { return met_[i] != nothing; }
-    bool met_back(std::size_t i) const { return met_[i] == back; }  // of the nearest triangle
-    double distance(std::size_t i) const { return nearest_[i]; }    // to it
+    // Of the nearest triangle.
+    bool met_back(std::size_t i) const { return met_[i] == back; }
+    double distance(std::size_t i) const { return nearest_[i]; }
 
 private:
     enum : std::uint8_t { nothing, front, back };
@@ -33,7 +38,7 @@ private:
     // Planes of rays, so that one triangle is compared with many.
     std::vector<double> from_[3], along_[3], per_along_[3];
     std::vector<double> nearest_;
-    std::vector<std::uint8_t> met_;
+    std::vector<std::uint8_t> met_, search_;
     std::vector<std::size_t> chosen_;  // that pass through a box before what they have met
 };
 

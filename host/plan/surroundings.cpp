@@ -19,7 +19,8 @@ namespace {
 constexpr double wished_tests = 5e6;
 constexpr double fewest_points = 64.0, most_points = 1024.0;
 constexpr std::size_t most_seekers = 256;  // points that look for lights and walls
-constexpr std::size_t most_lights = 16;    // for each of them
+constexpr double most_lights = 16.0;       // for each of them
+constexpr double grazing = 1e-3;           // cosine: light that comes in below it does not count
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A unit vector about n, its density in proportion to the cosine. [Malley's method]
@@ -62,9 +63,10 @@ std::optional<Way> way_to(const Light& light, const SceneFrame& frame, const glm
 // The lights that points look for: of those with power at most so many, and emissive surfaces.
 class Lights {
 public:
+    // at_most: lights that a point looks for.
     Lights(const Scene& scene, const std::vector<LocalTriangle>& triangles,
-           const std::vector<std::uint32_t>& emissive)
-        : frame_(local_frame(bounds(scene))) {
+           const std::vector<std::uint32_t>& emissive, std::size_t at_most)
+        : frame_(local_frame(bounds(scene))), at_most_(at_most) {
         std::vector<double> emits(triangles.size(), 0.0);
         for (const std::uint32_t t : emissive) emits[t] = 1.0;
         emitters_ = surface_points(triangles, emits, most_seekers);
@@ -76,22 +78,29 @@ public:
     template <typename Add>
     void each(const SurfacePoint& point, std::size_t number, const Add& add) const {
         const auto look = [&](const std::optional<Way>& way) {
-            if (way && glm::dot(point.normal, way->along) > 0.0) add(*way);
+            if (way && glm::dot(point.normal, way->along) > grazing) add(*way);
         };
-        const std::size_t count = std::min(lights_.size(), most_lights);
-        for (std::size_t k = 0; k < count; ++k)  // others for the next point
-            look(way_to(*lights_[(k * lights_.size() / count + number) % lights_.size()], frame_,
+        const auto at = [&](std::uint32_t base) {
+            return double{radical_inverse(static_cast<std::uint32_t>(number) + 1, base)};
+        };
+        const auto all = static_cast<double>(lights_.size());
+        const std::size_t count = std::min(lights_.size(), at_most_);
+        for (std::size_t k = 0; k < count; ++k) {  // one of each of so many equal parts
+            const double part = (static_cast<double>(k) + (count < lights_.size() ? at(7) : 0.0)) /
+                                static_cast<double>(count);
+            look(way_to(*lights_[static_cast<std::size_t>(part * all + 1e-9)], frame_,
                         point.position));
+        }
         if (emitters_.empty()) return;
-        const double at = radical_inverse(static_cast<std::uint32_t>(number) + 1, 5);
         const SurfacePoint& emitter =
-            emitters_[static_cast<std::size_t>(at * static_cast<double>(emitters_.size()))];
+            emitters_[static_cast<std::size_t>(at(5) * static_cast<double>(emitters_.size()))];
         const std::optional<Way> way = way_to(point.position, emitter.position);
-        if (way && glm::dot(emitter.normal, way->along) < 0.0) look(way);
+        if (way && glm::dot(emitter.normal, way->along) < -grazing) look(way);
     }
 
 private:
     const SceneFrame frame_;
+    const std::size_t at_most_;
     std::vector<const Light*> lights_;
     std::vector<SurfacePoint> emitters_;
 };
@@ -152,18 +161,20 @@ Surroundings survey(const Scene& scene, const std::vector<LocalTriangle>& triang
                      about(points[i].normal, radical_inverse(i + 1, 5), radical_inverse(i + 1, 7)),
                      infinity);
     const Run open{0, rays.count()};
-    const std::vector<SurfacePoint> seekers =
-        surface_points(triangles, weights, std::min(count, most_seekers));
-    for (const SurfacePoint& point : seekers)
-        if (!triangles[point.triangle].double_sided)
-            rays.add(point.position, -point.normal, infinity);
+    const std::size_t few = std::min(count, most_seekers);
+    std::vector<double> single = weights;
+    for (std::size_t t = 0; t < single.size(); ++t)
+        if (triangles[t].double_sided) single[t] = 0.0;
+    for (const SurfacePoint& point : surface_points(triangles, single, few))
+        rays.add(point.position, -point.normal, infinity);
     const Run into{open.count, rays.count() - open.count};
-    const Lights lights(scene, triangles, emissive);
+    const auto lights_each = std::clamp(4.0 * wished / static_cast<double>(few), 1.0, most_lights);
+    const Lights lights(scene, triangles, emissive, static_cast<std::size_t>(lights_each));
     std::vector<Run> to_lights;
-    for (const SurfacePoint& point : seekers) {
+    for (const SurfacePoint& point : surface_points(triangles, weights, few)) {
         const std::size_t first = rays.count();
         lights.each(point, to_lights.size(), [&](const Way& way) {
-            rays.add(point.position, way.along, way.distance - same_place);
+            rays.add(point.position, way.along, way.distance - same_place, Rays::any);
         });
         to_lights.push_back({first, rays.count() - first});
     }

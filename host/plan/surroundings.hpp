@@ -28,9 +28,11 @@ struct SurroundingsOptions {
 };
 
 // Points spread evenly over the sides of triangles with a weight above 0; none if there are none.
-// 64 to 1024 directions, as many as make some 5e6 tests of a ray and a triangle; up to 256 of the
-// points for lights and walls, each of which looks to 16 lights at most, evenly chosen among all.
-// emissive: triangles; they are one light, to a point of which each point looks.
+// Looks in 64 to 1024 directions, in as many as make some 5e6 tests of a ray and a triangle; into
+// walls from 64 to 256 points, and from as many to lights: 1 to 16 of them each, fewer where there
+// are many triangles, one of each of so many equal parts of the list. emissive: triangles; they are
+// one light, to a point of which each point looks. Light that comes in at a cosine of less than
+// 1e-3 does not count.
 Surroundings survey(const Scene& scene, const std::vector<LocalTriangle>& triangles,
                     const std::vector<double>& weights, const std::vector<std::uint32_t>& emissive,
                     const SurroundingsOptions& options);

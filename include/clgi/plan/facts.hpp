@@ -80,20 +80,21 @@ struct SceneFacts {
     double size = 0.0;  // m, diagonal of the bounds
 
     // Estimated by rays from points spread evenly over the sides of surfaces that reflect, by area.
-    // Where nothing reflects there are none, and all of it is 0. Masked triangles count as whole;
-    // geometry that moves is where the scene's arrays have it.
+    // Where nothing reflects there are none, and all of it is 0, but openness where surfaces_apart.
+    // Masked triangles count as whole; geometry that moves is where the scene's arrays have it.
 
     // Share of cosine-weighted directions in which nothing is seen, by 64 to 1024 rays, with its
     // standard error. Exact where surfaces_apart: 1, error 0.
     double openness = 0.0, openness_error = 0.0;
     // Share of the same rays that end on the back of a single-sided surface, where light is lost.
     double backs = 0.0;
-    // Of 64 to 256 of the points, to a standard error of 1/16 to 1/32 at most: the share that a
-    // point, spot or directional light with power or an emissive surface meets, and of these the
-    // share that several do. All emissive surfaces are one light, which is looked for at one of its
-    // points. Of more than 16 lights each point looks for 16.
+    // From 64 to 256 points, to a standard error of 1/16 to 1/32 at most: the share that a point,
+    // spot or directional light with power or an emissive surface meets, and of these the share
+    // that several do. Too low where there are more than 16 lights, in scenes of more than 5,000
+    // triangles fewer, of which each point looks for a part; and where there are several emissive
+    // surfaces, which are one light that is looked for at one of its points.
     double lit = 0.0, lit_twice = 0.0;
-    // Of as many points on single-sided surfaces: the share that lies on walls thinner than a
+    // From as many points on single-sided surfaces: the share that lies on walls thinner than a
     // hundredth of `size`, straight through to where the wall ends; and the least thickness found,
     // m, 0 if no wall ends. Light and shadow of one side may come to the other there, where texels,
     // pixels of shadow maps or leaves are larger.
