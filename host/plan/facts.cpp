@@ -16,23 +16,23 @@ namespace {
 
 constexpr double thin = 0.01;  // of the scene's size
 
-void add_surroundings(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+void add_surroundings(const Scene& scene, const SceneFrame& frame,
+                      const std::vector<LocalTriangle>& triangles,
                       const std::vector<TriangleAlbedo>& albedos,
                       const std::vector<std::uint32_t>& emissive, SceneFacts& out) {
     std::vector<double> reflects;
     reflects.reserve(albedos.size());
     for (const TriangleAlbedo& albedo : albedos)
         reflects.push_back(std::max({albedo.all.x, albedo.all.y, albedo.all.z}));
-    const double scale = local_frame(bounds(scene)).scale;
     const Surroundings found =
-        survey(scene, triangles, reflects, emissive,
-               {.thin = thin * out.size * scale, .open = !out.proof.surfaces_apart});
+        survey(scene.lights, frame, triangles, reflects, emissive,
+               {.thin = thin * out.size * frame.scale, .open = !out.proof.surfaces_apart});
     out.openness = out.proof.surfaces_apart ? 1.0 : found.open;
     out.backs = found.backs;
     out.lit = found.lit;
     out.lit_twice = found.lit_twice;
     out.thin = found.thin;
-    out.thinnest = found.thinnest / scale;
+    out.thinnest = found.thinnest / frame.scale;
     if (out.proof.surfaces_apart || found.points == 0) return;
     // Of independent rays, which these even ones do better than. With one more ray of either kind,
     // so that a share of 0 or 1 is not taken for exact.
@@ -61,7 +61,7 @@ SceneFacts scene_facts(const Scene& scene) {
         out.proof = prove_openness(scene, triangles, lights.emissive);
         if (out.lights.moving) out.proof.lights_open = false;
     }
-    add_surroundings(scene, triangles, albedos, lights.emissive, out);
+    add_surroundings(scene, local_frame(box), triangles, albedos, lights.emissive, out);
     const std::chrono::duration<double, std::milli> taken =
         std::chrono::steady_clock::now() - start;
     out.milliseconds = taken.count();

@@ -111,9 +111,10 @@ struct Texels {
 };
 
 Texels texels_of(const Texture& texture, const std::vector<float>& srgb) {
-    std::array<std::uint8_t, 64> least,
-        most{};  // of 16 texels next to each other: vectors of bytes
+    // Of 16 texels next to each other: vectors of bytes.
+    std::array<std::uint8_t, 64> least, most;
     least.fill(255);
+    most.fill(0);
     const auto take = [&](std::size_t c, std::uint8_t low, std::uint8_t high) {
         least[c] = std::min(least[c], low);
         most[c] = std::max(most[c], high);

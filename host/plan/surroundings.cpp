@@ -10,7 +10,6 @@
 
 #include "plan/rays.hpp"
 #include "plan/surface_points.hpp"
-#include "scene/local_frame.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
@@ -63,14 +62,15 @@ std::optional<Way> way_to(const Light& light, const SceneFrame& frame, const glm
 // The lights that points look for: of those with power at most so many, and emissive surfaces.
 class Lights {
 public:
-    // at_most: lights that a point looks for.
-    Lights(const Scene& scene, const std::vector<LocalTriangle>& triangles,
-           const std::vector<std::uint32_t>& emissive, std::size_t at_most)
-        : frame_(local_frame(bounds(scene))), at_most_(at_most) {
+    // All but emissive must outlive this object. at_most: lights that a point looks for.
+    Lights(const std::vector<Light>& all, const SceneFrame& frame,
+           const std::vector<LocalTriangle>& triangles, const std::vector<std::uint32_t>& emissive,
+           std::size_t at_most)
+        : frame_(frame), at_most_(at_most) {
         std::vector<double> emits(triangles.size(), 0.0);
         for (const std::uint32_t t : emissive) emits[t] = 1.0;
         emitters_ = surface_points(triangles, emits, most_seekers);
-        for (const Light& light : scene.lights)
+        for (const Light& light : all)
             if (luminance(light.intensity) > 0.0f) lights_.push_back(&light);
     }
 
@@ -99,7 +99,7 @@ public:
     }
 
 private:
-    const SceneFrame frame_;
+    const SceneFrame& frame_;
     const std::size_t at_most_;
     std::vector<const Light*> lights_;
     std::vector<SurfacePoint> emitters_;
@@ -142,8 +142,9 @@ void add_thickness(const Rays& rays, const Run& into, double thin, Surroundings&
 
 }  // namespace
 
-Surroundings survey(const Scene& scene, const std::vector<LocalTriangle>& triangles,
-                    const std::vector<double>& weights, const std::vector<std::uint32_t>& emissive,
+Surroundings survey(const std::vector<Light>& lights, const SceneFrame& frame,
+                    const std::vector<LocalTriangle>& triangles, const std::vector<double>& weights,
+                    const std::vector<std::uint32_t>& emissive,
                     const SurroundingsOptions& options) {
     const double wished =
         wished_tests / static_cast<double>(std::max<std::size_t>(triangles.size(), 1));
@@ -169,11 +170,11 @@ Surroundings survey(const Scene& scene, const std::vector<LocalTriangle>& triang
         rays.add(point.position, -point.normal, infinity);
     const Run into{open.count, rays.count() - open.count};
     const auto lights_each = std::clamp(4.0 * wished / static_cast<double>(few), 1.0, most_lights);
-    const Lights lights(scene, triangles, emissive, static_cast<std::size_t>(lights_each));
+    const Lights sources(lights, frame, triangles, emissive, static_cast<std::size_t>(lights_each));
     std::vector<Run> to_lights;
     for (const SurfacePoint& point : surface_points(triangles, weights, few)) {
         const std::size_t first = rays.count();
-        lights.each(point, to_lights.size(), [&](const Way& way) {
+        sources.each(point, to_lights.size(), [&](const Way& way) {
             rays.add(point.position, way.along, way.distance - same_place, Rays::any);
         });
         to_lights.push_back({first, rays.count() - first});

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/device_scene.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <vector>
@@ -24,7 +25,7 @@ struct Surroundings {
 
 struct SurroundingsOptions {
     double thin = 0.0;  // local units
-    bool open = true;   // false: what nothing can be before, so that no ray is needed
+    bool open = true;   // false: nothing is before any surface, so directions are not looked in
 };
 
 // Points spread evenly over the sides of triangles with a weight above 0; none if there are none.
@@ -32,9 +33,9 @@ struct SurroundingsOptions {
 // walls from 64 to 256 points, and from as many to lights: 1 to 16 of them each, fewer where there
 // are many triangles, one of each of so many equal parts of the list. emissive: triangles; they are
 // one light, to a point of which each point looks. Light that comes in at a cosine of less than
-// 1e-3 does not count.
-Surroundings survey(const Scene& scene, const std::vector<LocalTriangle>& triangles,
-                    const std::vector<double>& weights, const std::vector<std::uint32_t>& emissive,
-                    const SurroundingsOptions& options);
+// 1e-3 does not count. frame: in which the triangles are local.
+Surroundings survey(const std::vector<Light>& lights, const SceneFrame& frame,
+                    const std::vector<LocalTriangle>& triangles, const std::vector<double>& weights,
+                    const std::vector<std::uint32_t>& emissive, const SurroundingsOptions& options);
 
 }  // namespace clgi
