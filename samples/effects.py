@@ -103,7 +103,7 @@ def whole(stats):
                       settings["elements"]]
     if plan["method"] == "atlas":
         return out + ["--method", "atlas", "--vpls", settings["vpls"], "--atlas-size",
-                      settings["atlas_size"], "--bounces", 0]
+                      stats["bake"]["atlas_size"], "--bounces", 0]
     if plan["method"] == "transfer":
         return out + ["--method", "transfer"]
     return out + ["--method", "second-order", "--vpls", settings.get("vpls", 1000),

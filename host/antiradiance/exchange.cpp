@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -16,7 +17,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // Form factors are divided by the sender's cosine with the bin, which the device computes in
 // floats: a cosine of this size is exact to 1e-5 there. That of the receiver needs its sign alone.
@@ -31,8 +32,6 @@ constexpr int most_cuts = 8;
 // their squared distance. Of a flat one that is about the error of its solid angle; of a curved one
 // its radius over its distance, times the sine of half the angle that it bends by, adds to that.
 constexpr double far = 1e-2;
-
-constexpr double rounding = 1e-12;  // of heights above a sender, as a share of its radius
 
 }  // namespace
 
@@ -198,7 +197,7 @@ double Exchange::aim(std::uint32_t sender, std::uint32_t receiver) {
                 ? groups_.flatness(sender) * angle * std::abs(height) / distance
                 : std::min(angle * std::abs(height) / distance, 2.0 * pi);
     // In the sender's plane rounding would choose a side, within the sender for 2 pi.
-    return std::abs(height) > rounding * tree_.radii[sender] ? angle : 0.0;
+    return std::abs(height) > height_rounding * tree_.radii[sender] ? angle : 0.0;
 }
 
 float Exchange::form_factor(std::uint32_t sender, std::uint32_t receiver, int bin,

@@ -7,12 +7,10 @@
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
+#include "opencl/word.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr std::size_t color = sizeof(glm::vec4);
 
 std::size_t albedo_bytes(const DeviceScene& scene) {
     return scene.materials().getInfo<CL_MEM_SIZE>() / sizeof(MaterialRecord) * (ALBEDO_STEPS + 1) *
@@ -73,7 +71,7 @@ cl::Event AntiradianceGlossPasses::sources(const cl::CommandQueue& queue,
     need(sources_, "bins", gloss.bins, row_bytes() / 3 * 4);
     need(sources_, "albedos", gloss.albedos, albedo_bytes(scene));
     need(sources_, "planes", points.planes, gbuffer_bytes(sources_.storage, params.point_stride));
-    need(sources_, "colors", gloss.colors, gloss.count * color);
+    need(sources_, "colors", gloss.colors, gloss.count * sizeof(glm::vec4));
     need(sources_, "sources", gloss.sources, gloss.count * row_bytes());
     const std::size_t together =
         std::max<std::size_t>(1, static_cast<std::size_t>(sources_.packet_width) / params.samples);
@@ -94,7 +92,7 @@ cl::Event AntiradianceGlossPasses::gloss(const cl::CommandQueue& queue, std::uin
     need_leaves(gloss_, bins_, links, rows, directions, leaves);
     need(gloss_, "bins", gloss.bins, row_bytes() / 3 * 4);
     need(gloss_, "factors", gloss.factors, gloss.count * m * sizeof(float));
-    need(gloss_, "colors", gloss.colors, gloss.count * color);
+    need(gloss_, "colors", gloss.colors, gloss.count * sizeof(glm::vec4));
     need(gloss_, "sources", gloss.sources, gloss.count * row_bytes());
     need(gloss_, "arriving", gloss.arriving, gloss.count * row_bytes());
     return launch(gloss_, queue, gloss.count, wait, ElementParams{0, gloss.count, step, 0},

@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "antiradiance/solid_angle.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double rounding = 1e-12;  // of heights above a sender, as a share of its radius
-
+using std::numbers::pi;
 // From the origin to what lies between two points.
 double distance_to(const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 edge = b - a;
@@ -90,7 +89,7 @@ double MotionRefine::solid_angle(std::size_t sender, std::size_t receiver) const
         const double height = std::abs(glm::dot(pose.normals[sender], way));
         if (!tree_.is_patch(sender))
             out = std::max(out, pose.areas[sender] / square);
-        else if (height > rounding * pose.radii[sender])
+        else if (height > height_rounding * pose.radii[sender])
             out = std::max(out, clgi::solid_angle(pose.corners[sender], eye));
     }
     return out;

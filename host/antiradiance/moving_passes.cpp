@@ -6,11 +6,10 @@
 #include "opencl/launch.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
+#include "opencl/word.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
 
 void need_places(const PassKernel& pass, const MovingElements& moving, const LinkBuffers& links) {
     need(pass, "places", moving.places, links.element_count * sizeof(ElementPlace));

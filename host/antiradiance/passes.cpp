@@ -7,12 +7,10 @@
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
+#include "opencl/word.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr std::size_t color = sizeof(glm::vec4);
 
 void need_list(const PassKernel& pass, const ElementParams& params, const cl::Buffer& list,
                const LinkBuffers& links) {
@@ -86,7 +84,7 @@ cl::Event AntiradiancePasses::pull(const cl::CommandQueue& queue, const ElementP
                                    const cl::Buffer& list, const LinkBuffers& links,
                                    const ElementRows& rows, const WaitList& wait) const {
     need_list(pull_, params, list, links);
-    need(pull_, "next_powers", rows.next_powers, links.element_count * color);
+    need(pull_, "next_powers", rows.next_powers, links.element_count * sizeof(glm::vec4));
     need(pull_, "next", rows.next, intensity_bytes(links.row_count));
     return launch(pull_, queue, params.count, wait, params, list, links.elements, rows.next_powers,
                   rows.next);
@@ -108,8 +106,8 @@ cl::Event AntiradiancePasses::sources(const cl::CommandQueue& queue, const LeafP
     need(sources_, "planes", points.planes, gbuffer_bytes(sources_.storage, params.stride));
     need(sources_, "ids", points.ids, GBUFFER_ID_PLANES * word * params.stride);
     need(sources_, "irradiance", irradiance, irradiance_bytes(sources_.storage, params.stride));
-    need(sources_, "sources", leaves.sources, params.leaf_count * color);
-    need(sources_, "reflectances", leaves.reflectances, params.leaf_count * color);
+    need(sources_, "sources", leaves.sources, params.leaf_count * sizeof(glm::vec4));
+    need(sources_, "reflectances", leaves.reflectances, params.leaf_count * sizeof(glm::vec4));
     return launch(sources_, queue, params.leaf_count, wait, params, points.planes, points.ids,
                   irradiance, scene.materials(), leaves.sources, leaves.reflectances);
 }
@@ -119,8 +117,8 @@ cl::Event AntiradiancePasses::vertices(const cl::CommandQueue& queue, const Leaf
     const std::size_t count = surface.vertex_count;
     need(vertices_, "first_leaves", surface.first_leaves, (count + 1) * word);
     need(vertices_, "vertex_leaves", surface.vertex_leaves, 2 * word);
-    need(vertices_, "irradiances", leaves.irradiances, color);
-    need(vertices_, "light", surface.light, count * color);
+    need(vertices_, "irradiances", leaves.irradiances, sizeof(glm::vec4));
+    need(vertices_, "light", surface.light, count * sizeof(glm::vec4));
     const ElementParams params{0, surface.vertex_count, 0, 0};
     return launch(vertices_, queue, count, wait, params, surface.first_leaves,
                   surface.vertex_leaves, leaves.irradiances, surface.light);
@@ -135,7 +133,7 @@ cl::Event AntiradiancePasses::show(const cl::CommandQueue& queue, const ShowElem
     need(show_, "planes", seen.planes,
          gbuffer_bytes(show_.storage, params.pixel_stride, GBUFFER_BASE));
     need(show_, "ids", seen.ids, GBUFFER_ID_PLANES * word * params.pixel_stride);
-    need(show_, "light", surface.light, surface.vertex_count * color);
+    need(show_, "light", surface.light, surface.vertex_count * sizeof(glm::vec4));
     need(show_, "shown", shown, irradiance_bytes(show_.storage, params.pixel_stride));
     return launch(show_, queue, params.pixel_count, wait, params, scene.triangles(),
                   scene.positions(), surface.roots, links.elements, surface.patches, seen.planes,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "antiradiance/motion_refine.hpp"
 #include "antiradiance/vertex_cells.hpp"
@@ -11,7 +12,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 constexpr double rough = 2e-3;  // flat clusters are by 1e-3, as a share of a distance
 

@@ -10,6 +10,9 @@
 
 namespace clgi {
 
+// Of heights above a sender, as a share of its radius: below it rounding chooses the side.
+constexpr double height_rounding = 1e-12;
+
 // sr, 0 to 2 pi, from `eye`; the same from both sides. 0 from a corner and from the triangle's
 // plane outside it; within it rounding decides for 0 or 2 pi.
 inline double solid_angle(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& eye) {

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // Cosine of the half angle of a cone.
 double edge_of_cone(double solid_angle) { return 1.0 - solid_angle / (2.0 * pi); }

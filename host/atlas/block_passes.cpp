@@ -6,11 +6,10 @@
 #include "opencl/launch.hpp"
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
+#include "opencl/word.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(float);
 
 // What see_listed and see_blocks have in common.
 void need_batch(const PassKernel& pass, const BlockParams& params, const cl::Buffer& views,

@@ -1,6 +1,7 @@
 // Empty texels that interpolation at the edge of a chart reads.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <clgi/adjacency.hpp>
 #include <cstring>
 #include <vector>
 
@@ -8,8 +9,6 @@
 
 namespace clgi {
 namespace {
-
-constexpr std::uint32_t none = 0xffffffffu;
 
 // Which texels of the pages are listed. There is a frame of one texel around every page, which
 // counts as listed: nothing beyond a page is empty.
@@ -55,7 +54,7 @@ void list_dilated(int padding, AtlasLayout& layout) {
     const auto reach = static_cast<std::uint32_t>(padding);
     // [pages * size * size] index of the listed texel that is nearest to an empty one.
     std::vector<std::uint32_t> source(
-        std::size_t{size} * size * static_cast<std::size_t>(layout.pages), none);
+        std::size_t{size} * size * static_cast<std::size_t>(layout.pages), no_index);
     const Listed listed(layout);
     const auto distance = [&](std::uint32_t column, std::uint32_t row, std::uint32_t from) {
         const std::uint32_t other = layout.texels[from].texel;
@@ -74,11 +73,11 @@ void list_dilated(int padding, AtlasLayout& layout) {
                  x <= std::min(column + reach, size - 1); ++x) {
                 if (listed(page, x, y)) continue;
                 std::uint32_t& nearest = source[(std::size_t{page} * size + y) * size + x];
-                if (nearest == none || distance(x, y, i) < distance(x, y, nearest)) nearest = i;
+                if (nearest == no_index || distance(x, y, i) < distance(x, y, nearest)) nearest = i;
             }
     }
     for (std::size_t texel = 0; texel < source.size(); ++texel)
-        if (source[texel] != none)
+        if (source[texel] != no_index)
             layout.dilated.push_back({static_cast<std::uint32_t>(texel), source[texel]});
 }
 

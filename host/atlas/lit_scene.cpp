@@ -7,6 +7,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <clgi/adjacency.hpp>
 #include <clgi/atlas_light.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
@@ -20,7 +21,6 @@
 namespace clgi {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
 using Rgba = std::array<std::uint8_t, 4>;
 
 Rgba encoded(const glm::dvec3& radiance) {
@@ -57,14 +57,14 @@ std::vector<Texture> pages_of(const AtlasLayout& atlas, const std::vector<glm::v
     return out;
 }
 
-// The material of a page's triangles; page `none` for those that the atlas has not.
+// The material of a page's triangles; page `no_index` for those that the atlas has not.
 Material lit(const Material& material, std::uint32_t page, bool named, int first_page,
              const LitSceneOptions& options) {
     Material out = material;
-    if (page != none && named) out.name += " page " + std::to_string(page);
-    out.emission = glm::vec3(page == none ? 0.0f : 1.0f);
+    if (page != no_index && named) out.name += " page " + std::to_string(page);
+    out.emission = glm::vec3(page == no_index ? 0.0f : 1.0f);
     out.emission_texture = {};
-    if (page != none) out.emission_texture = {first_page + static_cast<int>(page), 1};
+    if (page != no_index) out.emission_texture = {first_page + static_cast<int>(page), 1};
     if (options.lights) return out;
     out.base_color = glm::vec4(0.0f, 0.0f, 0.0f, material.base_color.a);
     out.metallic = out.roughness = 1.0f;

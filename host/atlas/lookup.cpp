@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "atlas/lookup.hpp"
 
+#include <clgi/adjacency.hpp>
 #include <clgi/error.hpp>
 #include <string>
 
 namespace clgi {
-namespace {
-
-constexpr std::uint32_t none = 0xffffffffu;
-
-}  // namespace
+namespace {}  // namespace
 
 AtlasLookup::AtlasLookup(const AtlasLayout& atlas) : atlas_(atlas) {
     const auto side = static_cast<std::size_t>(atlas.size);
-    listed_.assign(side * side * static_cast<std::size_t>(atlas.pages), none);
+    listed_.assign(side * side * static_cast<std::size_t>(atlas.pages), no_index);
     for (std::uint32_t i = 0; i < atlas.texels.size(); ++i) listed_[atlas.texels[i].texel] = i;
 }
 
@@ -30,7 +27,7 @@ AtlasTaps AtlasLookup::at(std::uint32_t chart, const glm::dvec2& place) const {
             (tap & 1 ? part.x : 1.0 - part.x) * (tap >> 1 ? part.y : 1.0 - part.y);
         const std::uint32_t texel = listed_[(page * size + static_cast<std::size_t>(at.y)) * size +
                                             static_cast<std::size_t>(at.x)];
-        if (texel == none || !(weight > 0.0)) continue;
+        if (texel == no_index || !(weight > 0.0)) continue;
         // A chart that has none of the four takes those of others, as any sampler would.
         const bool is_own = atlas_.texels[texel].chart == chart;
         AtlasTaps& to = is_own ? own : other;

@@ -6,11 +6,10 @@
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
+#include "opencl/word.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(float);
 
 void need_senders(const PassKernel& pass, const FillParams& params, const SiteBuffers& b) {
     need_stride(pass, "stride", params.stride, params.texel_count);
@@ -151,8 +150,8 @@ cl::Event AtlasPasses::replicate(const cl::CommandQueue& queue, const MeshParams
     need(replicate_, "boxes", mesh.boxes, mesh.chart_count * 4 * word);
     need(replicate_, "copies", mesh.copies,
          MESH_COPIES * mesh_triangles(params) * sizeof(MeshCopy));
-    return launch(replicate_, queue, mesh_triangles(params), wait, params, mesh.corners,
-                  mesh.boxes, mesh.copies);
+    return launch(replicate_, queue, mesh_triangles(params), wait, params, mesh.corners, mesh.boxes,
+                  mesh.copies);
 }
 
 cl::Event AtlasPasses::project(const cl::CommandQueue& queue, const FillParams& params,
@@ -191,8 +190,8 @@ cl::Event AtlasPasses::nearest(const cl::CommandQueue& queue, const FillParams& 
     need(nearest_, "balance", b.balance, BALANCE_PLANES * word * params.site_stride);
     need(nearest_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
     need(nearest_, "reach", reach, word * params.stride);
-    return launch(nearest_, queue, packets(nearest_, texels_left(nearest_, params)), wait,
-                  params, b.planes, b.balance, texels, reach);
+    return launch(nearest_, queue, packets(nearest_, texels_left(nearest_, params)), wait, params,
+                  b.planes, b.balance, texels, reach);
 }
 
 cl::Event AtlasPasses::complete(const cl::CommandQueue& queue, const FillParams& params,
@@ -205,8 +204,8 @@ cl::Event AtlasPasses::complete(const cl::CommandQueue& queue, const FillParams&
     need(complete_, "gathered", gathered, 3 * word * params.stride);
     need(complete_, "irradiance", irradiance, 3 * word * params.stride);
     need(complete_, "non_finite", non_finite, word);
-    return launch(complete_, queue, packets(complete_, texels_left(complete_, params)), wait, params,
-                  reach, filled, gathered, irradiance, non_finite);
+    return launch(complete_, queue, packets(complete_, texels_left(complete_, params)), wait,
+                  params, reach, filled, gathered, irradiance, non_finite);
 }
 
 cl::Event AtlasPasses::show(const cl::CommandQueue& queue, const ShowParams& params,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cfloat>
+#include <clgi/adjacency.hpp>
 #include <cmath>
 
 #include "atlas/clip.hpp"
@@ -11,13 +12,11 @@
 namespace clgi {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
-
 // What one chart covers of one texel.
 struct Share {
-    double coverage = 0.0;      // texels^2
-    double area = 0.0;          // m^2
-    std::uint32_t next = none;  // share of the same texel
+    double coverage = 0.0;          // texels^2
+    double area = 0.0;              // m^2
+    std::uint32_t next = no_index;  // share of the same texel
     std::uint32_t chart = 0;
     std::uint32_t triangle = 0;
     float b1 = 0.0f, b2 = 0.0f;
@@ -73,7 +72,7 @@ class Lister {
 public:
     Lister(const Scene& scene, const AtlasPlacement& placed, int size)
         : scene_(scene), placed_(placed), size_(size), side_(static_cast<std::size_t>(size)) {
-        first_.assign(side_ * side_ * static_cast<std::size_t>(placed.pages), none);
+        first_.assign(side_ * side_ * static_cast<std::size_t>(placed.pages), no_index);
         shares_.reserve(std::min(expected_shares(), first_.size()));
     }
 
@@ -131,12 +130,12 @@ public:
         std::size_t shared = 0;
         layout.texels.reserve(shares_.size());
         for (std::size_t texel = 0; texel < first_.size(); ++texel) {
-            if (first_[texel] == none) continue;
+            if (first_[texel] == no_index) continue;
             const Share* chosen = &shares_[first_[texel]];
-            shared += chosen->next != none;
-            for (std::uint32_t i = chosen->next; i != none; i = shares_[i].next)
+            shared += chosen->next != no_index;
+            for (std::uint32_t i = chosen->next; i != no_index; i = shares_[i].next)
                 if (better(shares_[i], *chosen)) chosen = &shares_[i];
-            for (std::uint32_t i = first_[texel]; i != none; i = shares_[i].next)
+            for (std::uint32_t i = first_[texel]; i != no_index; i = shares_[i].next)
                 if (&shares_[i] != chosen) skipped_ += shares_[i].area;
             layout.texels.push_back(listed(static_cast<std::uint32_t>(texel), *chosen));
         }
@@ -158,7 +157,8 @@ private:
             const glm::dvec2 a = corner[1] - corner[0], b = corner[2] - corner[0];
             covered += 0.5 * std::abs(a.x * b.y - a.y * b.x) * double(size_) * double(size_);
         }
-        for (const AtlasChart& chart : placed_.charts) covered += 2.0 * (chart.width + chart.height);
+        for (const AtlasChart& chart : placed_.charts)
+            covered += 2.0 * (chart.width + chart.height);
         return static_cast<std::size_t>(std::min(covered, 1e18));
     }
 
@@ -167,7 +167,7 @@ private:
         const std::size_t texel = (page * side_ + static_cast<std::size_t>(row)) * side_ +
                                   static_cast<std::size_t>(column);
         std::uint32_t* link = &first_[texel];
-        while (*link != none) {
+        while (*link != no_index) {
             if (shares_[*link].chart == chart) return shares_[*link];
             link = &shares_[*link].next;
         }
@@ -204,7 +204,7 @@ private:
     const AtlasPlacement& placed_;
     int size_;
     std::size_t side_;
-    std::vector<std::uint32_t> first_;  // [pages * size * size] share, or none
+    std::vector<std::uint32_t> first_;  // [pages * size * size] share, or no_index
     std::vector<Share> shares_;
     double skipped_ = 0.0;
 };
@@ -218,7 +218,7 @@ void list_texels(const Scene& scene, const AtlasPlacement& placed, AtlasLayout& 
 
     layout.charts = placed.charts;
     layout.triangle_chart = placed.triangle_chart;
-    layout.triangle_page.assign(scene.triangles.size(), none);
+    layout.triangle_page.assign(scene.triangles.size(), no_index);
     layout.uvs.resize(3 * scene.triangles.size());
     for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
         if (placed.triangle_chart[t] == no_chart) continue;

@@ -7,13 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/bench.hpp"
+#include "cli/optional_json.hpp"
 
 namespace clgi::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 std::string text(const std::optional<double>& value) {
     return value ? fmt::format("{:.1f}", *value) : "-";

@@ -11,4 +11,12 @@ std::vector<std::string> direct_effects(const DeviceScene& scene, const EmitterS
     return out;
 }
 
+std::vector<std::string> all_effects(const DeviceScene& scene, const Picture& picture, bool sky) {
+    std::vector<std::string> out;
+    if (picture.options().direct) out = direct_effects(scene, picture.emitters());
+    if (sky && scene.environment()) out.push_back("environment");
+    out.push_back("indirect");
+    return out;
+}
+
 }  // namespace clgi::cli

@@ -11,4 +11,7 @@ namespace clgi::cli {
 // Those of direct light: of lights, glossy, and of what shines itself.
 std::vector<std::string> direct_effects(const DeviceScene& scene, const EmitterSet& emitters);
 
+// Those of a picture with indirect light. sky: with that of the environment.
+std::vector<std::string> all_effects(const DeviceScene& scene, const Picture& picture, bool sky);
+
 }  // namespace clgi::cli

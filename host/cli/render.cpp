@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <clgi/clgi.hpp>
 #include <limits>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "cli/render_flags.hpp"
 #include "cli/stats.hpp"
 #include "cli/threshold.hpp"
+#include "opencl/timing.hpp"
 #include "report/preview.hpp"
 
 namespace clgi::cli {
@@ -69,16 +69,14 @@ void run_second_order(RenderFlags flags) {
                           [&](const cl::Device& device) { return gl->properties(device); })
            : session_of(flags);
 
-    const auto build_start = std::chrono::steady_clock::now();
+    const auto build_start = timing::Clock::now();
     DeviceScene device_scene(session.context, session.device, scene);
     SecondOrderSolver solver(session.queue, device_scene, flags.options);
     if (gl) gl->open(session.queue, device_scene, solver.options().build);
     Motion motion(flags, scene, device_scene, session.queue);
     if (flags.fps && motion.at(0).lights) solver.lights_changed();  // builds its kernels
     RenderRecord record;
-    record.build_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - build_start)
-            .count();
+    record.build_ms = timing::milliseconds(timing::Clock::now() - build_start);
 
     catch_interrupts();
     const auto bar = progress_bar("render", flags.device.quiet);
@@ -303,9 +301,9 @@ void add_render(CLI::App& app) {
         flags->transfer_only = given(
             *command, {"--sh-order", "--mask", "--table", "--mask-block", "--sh-window", "--coarse",
                        "--rings", "--per-pixel", "--probe-step", "--interreflections"});
-        flags->antiradiance_only = given(*command, {"--bins", "--elements", "--iteration",
-                                                    "--iterations", "--residual", "--least-gloss",
-                                                    "--bin-share", "--spread", "--poses"});
+        flags->antiradiance_only =
+            given(*command, {"--bins", "--elements", "--iteration", "--iterations", "--residual",
+                             "--least-gloss", "--bin-share", "--spread", "--poses"});
         flags->not_antiradiance = given(*command, {"--vpls", "--environment-lights"});
         flags->not_transfer = given(*command, {"--vpls", "--no-direct", "--environment-lights"});
         flags->atlas.bake.emitters = flags->options.emitters;

@@ -24,14 +24,6 @@ const std::map<std::string, Iteration> iterations = {{"auto", Iteration::automat
 const std::map<std::string, Spread> spreads = {
     {"precise", Spread::precise}, {"gaussian", Spread::gaussian}, {"none", Spread::none}};
 
-std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& picture) {
-    std::vector<std::string> out;
-    if (picture.options().direct) out = direct_effects(scene, picture.emitters());
-    if (scene.environment()) out.push_back("environment");
-    out.push_back("indirect");
-    return out;
-}
-
 }  // namespace
 
 void run_antiradiance(RenderFlags flags) {
@@ -126,7 +118,7 @@ void run_antiradiance(RenderFlags flags) {
     record_picture(record, session, scene, device_scene, view.picture(),
                    solver.bytes() + view.bytes() + motion.bytes());
     record.method = "antiradiance";
-    record.effects = effects_of(device_scene, view.picture());
+    record.effects = all_effects(device_scene, view.picture(), true);
     if (solver.gloss().count > 0) record.effects.push_back("glossy-indirect");
     record.antiradiance = summary;
     record.planned = flags.planned;

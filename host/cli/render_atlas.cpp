@@ -17,15 +17,6 @@
 namespace clgi::cli {
 namespace {
 
-std::vector<std::string> effects_of(const DeviceScene& scene, const Picture& picture) {
-    std::vector<std::string> out;
-    const bool direct = picture.options().direct;
-    if (direct) out = direct_effects(scene, picture.emitters());
-    if (direct && scene.environment()) out.push_back("environment");
-    out.push_back("indirect");
-    return out;
-}
-
 void check(const RenderFlags& flags, const Scene& scene) {
     if (flags.gbuffer != "cl") throw Error("render: --gbuffer gl goes not with --method atlas");
     if (flags.atlas.vpls.count < 1)
@@ -48,7 +39,7 @@ void run_atlas(RenderFlags flags) {
 
     const BakeLayout layout = lay_out(scene, atlas_flags.vpls, atlas_flags.layout, quiet);
     const AtlasLayout& atlas = layout.atlas;
-    BakeSummary bake{layout.vpls.vpls.size(), atlas.texels.size(), atlas.pages,
+    BakeSummary bake{layout.vpls.vpls.size(), atlas.texels.size(), atlas.pages, atlas.size,
                      1e3 * layout.seconds};
     const Stopwatch build;
     DeviceScene device_scene(session.context, session.device, scene);
@@ -101,7 +92,7 @@ void run_atlas(RenderFlags flags) {
     record_picture(record, session, scene, device_scene, view.picture(),
                    solver.bytes() + view.picture().bytes());
     record.method = "atlas";
-    record.effects = effects_of(device_scene, view.picture());
+    record.effects = all_effects(device_scene, view.picture(), view.picture().options().direct);
     record.bake = bake;
     record.planned = flags.planned;
     save_stats(record, flags.stats);

@@ -71,6 +71,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         out["bake"] = {{"vpls", record.bake->vpls},
                        {"texels", record.bake->texels},
                        {"pages", record.bake->pages},
+                       {"atlas_size", record.bake->atlas_size},
                        {"layout_ms", record.bake->layout_ms},
                        {"bake_ms", record.bake->bake_ms}};
     if (record.transfer)

@@ -21,6 +21,7 @@ struct BakeSummary {
     std::size_t vpls = 0;
     std::size_t texels = 0;
     int pages = 0;
+    int atlas_size = 0;      // texels, side of a page
     double layout_ms = 0.0;  // on the host
     double bake_ms = 0.0;
 };

@@ -20,16 +20,13 @@
 
 #include "io/atomic_file.hpp"
 #include "io/exr_header.hpp"
+#include "io/file_error.hpp"
 #include "io/image_formats.hpp"
 
 namespace clgi::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what) {
-    throw InputError(path.string() + ": " + what);
-}
 
 // Names that OpenEXR gives a meaning of its own: not ours to read or to set.
 bool is_reserved(const std::string& name) {

@@ -9,16 +9,13 @@
 #include <limits>
 #include <string>
 
+#include "io/file_error.hpp"
 #include "io/image_formats.hpp"
 
 namespace clgi::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what) {
-    throw InputError(path.string() + ": " + what);
-}
 
 std::string first_bytes(const fs::path& path) {
     std::error_code error;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/png_decode.hpp"
+#include "io/png_errors.hpp"
 
 #include <png.h>
 
@@ -23,10 +24,6 @@ void read(png_structp png, png_bytep data, std::size_t length) {
     source->next += length;
     source->left -= length;
 }
-
-[[noreturn]] void fail(png_structp png, png_const_charp) { png_longjmp(png, 1); }
-
-void ignore(png_structp, png_const_charp) {}
 
 bool decode(png_structp png, png_infop info, std::uint32_t w, std::uint32_t h, png_bytep rgba) {
     if (setjmp(png_jmpbuf(png))) return false;
@@ -56,7 +53,7 @@ bool decode_png(std::span<const std::uint8_t> file, std::uint32_t w, std::uint32
                 std::vector<std::uint8_t>& rgba) {
     rgba.assign(std::size_t{w} * h * 4, 0);
     Source source{file.data(), file.size()};
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore);
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave_png, ignore_png);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     bool complete = false;
     if (info) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/png_encode.hpp"
+#include "io/png_errors.hpp"
 
 #include <png.h>
 
@@ -31,10 +32,6 @@ void append(png_structp png, png_bytep data, std::size_t length) {
 
 void flush(png_structp) {}
 
-[[noreturn]] void fail(png_structp png, png_const_charp) { png_longjmp(png, 1); }
-
-void ignore(png_structp, png_const_charp) {}
-
 bool write(png_structp png, png_infop info, int w, int h, const std::uint8_t* rgba) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_IHDR(png, info, static_cast<png_uint_32>(w), static_cast<png_uint_32>(h), 8,
@@ -57,7 +54,8 @@ std::vector<std::uint8_t> encode_png(int w, int h, const std::uint8_t* rgba) {
 
     std::vector<std::uint8_t> bytes;
     Sink sink{&bytes, false};
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore);
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, leave_png, ignore_png);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     bool written = false;
     if (info) {

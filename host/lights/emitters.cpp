@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -20,7 +21,7 @@ namespace clgi {
 namespace {
 
 constexpr std::size_t most_pixels = std::size_t{1} << 30;  // kernels count view pixels in ints
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 // Any unit vector across n.
 glm::vec3 across(const glm::vec3& n) {

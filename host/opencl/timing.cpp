@@ -2,7 +2,6 @@
 #include "opencl/timing.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 namespace clgi::timing {
 
@@ -16,11 +15,10 @@ Spread spread(std::vector<double> values) {
 }
 
 double time_frame(const cl::CommandQueue& queue, const std::function<void()>& enqueue) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     enqueue();
     queue.finish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
+    return milliseconds(Clock::now() - start);
 }
 
 }  // namespace clgi::timing

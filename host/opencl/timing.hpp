@@ -2,12 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <clgi/export.hpp>
 #include <clgi/opencl.hpp>
 #include <functional>
 #include <vector>
 
 namespace clgi::timing {
+
+using Clock = std::chrono::steady_clock;
+
+inline double milliseconds(Clock::duration time) {
+    return std::chrono::duration<double, std::milli>(time).count();
+}
 
 struct Spread {
     double min = 0.0;

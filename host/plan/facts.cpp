@@ -2,9 +2,9 @@
 #include <clgi/plan/facts.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "opencl/timing.hpp"
 #include "plan/local_triangles.hpp"
 #include "plan/parts.hpp"
 #include "plan/proof.hpp"
@@ -44,7 +44,7 @@ void add_surroundings(const Scene& scene, const SceneFrame& frame,
 }  // namespace
 
 SceneFacts scene_facts(const Scene& scene) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = timing::Clock::now();
     validate(scene);
     SceneFacts out;
     const std::vector<TriangleAlbedo> albedos = triangle_albedos(scene);
@@ -62,9 +62,7 @@ SceneFacts scene_facts(const Scene& scene) {
         if (out.lights.moving) out.proof.lights_open = false;
     }
     add_surroundings(scene, local_frame(box), triangles, albedos, lights.emissive, out);
-    const std::chrono::duration<double, std::milli> taken =
-        std::chrono::steady_clock::now() - start;
-    out.milliseconds = taken.count();
+    out.milliseconds = timing::milliseconds(timing::Clock::now() - start);
     return out;
 }
 

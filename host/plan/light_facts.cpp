@@ -11,7 +11,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 bool has_power(const Light& light) { return luminance(light.intensity) > 0.0f; }
 

@@ -2,12 +2,12 @@
 #include "plan/probe.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <clgi/solvers/second_order.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "opencl/timing.hpp"
 #include "plan/picture_luminance.hpp"
 #include "scene/luminance.hpp"
 
@@ -52,7 +52,7 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
     options.build = wish.build;
     options.indirect = plan.on(Effect::first_bounce);
     SecondOrderSolver solver(programs, queue, scene, options);
-    const auto start = std::chrono::steady_clock::now();  // kernels are built
+    const auto start = timing::Clock::now();  // kernels are built
     const std::vector<double> lit = picture_luminance(queue, solver, solver.render(camera));
     const double flux = options.indirect ? reflected_flux(queue, solver) : 0.0;
     const bool unseen = options.indirect && !(flux > 0.0);
@@ -78,8 +78,7 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
         out.first_bounce = std::sqrt(mean_square_difference(lit, direct)) / level;
         out.reflected = radiance / level;
     }
-    out.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    out.milliseconds = timing::milliseconds(timing::Clock::now() - start);
     return out;
 }
 

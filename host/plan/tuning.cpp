@@ -1,11 +1,11 @@
 // Tuning: from a wish to the point of a front that meets it, by models first and pictures then.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <clgi/error.hpp>
 #include <clgi/plan/tuning.hpp>
 #include <cmath>
 
+#include "opencl/timing.hpp"
 #include "plan/trial_frames.hpp"
 
 namespace clgi {
@@ -158,7 +158,7 @@ std::optional<SecondOrderTuning> tune_second_order(const cl::CommandQueue& queue
                                                    SecondOrderSolver& solver, const Camera& camera,
                                                    const TuningWish& wish,
                                                    const Progress& progress) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = timing::Clock::now();
     const SecondOrderOptions before = solver.options();
     check(wish, before);
     const SecondOrderFront& front = second_order_front(main_light(scene));
@@ -174,8 +174,7 @@ std::optional<SecondOrderTuning> tune_second_order(const cl::CommandQueue& queue
         throw;
     }
     solver.reconfigure(with_settings(before, out.settings));
-    out.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    out.milliseconds = timing::milliseconds(timing::Clock::now() - start);
     if (progress) progress(1.0);  // too late to cancel
     return out;
 }

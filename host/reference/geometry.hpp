@@ -5,6 +5,8 @@
 #include <clgi/scene.hpp>
 #include <vector>
 
+#include "scene/luminance.hpp"
+
 namespace clgi::reference {
 
 constexpr float pi = 3.14159265358979f;
@@ -34,6 +36,6 @@ struct Hit {
     float b2 = 0.0f;
 };
 
-inline float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+using clgi::luminance;
 
 }  // namespace clgi::reference

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/luminance.hpp"
+
 namespace clgi::reference {
 namespace {
 
 constexpr double whole_turn = 2.0 * std::numbers::pi;
-
-double luminance(const glm::vec3& c) {
-    return 0.2126 * double{c.x} + 0.7152 * double{c.y} + 0.0722 * double{c.z};
-}
 
 // Cosine of the angle from +Y at the upper edge of a row.
 double edge(int row, int height) { return std::cos(std::numbers::pi * row / height); }
@@ -43,7 +41,7 @@ Sky::Sky(const std::optional<Environment>& environment) : values_{glm::vec3(0.0f
             (edge(row, height_) - edge(row + 1, height_)) * whole_turn / width_;
         double sum = 0.0;
         for (int column = 0; column < width_; ++column) {
-            sum += luminance(values_[columns_.size()]) * solid_angle;
+            sum += luminance(glm::dvec3(values_[columns_.size()])) * solid_angle;
             columns_.push_back(sum);
         }
         rows_.push_back(total += sum);
@@ -66,7 +64,7 @@ glm::vec3 Sky::radiance(const glm::vec3& direction) const { return texel(directi
 
 float Sky::density(const glm::vec3& direction) const {
     if (!shines_) return 0.0f;
-    return static_cast<float>(luminance(texel(direction)) / rows_.back());
+    return static_cast<float>(luminance(glm::dvec3(texel(direction))) / rows_.back());
 }
 
 glm::vec3 Sky::sample(Random& random) const {

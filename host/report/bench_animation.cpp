@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report/bench_animation.hpp"
 
-#include <chrono>
 #include <clgi/error.hpp>
 #include <clgi/scene_animator.hpp>
 
@@ -11,10 +10,7 @@ namespace clgi::report {
 
 std::vector<AnimationRow> bench_animation(
     const AnimationSetup& setup, const std::vector<std::pair<std::string, Scene>>& scenes) {
-    using Clock = std::chrono::steady_clock;
-    const auto microseconds = [](Clock::duration time) {
-        return std::chrono::duration<double, std::micro>(time).count();
-    };
+    const auto microseconds = [](Clock::duration time) { return 1e3 * milliseconds(time); };
     constexpr int warm_up = 10;
     const cl::Context context = setup.queue.getInfo<CL_QUEUE_CONTEXT>();
     const cl::Device device = setup.queue.getInfo<CL_QUEUE_DEVICE>();

@@ -2,9 +2,9 @@
 #include "report/bench_layer.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <clgi/clgi.hpp>
 
+#include "opencl/timing.hpp"
 #include "report/timing.hpp"
 
 namespace clgi::report {
@@ -58,14 +58,6 @@ private:
     cl::Kernel kernel_;
 };
 
-double milliseconds(const cl::CommandQueue& queue, const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    queue.finish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
-}
-
 }  // namespace
 
 std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
@@ -104,8 +96,7 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
     const Hand lit(queue, "image", "gather"), toned(queue, "image", "tonemap");
     const std::size_t packet = static_cast<std::size_t>(packet_width(device));
     std::vector<Way> ways = {
-        {"gbuffer.clear",
-         [&] { clear(pixels / 16, none, views, raster.pixels, raster.counts); },
+        {"gbuffer.clear", [&] { clear(pixels / 16, none, views, raster.pixels, raster.counts); },
          [&] { gbuffer.clear(queue, span, views, raster); }},
         {"gbuffer.downsample",
          [&] { downsample(width / 4 / packet * height / 4, down, points, low); },
@@ -135,9 +126,9 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
         for (std::size_t i = 0; i < ways.size(); ++i) {
             const bool hand_first = round % 2 == 0;
             const double first =
-                milliseconds(queue, hand_first ? ways[i].by_hand : ways[i].library);
+                timing::time_frame(queue, hand_first ? ways[i].by_hand : ways[i].library);
             const double second =
-                milliseconds(queue, hand_first ? ways[i].library : ways[i].by_hand);
+                timing::time_frame(queue, hand_first ? ways[i].library : ways[i].by_hand);
             if (round < 0) continue;
             times[i].by_hand.push_back(hand_first ? first : second);
             times[i].library.push_back(hand_first ? second : first);

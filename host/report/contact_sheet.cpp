@@ -15,8 +15,6 @@ namespace clgi::report {
 namespace {
 
 constexpr int columns = 3;
-constexpr Color paper = {255, 255, 255};
-constexpr Color ink = {40, 40, 40};
 
 std::string time_text(double milliseconds) {
     return milliseconds < 999.5 ? fmt::format("{:.3g} ms", milliseconds)

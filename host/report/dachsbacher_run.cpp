@@ -8,18 +8,13 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "report/preview.hpp"
+#include "report/timing.hpp"
 
 namespace clgi::report {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double most_turn = 0.08;  // radians, of the light to either side
 constexpr int width = 640, height = 480;
-
-double milliseconds(Clock::duration time) {
-    return std::chrono::duration<double, std::milli>(time).count();
-}
 
 AntiradianceOptions with_build(AntiradianceOptions options, const BuildOptions& build) {
     options.build = build;

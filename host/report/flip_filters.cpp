@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace clgi::report {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees; the paper's constants.
 struct Gaussian {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report/kautz_run.hpp"
+#include "report/timing.hpp"
 
 #include <chrono>
 #include <clgi/mesh/simplify.hpp>
@@ -7,12 +8,6 @@
 
 namespace clgi::report {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds(Clock::duration time) {
-    return std::chrono::duration<double, std::milli>(time).count();
-}
 
 // About `count` triangles for the far blockers. Parts of a few triangles stay whole: as solids of
 // four they would no longer cover what is under them, such as the nails of the hand.

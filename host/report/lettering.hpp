@@ -8,6 +8,8 @@
 
 namespace clgi::report {
 
+constexpr Color paper = {255, 255, 255}, ink = {40, 40, 40};
+
 // Known are 0 to 9, a to z, "+-.,:%|", "A", "B", "F", "L", "I", "P" and the space; others leave a
 // gap.
 // height: of a digit, in pixels.

@@ -13,9 +13,6 @@
 namespace clgi::report {
 namespace {
 
-constexpr Color paper = {255, 255, 255};
-constexpr Color ink = {40, 40, 40};
-
 // Every length in the text's height, which follows the picture, but more slowly.
 struct Layout {
     explicit Layout(int picture_width) {

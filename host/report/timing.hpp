@@ -10,6 +10,8 @@
 
 namespace clgi::report {
 
+using timing::Clock;
+using timing::milliseconds;
 using timing::Spread;
 using timing::spread;
 using timing::time_frame;

@@ -9,13 +9,14 @@
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <numbers>
 
 #include "scene/surfaces.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 constexpr std::uint32_t ring_vertices = 34725;  // of all rings together
 constexpr int ring_count = 177;                 // makes the triangles nearly equilateral
 

@@ -6,7 +6,7 @@
 
 namespace clgi {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Environment with_picture(Environment environment) {
     if (!environment.texels.empty()) return environment;

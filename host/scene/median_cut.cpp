@@ -11,7 +11,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A rectangle of cells; last ones not included.
 struct Patch {

@@ -13,6 +13,7 @@
 #include "antiradiance/link_sample.hpp"
 #include "antiradiance/linked.hpp"
 #include "opencl/check.hpp"
+#include "opencl/word.hpp"
 #include "solvers/antiradiance_buffers.hpp"
 #include "solvers/antiradiance_motion.hpp"
 #include "solvers/ranges.hpp"
@@ -20,7 +21,6 @@
 namespace clgi {
 namespace {
 
-constexpr std::size_t word = sizeof(std::uint32_t);
 constexpr std::size_t color = sizeof(glm::vec4);
 
 // Leaves whose links an estimate counts. With four times as many it is twice as close.

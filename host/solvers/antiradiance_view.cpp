@@ -3,15 +3,10 @@
 #include <clgi/solvers/antiradiance_view.hpp>
 #include <optional>
 
+#include "solvers/without_sky.hpp"
+
 namespace clgi {
-namespace {
-
-PictureOptions without_sky(PictureOptions options) {
-    options.emitters.environment_lights = 0;
-    return options;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 struct AntiradianceView::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,

@@ -5,13 +5,12 @@
 #include <clgi/planes.hpp>
 
 #include "opencl/check.hpp"
+#include "opencl/word.hpp"
 #include "solvers/dynamic_transfer_state.hpp"
 #include "solvers/ranges.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
 
 const DynamicTransferOptions& checked(const DynamicTransferOptions& options) {
     need_range(transfer_owner, "bounces", options.bounces, 0, 1);

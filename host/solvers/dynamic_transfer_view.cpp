@@ -9,11 +9,12 @@
 
 #include "opencl/check.hpp"
 #include "opencl/variants.hpp"
+#include "opencl/word.hpp"
+#include "solvers/without_sky.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr std::size_t word = sizeof(std::uint32_t);
 constexpr const char* owner = "dynamic-transfer-view";
 
 // Pixels that are receivers at a time.
@@ -26,11 +27,6 @@ constexpr float lift = 1.52587890625e-5f;  // 2^-16
 // Of the receivers that a view sees: a place, or with w 1 a direction.
 glm::vec4 to_eye(const View& view) {
     return view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
-}
-
-PictureOptions without_sky(PictureOptions options) {
-    options.emitters.environment_lights = 0;
-    return options;
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Of an angle from `middle - half` to `middle + half`: the integral of cos(k a), or of sin(k a).
 double cosine_integral(int k, double middle, double half) {

@@ -10,11 +10,11 @@
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
+#include "opencl/word.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr std::size_t word = sizeof(float);
 constexpr std::size_t table_faces = 3;  // PLANE_FACES of kernels/transfer/half_plane.clh
 
 MaskOptions checked(const MaskOptions& options) {

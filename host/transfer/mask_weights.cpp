@@ -10,7 +10,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // The first 2 l + 1 of them determine a function of degree l: the condition number of Y_lm(d_j) is
 // below 10 for every l. Found by a random search.

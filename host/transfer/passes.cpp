@@ -8,6 +8,7 @@
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
+#include "opencl/word.hpp"
 #include "transfer/sh_check.hpp"
 
 namespace clgi {
@@ -15,8 +16,6 @@ namespace clgi {
 static_assert(sh::most_bands == SH_MOST_BANDS && sh::default_bands == SH_DEFAULT_BANDS);
 
 namespace {
-
-constexpr std::size_t word = sizeof(float);
 
 std::size_t blocks_of(const ProjectParams& params) {
     return (std::size_t{params.height} + PROJECT_ROWS - 1) / PROJECT_ROWS;

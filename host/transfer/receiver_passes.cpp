@@ -5,11 +5,10 @@
 #include "opencl/launch.hpp"
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
+#include "opencl/word.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
 
 void need_seen(const PassKernel& pass, const GBuffer& seen, std::size_t stride) {
     if (seen.stride != stride)

@@ -10,7 +10,7 @@
 namespace clgi::sh {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double factor(Window kind, int l, int bands) {
     const double angle = pi * l / bands;

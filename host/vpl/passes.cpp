@@ -10,11 +10,10 @@
 #include "opencl/planes.hpp"
 #include "opencl/program.hpp"
 #include "opencl/variants.hpp"
+#include "opencl/word.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr std::size_t word = sizeof(float);
 
 SiteParams site_params(const SiteBuffers& b) {
     return {b.site_count, b.stride, b.sample_count, b.sample_stride};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -11,7 +12,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double spacings = 2.0;  // within which vertices are welded (clgi/adjacency.hpp)
 
 enum class Use : std::uint8_t {

@@ -5,6 +5,7 @@
 #include <clgi/adjacency.hpp>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <queue>
 #include <utility>
 
@@ -14,7 +15,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double narrow_cone = 0.25 * pi, widest_cone = 0.5 * pi;  // half angles
 constexpr double largest_excess = 0.25;                            // share of the VPLs
 
