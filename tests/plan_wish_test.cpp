@@ -193,8 +193,8 @@ TEST(Plan, TakesSettingsOfDirectLightFromTheWish) {
         wish.method = method;
         const Plan plan = make_plan(test::device().device, facts, wish);
         for (const EmitterOptions& options :
-             {plan.picture.emitters, plan.second_order.emitters, plan.antiradiance.emitters,
-              plan.transfer_view.picture.emitters}) {
+             {plan.picture.emitters, plan.second_order.emitters, plan.light_atlas.emitters,
+              plan.antiradiance.emitters, plan.transfer_view.picture.emitters}) {
             EXPECT_EQ(options.shadow_size, 300);
             EXPECT_EQ(options.face_size, 70);
             EXPECT_EQ(options.area_samples, 5);

@@ -1,5 +1,6 @@
 // clgi plan, and render --method auto.
 // SPDX-License-Identifier: MIT
+#include <clgi/io/image.hpp>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -35,6 +36,31 @@ TEST_F(Program, PlansBeforeItRenders) {
     const auto stats = nlohmann::json::parse(read("s.json"));
     EXPECT_EQ(stats.at("method"), plan.at("method"));
     EXPECT_EQ(stats.at("plan").at("settings"), plan.at("settings"));
+}
+
+// What a plan sets is what flags set: shadow maps of a bake too.
+TEST_F(Program, RendersAPlanAsFlagsOfItsMethodDo) {
+    const std::string render = "render " + make("cornell --light spot") + " --size 32x24 --full";
+    const std::string to = " --quiet -o " + file("a.exr").string() + " --stats ";
+    ASSERT_EQ(run(render + " --with all --target-error 10%" + to + file("s.json").string()).code,
+              0);
+    const auto stats = nlohmann::json::parse(read("s.json"));
+    ASSERT_EQ(stats.at("method"), "atlas");  // with masks nothing else has all effects
+    const auto& plan = stats.at("plan");
+    std::string flags = " --bounces 0";
+    for (const auto& [flag, value] :
+         {std::pair{"--vpls", plan.at("settings").at("vpls")},
+          {"--atlas-size", stats.at("bake").at("atlas_size")},
+          {"--shadow-size", plan.at("direct_light").at("shadow_size")},
+          {"--face-size", plan.at("direct_light").at("face_size")},
+          {"--area-samples", plan.at("direct_light").at("area_samples")}})
+        flags += std::string(" ") + flag + " " + value.dump();
+    ASSERT_EQ(
+        run(render + " --method atlas" + flags + " --quiet -o " + file("b.exr").string()).code, 0);
+    const clgi::io::Image planned = clgi::io::load_image(file("a.exr"));
+    const clgi::io::Image given = clgi::io::load_image(file("b.exr"));
+    for (const char* channel : {"R", "G", "B"})
+        EXPECT_EQ(planned.find(channel)->values, given.find(channel)->values) << channel;
 }
 
 TEST_F(Program, OverrulesAPlan) {

@@ -38,7 +38,11 @@ void take_settings(RenderFlags& flags, const Plan& plan) {
     emitters.shadow_size = plan.picture.emitters.shadow_size;
     emitters.face_size = plan.picture.emitters.face_size;
     emitters.area_samples = plan.picture.emitters.area_samples;
-    flags.atlas.bake.emitters.shadows = plan.light_atlas.emitters.shadows;
+    EmitterOptions& baked = flags.atlas.bake.emitters;
+    baked.shadows = plan.light_atlas.emitters.shadows;
+    baked.shadow_size = plan.light_atlas.emitters.shadow_size;
+    baked.face_size = plan.light_atlas.emitters.face_size;
+    baked.area_samples = plan.light_atlas.emitters.area_samples;
     switch (plan.method) {
         case Method::direct:
             break;

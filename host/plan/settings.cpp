@@ -51,11 +51,11 @@ void apply_effects(Plan& plan) {
     plan.transfer_view.picture = plan.picture;
 }
 
-// Those of the methods that draw direct light in the picture.
+// Those of everything that draws shadow maps.
 template <typename Change>
 void change_emitters(Plan& plan, const Change& change) {
-    for (EmitterOptions* options :
-         {&plan.picture.emitters, &plan.second_order.emitters, &plan.antiradiance.emitters})
+    for (EmitterOptions* options : {&plan.picture.emitters, &plan.second_order.emitters,
+                                    &plan.light_atlas.emitters, &plan.antiradiance.emitters})
         change(*options);
     plan.transfer_view.picture = plan.picture;
 }
