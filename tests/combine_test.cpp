@@ -74,6 +74,7 @@ void block(Shading& in, double share, Random& random) {
             for (int k = 0; k < 4; ++k) {
                 if (random(0, 1) < 0.4) continue;
                 const double limit = at.limit(at.column(k & 1), at.row(k >> 1));
+                if (std::isnan(limit)) continue;  // no normal, no plane
                 in.visibility[at.texel(k & 1, k >> 1)] = test::word_of(
                     static_cast<float>(limit + (share - 1.0) * at.bias), random.integer(0, 99));
             }

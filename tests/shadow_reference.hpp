@@ -1,7 +1,8 @@
 // Shadow maps in double precision, after the comment of kernels/lights/shadow.clh:
 //
 //   lit = bilinear weight of those of the four texels around in which nothing is nearer than the
-//         receiver's own plane there, nor nearer than the receiver itself, both less a bias
+//         receiver's own plane there, nor nearer than the receiver itself, both less a bias; nor is
+//         the plane that the texel shows, followed to the receiver
 //   bias = texel_bias texels at 45 degrees + 1/64 of the plane's slope in x and y + 1e-6
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -16,21 +17,32 @@
 namespace clgi::test {
 
 constexpr double steepest = 114.6;  // of a receiver: the tangent of 89.5 degrees
+constexpr double followed = 8.0;    // of what blocks
 
 // A receiver on a view of a source.
 struct Shadowed {
     const View* view = nullptr;  // null: no view sees it
     double x = 0.0, y = 0.0;     // texels from the centre of the upper left one
     double closeness = 0.0, slope_x = 0.0, slope_y = 0.0, bias = 0.0;
-    bool doubtful = false;  // which view it is in depends on rounding
+    double fall_x = 0.0, fall_y = 0.0;  // of a plane that blocks, from texel to texel, at most
+    bool doubtful = false;              // which view it is in depends on rounding
 
     // Closeness that a blocker at this texel must exceed.
     double limit(int column, int row) const {
         const double along = slope_x * (column - x) + slope_y * (row - y);
         return closeness + bias + std::max(along, 0.0);
     }
-    int column(int k) const { return std::clamp(int(std::floor(x)) + k, 0, int(view->width) - 1); }
-    int row(int k) const { return std::clamp(int(std::floor(y)) + k, 0, int(view->height) - 1); }
+    // k: 0 and 1 are the texels around the receiver, -1 and 2 those beyond.
+    int column(int k) const {
+        const int last = int(view->width) - 1;
+        const int inner = std::clamp(int(std::floor(x)) + std::clamp(k, 0, 1), 0, last);
+        return std::clamp(inner + (k < 0 ? -1 : k > 1 ? 1 : 0), 0, last);
+    }
+    int row(int k) const {
+        const int last = int(view->height) - 1;
+        const int inner = std::clamp(int(std::floor(y)) + std::clamp(k, 0, 1), 0, last);
+        return std::clamp(inner + (k < 0 ? -1 : k > 1 ? 1 : 0), 0, last);
+    }
     std::size_t texel(int kx, int ky) const {
         return view->first_pixel + std::size_t(row(ky)) * view->width + std::size_t(column(kx));
     }
@@ -70,6 +82,8 @@ inline Shadowed shadowed(const Emitter& emitter, const std::vector<View>& views,
         out.slope_y = capped(-glm::dot(geometric, up), texel_y);  // rows run downwards
         out.bias = unit * texel_bias * std::max(texel_x, texel_y) +
                    (std::abs(out.slope_x) + std::abs(out.slope_y)) / 64.0 + out.closeness * 1e-6;
+        out.fall_x = followed * unit * texel_x;
+        out.fall_y = followed * unit * texel_y;
         out.x = (u * 0.5 + 0.5) * view.width - 0.5;
         out.y = (0.5 - w * 0.5) * view.height - 0.5;
         out.view = &view;
@@ -99,13 +113,28 @@ inline double lit_share(const Shadowed& at, const std::vector<std::uint64_t>& vi
     double sum = 0.0;
     for (int ky = 0; ky < 2; ++ky)
         for (int kx = 0; kx < 2; ++kx) {
-            const double seen = closeness_of(visibility[at.texel(kx, ky)]);
+            const auto shown = [&](int x, int y) {
+                return closeness_of(visibility[at.texel(x, y)]);
+            };
+            const double seen = shown(kx, ky);
             const double limit = at.limit(at.column(kx), at.row(ky));
             // 1e-6 of itself, as the bias has it, and what 16 roundings make of the slope.
             const double rounding = 8 * 0x1p-24 * (limit + 4 * (limit - at.closeness));
             if (std::abs(seen - limit) < rounding) *doubtful = true;
             const double weight = (kx ? fx : 1.0 - fx) * (ky ? fy : 1.0 - fy);
-            if (seen <= limit) sum += weight;
+            // What blocks, where the receiver is.
+            const double rise_x = std::clamp(seen - shown(3 * kx - 1, ky), -at.fall_x, at.fall_x);
+            const double rise_y = std::clamp(seen - shown(kx, 3 * ky - 1), -at.fall_y, at.fall_y);
+            const double plane = seen + rise_x * std::abs(at.x - at.column(kx)) +
+                                 rise_y * std::abs(at.y - at.row(ky));
+            const double nearest = at.closeness + at.bias;
+            // A place on the map is 8 spacings of its width off.
+            const double moved =
+                8 * 0x1p-24 *
+                (std::abs(rise_x) * at.view->width + std::abs(rise_y) * at.view->height);
+            if (seen > limit && std::abs(plane - nearest) < 2.0 * rounding + moved)
+                *doubtful = true;
+            if (seen <= limit || plane <= nearest) sum += weight;
         }
     return sum;
 }
