@@ -1,8 +1,9 @@
 // Shadow maps in double precision, after the comment of kernels/lights/shadow.clh:
 //
-//   lit = bilinear weight of those of the four texels around in which nothing is nearer than the
-//         receiver's own plane there, nor nearer than the receiver itself, both less a bias; nor is
-//         the plane that the texel shows, followed to the receiver
+//   lit = bilinear weight of those of the four texels around that do not block. A texel blocks if
+//         what it shows is nearer than the receiver's own plane there and nearer than the receiver,
+//         both less a bias. If some texel does not, the planes of the others count: one blocks if
+//         the plane that it shows, followed to the receiver, is nearer than that, too
 //   bias = texel_bias texels at 45 degrees + 1/64 of the plane's slope in x and y + 1e-6
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -17,7 +18,7 @@
 namespace clgi::test {
 
 constexpr double steepest = 114.6;  // of a receiver: the tangent of 89.5 degrees
-constexpr double followed = 8.0;    // of what blocks
+constexpr double followed = 32.0;   // of what blocks
 
 // A receiver on a view of a source.
 struct Shadowed {
@@ -110,7 +111,8 @@ inline double lit_share(const Shadowed& at, const std::vector<std::uint64_t>& vi
                         bool* doubtful) {
     if (at.view == nullptr) return 1.0;
     const double fx = at.x - std::floor(at.x), fy = at.y - std::floor(at.y);
-    double sum = 0.0;
+    double own = 0.0, all = 0.0;  // weights of texels that do not block, without and with planes
+    bool some = false;
     for (int ky = 0; ky < 2; ++ky)
         for (int kx = 0; kx < 2; ++kx) {
             const auto shown = [&](int x, int y) {
@@ -134,9 +136,11 @@ inline double lit_share(const Shadowed& at, const std::vector<std::uint64_t>& vi
                 (std::abs(rise_x) * at.view->width + std::abs(rise_y) * at.view->height);
             if (seen > limit && std::abs(plane - nearest) < 2.0 * rounding + moved)
                 *doubtful = true;
-            if (seen <= limit || plane <= nearest) sum += weight;
+            some |= seen <= limit;
+            if (seen <= limit) own += weight;
+            if (seen <= limit || plane <= nearest) all += weight;
         }
-    return sum;
+    return some ? all : own;
 }
 
 }  // namespace clgi::test
