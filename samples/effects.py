@@ -63,7 +63,7 @@ def without(error, noise):
 
 
 def percent(value):
-    return "0" if value == 0 else f"{100 * value:.2g} %"
+    return "0" if value == 0 else f"{float(f'{100 * value:.2g}'):g} %"
 
 
 def saving(options):
