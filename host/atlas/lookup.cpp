@@ -6,7 +6,6 @@
 #include <string>
 
 namespace clgi {
-namespace {}  // namespace
 
 AtlasLookup::AtlasLookup(const AtlasLayout& atlas) : atlas_(atlas) {
     const auto side = static_cast<std::size_t>(atlas.size);

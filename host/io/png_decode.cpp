@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/png_decode.hpp"
-#include "io/png_errors.hpp"
 
 #include <png.h>
 
 #include <cstddef>
 #include <cstring>
+
+#include "io/png_errors.hpp"
 
 namespace clgi::io {
 

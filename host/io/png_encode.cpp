@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "io/png_encode.hpp"
-#include "io/png_errors.hpp"
 
 #include <png.h>
 
@@ -8,6 +7,8 @@
 #include <cstddef>
 #include <new>
 #include <string>
+
+#include "io/png_errors.hpp"
 
 namespace clgi::io {
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <clgi/clgi.hpp>
 
-#include "opencl/timing.hpp"
 #include "report/timing.hpp"
 
 namespace clgi::report {
@@ -125,10 +124,8 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
             throw Error("bench: cancelled");
         for (std::size_t i = 0; i < ways.size(); ++i) {
             const bool hand_first = round % 2 == 0;
-            const double first =
-                timing::time_frame(queue, hand_first ? ways[i].by_hand : ways[i].library);
-            const double second =
-                timing::time_frame(queue, hand_first ? ways[i].library : ways[i].by_hand);
+            const double first = time_frame(queue, hand_first ? ways[i].by_hand : ways[i].library);
+            const double second = time_frame(queue, hand_first ? ways[i].library : ways[i].by_hand);
             if (round < 0) continue;
             times[i].by_hand.push_back(hand_first ? first : second);
             times[i].library.push_back(hand_first ? second : first);

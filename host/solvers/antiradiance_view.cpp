@@ -6,8 +6,6 @@
 #include "solvers/without_sky.hpp"
 
 namespace clgi {
-namespace {}  // namespace
-
 struct AntiradianceView::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,
           const AntiradianceSolver& from, const PictureOptions& options)
