@@ -180,6 +180,8 @@ TEST(MotionFacts, OfSkinsAreThoseOfTheirJoints) {
     const MotionFacts facts = scene_facts(strip).motion;
     EXPECT_TRUE(facts.geometry);
     EXPECT_EQ(facts.moving_triangles, 2u);
+    EXPECT_NEAR(facts.moving_area, 0.5, 1e-6);  // of two squares
+    EXPECT_FALSE(facts.moving_emission);
     EXPECT_NEAR(facts.travel, std::sqrt(2.0 / 5.0), 1e-6);
 }
 

@@ -57,6 +57,38 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
                   w.animated = true;
               }),
               Method::dynamic_transfer);
+    // Little moves, of many triangles: what stands still is baked.
+    const auto walks = [](SceneFacts& f, PlanWish& w) {
+        f.surfaces.triangles = 500000;
+        f.motion = {true, 2000, 0.02, false, 0.1};
+        w.animated = true;
+    };
+    EXPECT_EQ(method(walks), Method::light_atlas);
+    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+                  walks(f, w);
+                  f.motion.moving_area = 0.3;
+              }),
+              Method::second_order);
+    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+                  walks(f, w);
+                  f.motion.moving_emission = true;
+              }),
+              Method::second_order);
+    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+                  walks(f, w);
+                  f.lights.moving = true;
+              }),
+              Method::second_order);
+    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+                  walks(f, w);
+                  w.lights_change = true;
+              }),
+              Method::second_order);
+    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+                  walks(f, w);
+                  f.surfaces.double_sided_area = 0.5;  // an atlas has one light for both sides
+              }),
+              Method::second_order);
     EXPECT_NE(method([](SceneFacts& f, PlanWish& w) {
                   f.lights.environment = true;  // beside the lamp
                   f.openness = 0.9;
@@ -155,7 +187,7 @@ TEST(Plan, BringsItsSettingsToTheEffects) {
     EXPECT_TRUE(stands_on(second.error_ground, "furnished scenes"));
     const Plan convex = plan(Method::second_order, {Effect::indirect_occlusion});
     EXPECT_EQ(convex.second_order.negative_vpls, 0);
-    EXPECT_FALSE(convex.error);  // something lies between, and its light is wrong
+    EXPECT_FALSE(convex.error);    // something lies between, and its light is wrong
     EXPECT_EQ(convex.bound, 0.0);  // a wish is not for the tolerance
     // VPLs are placed through shadow maps, whatever is done with shadows.
     const Plan unshadowed = plan(Method::second_order, {Effect::direct_shadows});

@@ -84,11 +84,12 @@ AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
     nearest_ = programs.kernel("atlas", "nearest", full(options));
     complete_ = programs.kernel("atlas", "complete", full(options));
     show_ = programs.kernel("atlas", "show", options);
+    volume_ = programs.kernel("atlas", "volume", options);
 }
 
 void AtlasPasses::build(std::initializer_list<const char*> passes) const {
     build_named({see_, flat_, see_listed_, see_blocks_, gather_, gather_open_, geometry_,
-                 replicate_, project_, nearest_, complete_, show_},
+                 replicate_, project_, nearest_, complete_, show_, volume_},
                 passes);
 }
 
@@ -231,6 +232,26 @@ cl::Event AtlasPasses::show(const cl::CommandQueue& queue, const ShowParams& par
     return launch(show_, queue, params.point_count, wait, params, scene.triangles(),
                   scene.positions(), points.planes, points.ids, map.corners, map.charts, map.map,
                   map.chart_of, light, irradiance);
+}
+
+cl::Event AtlasPasses::volume(const cl::CommandQueue& queue, const VolumeParams& params,
+                              const GBuffer& points, const cl::Buffer& charts,
+                              const cl::Buffer& light, const cl::Buffer& irradiance,
+                              const WaitList& wait) const {
+    need_stride(volume_, "stride", params.stride, params.point_count);
+    const std::size_t grid = std::size_t{params.columns} * params.rows * params.layers;
+    if (grid == 0) throw Error(volume_.name + ": the grid has no point");
+    if (params.light_stride < params.first + VOLUME_DIRECTIONS * grid)
+        throw Error(volume_.name + ": light_stride is " + std::to_string(params.light_stride) +
+                    ", at least " + std::to_string(params.first + VOLUME_DIRECTIONS * grid) +
+                    " needed");
+    need(volume_, "planes", points.planes, gbuffer_bytes(storage_, params.stride));
+    need(volume_, "ids", points.ids, GBUFFER_ID_PLANES * word * params.stride);
+    need(volume_, "charts", charts, std::size_t{params.triangle_count} * 2 * word);
+    need(volume_, "light", light, 3 * word * params.light_stride);
+    need(volume_, "irradiance", irradiance, irradiance_bytes(storage_, params.stride));
+    return launch(volume_, queue, params.point_count, wait, params, points.planes, points.ids,
+                  charts, light, irradiance);
 }
 
 }  // namespace clgi

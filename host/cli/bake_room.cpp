@@ -29,9 +29,10 @@ void add_emitter_flags(CLI::App& command, EmitterOptions& emitters) {
     const bool bakes = emitters.shadow_size == 0;
     const int lowest = bakes ? 0 : 1;
     const char* more = bakes ? "; 0: 2048, fewer if there are more than 4 such maps" : "";
-    add_count(command, "--shadow-size", emitters.shadow_size,
-              std::string("Pixels per side of the shadow map of a spot or directional light") + more,
-              lowest, 8192);
+    add_count(
+        command, "--shadow-size", emitters.shadow_size,
+        std::string("Pixels per side of the shadow map of a spot or directional light") + more,
+        lowest, 8192);
     add_count(command, "--face-size", emitters.face_size,
               "Pixels per side of a cube or hemicube face, for point and area lights", 1, 4096);
     add_count(command, "--area-samples", emitters.area_samples,
@@ -51,15 +52,33 @@ void need_room(const std::string& command, const cl::Device& device, const VplOp
         command, options.count, options.samples_per_vpl, needed / 1000000, memory / 1000000));
 }
 
+namespace {
+
+void warn(Scene& scene, const AtlasLayout& atlas, bool quiet) {
+    for (const std::string& warning : atlas.warnings) {
+        notice(quiet, "warning: " + warning);
+        scene.warnings.push_back(warning);
+    }
+}
+
+}  // namespace
+
 BakeLayout lay_out(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas, bool quiet) {
     const Stopwatch watch;
     BakeLayout out;
     static_cast<clgi::BakeLayout&>(out) = make_bake_layout(scene, vpls, atlas);
     out.seconds = watch.seconds();
-    for (const std::string& warning : out.atlas.warnings) {
-        notice(quiet, "warning: " + warning);
-        scene.warnings.push_back(warning);
-    }
+    warn(scene, out.atlas, quiet);
+    return out;
+}
+
+StillBake lay_out_still(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
+                        bool quiet) {
+    const Stopwatch watch;
+    StillBake out;
+    static_cast<clgi::StillBake&>(out) = make_still_bake(scene, vpls, atlas);
+    out.seconds = watch.seconds();
+    warn(scene, out.whole, quiet);
     return out;
 }
 

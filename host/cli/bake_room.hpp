@@ -7,6 +7,7 @@
 #include <clgi/bake_layout.hpp>
 #include <clgi/opencl.hpp>
 #include <clgi/solvers/light_atlas.hpp>
+#include <clgi/still_bake.hpp>
 #include <string>
 
 namespace clgi::cli {
@@ -43,8 +44,14 @@ void need_room(const std::string& command, const cl::Device& device, const VplOp
 struct BakeLayout : clgi::BakeLayout {
     double seconds = 0.0;
 };
+struct StillBake : clgi::StillBake {
+    double seconds = 0.0;
+};
 
-// Adds the warnings of the atlas to the scene's, and prints them unless quiet.
+// Add the warnings of the atlas to the scene's, and print them unless quiet. The second is of a
+// scene in which things move.
 BakeLayout lay_out(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas, bool quiet);
+StillBake lay_out_still(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
+                        bool quiet);
 
 }  // namespace clgi::cli

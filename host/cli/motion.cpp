@@ -43,9 +43,6 @@ void prepare_motion(const RenderFlags& flags, Scene& scene) {
             "render: --fps goes not with --replicates, --target-error and --time-budget; --time "
             "does");
     const std::size_t clip = clip_of("render", scene, flags.animation);
-    if (flags.method == "atlas" && !scene.animation->ranges.empty())
-        throw Error(
-            "render: --fps goes not with --method atlas where geometry moves; --time poses it");
     scene.moving_bounds = motion_bounds(scene, clip);
 }
 

@@ -124,6 +124,8 @@ ordered_json facts_json(const SceneFacts& facts) {
               {"environment_mean", l.environment_mean},
               {"moving", l.moving}}},
             {"moving_triangles", facts.motion.moving_triangles},
+            {"moving_area", facts.motion.moving_area},
+            {"moving_emission", facts.motion.moving_emission},
             {"travel", facts.motion.travel},
             {"openness", facts.openness},
             {"openness_error", facts.openness_error},

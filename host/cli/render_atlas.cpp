@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "cli/bake_room.hpp"
 #include "cli/effects.hpp"
@@ -24,6 +25,49 @@ void check(const RenderFlags& flags, const Scene& scene) {
     check_camera("render", flags.camera, scene);
 }
 
+// The bake of a scene that stands still, or of what stands still of it and what lights the rest.
+class Bake {
+public:
+    Bake(const RenderFlags& flags, Scene& scene, const Session& session, bool quiet)
+        : moves_(flags.fps && !scene.animation->ranges.empty()) {
+        const AtlasFlags& atlas = flags.atlas;
+        if (moves_)
+            apart_ = lay_out_still(scene, atlas.vpls, atlas.layout, quiet);
+        else
+            layout_ = lay_out(scene, atlas.vpls, atlas.layout, quiet);
+        if (moves_) still_.emplace(session.context, session.device, apart_.still.scene);
+    }
+
+    BakeSummary summary() const {
+        const AtlasLayout& atlas = shown();
+        return {layout().vpls.vpls.size(), atlas.texels.size(), atlas.pages, atlas.size,
+                1e3 * (moves_ ? apart_.seconds : layout_.seconds)};
+    }
+
+    const clgi::BakeLayout& layout() const { return moves_ ? apart_.layout : layout_; }
+    const AtlasLayout& shown() const { return moves_ ? apart_.whole : layout_.atlas; }
+    std::optional<IrradianceVolume> volume() const {
+        return moves_ ? std::optional(apart_.volume) : std::nullopt;
+    }
+    std::vector<BakePoint> points() const {
+        return moves_ ? points_of(apart_.volume) : std::vector<BakePoint>();
+    }
+
+    // That is baked; whole: that is shown.
+    const DeviceScene& scene(const DeviceScene& whole) const { return moves_ ? *still_ : whole; }
+    void lights_changed(const DeviceScene& whole) {
+        for (std::size_t i = 0; moves_ && i < whole.lights().size(); ++i)
+            still_->set_light(i, whole.lights()[i]);
+    }
+    std::size_t bytes() const { return moves_ ? still_->bytes() : 0; }
+
+private:
+    bool moves_;
+    BakeLayout layout_;
+    StillBake apart_;
+    std::optional<DeviceScene> still_;
+};
+
 }  // namespace
 
 void run_atlas(RenderFlags flags) {
@@ -37,17 +81,16 @@ void run_atlas(RenderFlags flags) {
     const Session session = session_of(flags);
     need_room("render", session.device, atlas_flags.vpls);
 
-    const BakeLayout layout = lay_out(scene, atlas_flags.vpls, atlas_flags.layout, quiet);
-    const AtlasLayout& atlas = layout.atlas;
-    BakeSummary bake{layout.vpls.vpls.size(), atlas.texels.size(), atlas.pages, atlas.size,
-                     1e3 * layout.seconds};
+    Bake baked(flags, scene, session, quiet);
+    BakeSummary bake = baked.summary();
     const Stopwatch build;
     DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
     atlas_flags.bake.build = build_of(flags.device);
-    LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, atlas,
-                            atlas_flags.bake);
-    LightAtlasView view(programs, session.queue, device_scene, atlas, picture_options(flags));
+    LightAtlasSolver solver(programs, session.queue, baked.scene(device_scene), baked.layout().vpls,
+                            baked.layout().atlas, atlas_flags.bake, baked.points());
+    LightAtlasView view(programs, session.queue, device_scene, baked.shown(),
+                        picture_options(flags), baked.volume());
     Motion motion(flags, scene, device_scene, session.queue);
     RenderRecord record;
     record.build_ms = 1e3 * build.seconds();
@@ -64,6 +107,7 @@ void run_atlas(RenderFlags flags) {
         const Stopwatch frame_watch;
         const Motion::Step step = motion.at(frame);
         if (step.lights) {  // the frame's time has the change of the bake in it
+            baked.lights_changed(device_scene);
             solver.lights_changed();
             view.lights_changed();
             if (!solver.update(least_change, [](double) { return !interrupted(); }))
@@ -78,6 +122,7 @@ void run_atlas(RenderFlags flags) {
     }
     if (!flags.fps) save_picture(picture(), flags.picture);
 
+    motion.report();
     record.status.non_finite = view.picture().non_finite() + solver.status().non_finite;
     if (record.status.non_finite > 0)
         notice(false, fmt::format("warning: {} packets of pixels or texels held numbers that were "
@@ -90,7 +135,7 @@ void run_atlas(RenderFlags flags) {
     }
     if (flags.stats.empty()) return;
     record_picture(record, session, scene, device_scene, view.picture(),
-                   solver.bytes() + view.picture().bytes());
+                   solver.bytes() + view.picture().bytes() + baked.bytes());
     record.method = "atlas";
     record.effects = all_effects(device_scene, view.picture(), view.picture().options().direct);
     record.bake = bake;

@@ -42,7 +42,8 @@ void Recorder::passed(const cl::Event& event) {
     running_.push_back(event);  // PoCL 3.1 aborts where a command fails whose event nobody holds
 }
 
-void Recorder::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) {
+void Recorder::write(const cl::Buffer& buffer, const void* data, std::size_t bytes,
+                     std::size_t offset) {
     if (bytes == 0) return;
     // OpenCL reads the copy when the command runs; the end of the command frees it.
     const auto* begin = static_cast<const unsigned char*>(data);
@@ -50,7 +51,7 @@ void Recorder::write(const cl::Buffer& buffer, const void* data, std::size_t byt
     const WaitList wait = waits();
     cl::Event event;
     try {
-        queue_.enqueueWriteBuffer(buffer, CL_FALSE, 0, bytes, copy->data(), &wait, &event);
+        queue_.enqueueWriteBuffer(buffer, CL_FALSE, offset, bytes, copy->data(), &wait, &event);
         event.setCallback(CL_COMPLETE, drop, copy.get());
         copy.release();
     } catch (const cl::Error& error) {

@@ -2,6 +2,7 @@
 #include "plan/carrier.hpp"
 
 #include "plan/sky.hpp"
+#include "plan/still.hpp"
 
 namespace clgi {
 namespace {
@@ -31,6 +32,11 @@ Carrier environment_shadows(const Plan& plan, Method method) {
     return {"shadow maps", of_lights || places_by_maps(plan, method)};
 }
 
+// Of what stands still, and of what moves.
+Carrier baked(const Plan& plan) {
+    return {bakes_still(plan) ? "baked VPLs; moving: volume" : "baked VPLs"};
+}
+
 Carrier first_bounce(const Plan& plan, Method method) {
     switch (method) {
         case Method::direct:
@@ -38,7 +44,7 @@ Carrier first_bounce(const Plan& plan, Method method) {
         case Method::second_order:
             return {"VPLs"};
         case Method::light_atlas:
-            return {"baked VPLs"};
+            return baked(plan);
         case Method::antiradiance:
             return {"links", true};
         case Method::dynamic_transfer:  // reflections go where masks are covered
@@ -47,8 +53,8 @@ Carrier first_bounce(const Plan& plan, Method method) {
     return nothing;
 }
 
-Carrier further_bounces(Method method) {
-    if (method == Method::light_atlas) return {"baked VPLs"};
+Carrier further_bounces(const Plan& plan, Method method) {
+    if (method == Method::light_atlas) return baked(plan);
     if (method == Method::antiradiance) return {"links", true};
     return nothing;
 }
@@ -87,7 +93,7 @@ Carrier carrier_of(const Plan& plan, Method method, Effect effect) {
         case Effect::first_bounce:
             return first_bounce(plan, method);
         case Effect::further_bounces:
-            return further_bounces(method);
+            return further_bounces(plan, method);
         case Effect::indirect_occlusion:
             return indirect_occlusion(method);
         case Effect::gloss:
@@ -102,7 +108,8 @@ Carrier carrier_of(const Plan& plan, Method method, Effect effect) {
             return {"all passes"};
         case Effect::moving_geometry:
         case Effect::moving_lights:
-            if (method == Method::light_atlas && effect == Effect::moving_geometry) return nothing;
+            if (method == Method::light_atlas && effect == Effect::moving_geometry)
+                return bakes_still(plan) ? Carrier{"direct light, volume"} : nothing;
             return {"all passes"};
     }
     return nothing;

@@ -5,6 +5,7 @@
 
 #include "plan/carrier.hpp"
 #include "plan/sky.hpp"
+#include "plan/still.hpp"
 
 namespace clgi {
 namespace {
@@ -16,6 +17,15 @@ constexpr double few_backs = 0.05;   // of the area, double-sided
 constexpr std::size_t most_moving_triangles = 30000;
 // With more glossy triangles, each of which may be a leaf, a picture takes seconds.
 constexpr std::size_t most_glossy_triangles = 20000;
+// What moves casts no indirect shadow and reflects nothing onto what a bake holds.
+constexpr double little_moves = 0.1;  // of the area
+
+// Whether a bake of what stands still lights the scene while the rest moves through it.
+bool bakes_the_rest(const Plan& plan) {
+    const MotionFacts& motion = plan.facts.motion;
+    return bakes_still(plan) && !plan.on(Effect::moving_lights) && !plan.wish.lights_change &&
+           !motion.moving_emission && motion.moving_area <= little_moves;
+}
 
 Choice candidates_for(const Plan& plan) {
     const SceneFacts& facts = plan.facts;
@@ -29,9 +39,14 @@ Choice candidates_for(const Plan& plan) {
     }
     if (plan.wish.animated) {
         if (sky_alone) return {{Method::dynamic_transfer}, "the environment lights what moves"};
+        Choice out{{Method::second_order}, "nothing is made before, and there are many triangles"};
         if (facts.surfaces.triangles <= most_moving_triangles)
-            return {{Method::antiradiance, Method::second_order}, "light follows what moves"};
-        return {{Method::second_order}, "nothing is made before, and there are many triangles"};
+            out = {{Method::antiradiance, Method::second_order}, "light follows what moves"};
+        if (bakes_the_rest(plan)) {
+            out.methods.push_back(Method::light_atlas);
+            out.why = "little moves through light that may be baked";
+        }
+        return out;
     }
     if (sky_alone)
         return {{Method::dynamic_transfer, Method::antiradiance},

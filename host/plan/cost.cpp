@@ -7,6 +7,7 @@
 
 #include "plan/method.hpp"
 #include "plan/sky.hpp"
+#include "plan/still.hpp"
 #include "solvers/ranges.hpp"
 
 namespace clgi {
@@ -26,6 +27,8 @@ void operator+=(Amount& a, const Amount& b) {
 // ms that a new process takes to load the built kernels of a bake, as measured under PoCL. Those of
 // other methods take less than their pictures.
 constexpr double loading = 110.0;
+
+constexpr double volume_points = 6144.0;  // of make_still_bake: 512 times 12 directions
 
 double triangles(const Plan& plan) { return static_cast<double>(plan.facts.surfaces.triangles); }
 
@@ -109,13 +112,19 @@ Amount open_bake(double vpls, double texels, double triangles) {
 
 PlanCost light_atlas(const Plan& plan) {
     const double vpls = plan.vpls.count;
-    const double texels = 0.75 * plan.layout.size * plan.layout.size;
+    double texels = 0.75 * plan.layout.size * plan.layout.size;
+    if (bakes_still(plan)) texels += volume_points;
     const Amount bake =
         (plan.light_atlas.occlusion ? drawn_bake : open_bake)(vpls, texels, triangles(plan));
     const bool environment = has_sky(plan);
     const Amount maps = shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
                                     plan.light_atlas.emitters.shadows);
-    return added(plan, bake, maps, picture(plan, environment));
+    Amount before = bake, moved = maps;
+    if (bakes_still(plan) && !plan.on(Effect::moving_lights)) {  // baked once, whatever moves
+        before += maps;
+        moved = {};
+    }
+    return added(plan, before, moved, picture(plan, environment));
 }
 
 PlanCost antiradiance(const Plan& plan) {

@@ -6,6 +6,7 @@
 
 #include "plan/settings.hpp"
 #include "plan/sky.hpp"
+#include "plan/still.hpp"
 
 namespace clgi {
 namespace {
@@ -19,6 +20,10 @@ bool exact_direct_light(const Plan& plan) {
     return !plan.on(Effect::direct_shadows) && !plan.on(Effect::area_light) &&
            !plan.on(Effect::environment_light);
 }
+
+// What moves through a bake has no indirect shadow, and light of a few points: what that changes of
+// a picture, as measured (docs/effects.md).
+constexpr double moving_error = 0.05;
 
 double direct_error(const Plan& plan) {
     if (exact_direct_light(plan)) return 0.0;
@@ -47,7 +52,8 @@ std::optional<double> expected_error(const Plan& plan, const Rung& rung) {
     if (plan.method == Method::direct && has_sky(plan)) return std::nullopt;
     const std::optional<double> indirect = indirect_error(plan, rung);
     if (!indirect) return std::nullopt;
-    const double out = std::hypot(*indirect, direct_error(plan));
+    const bool apart = plan.method == Method::light_atlas && bakes_still(plan);
+    const double out = std::hypot(*indirect, direct_error(plan), apart ? moving_error : 0.0);
     if (!std::isfinite(out)) return std::nullopt;  // the probe saw no light
     return out;
 }
@@ -65,7 +71,9 @@ std::string ground_of_error(const Plan& plan) {
                                : plan.probe             ? "direct light by a probe"
                                                         : "direct light as in closed rooms";
     if (!plan.on(Effect::first_bounce)) return direct;
-    return "indirect light as measured in " + kind + " scenes, " + direct;
+    const bool apart = plan.method == Method::light_atlas && bakes_still(plan);
+    return "indirect light as measured in " + kind + " scenes, " +
+           (apart ? "of what moves as in an office, " : "") + direct;
 }
 
 }  // namespace clgi

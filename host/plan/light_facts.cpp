@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <numbers>
 
-#include "plan/moving_parts.hpp"
 #include "plan/parts.hpp"
 #include "scene/emission.hpp"
 #include "scene/environment.hpp"
 #include "scene/luminance.hpp"
+#include "scene/moving_parts.hpp"
 
 namespace clgi {
 namespace {

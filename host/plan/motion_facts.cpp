@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <clgi/moving_elements.hpp>
 
-#include "plan/moving_parts.hpp"
 #include "plan/parts.hpp"
+#include "scene/moving_parts.hpp"
 
 namespace clgi {
 namespace {
@@ -30,12 +30,19 @@ MotionFacts motion_facts(const Scene& scene) {
     MotionFacts out;
     const std::vector<std::uint8_t> moving = moving_vertices(scene);
     if (moving.empty()) return out;
-    for (const SceneTriangle& triangle : scene.triangles)
-        if (std::any_of(std::begin(triangle.vertex), std::end(triangle.vertex),
-                        [&](std::uint32_t v) { return moving[v] != 0; }))
-            ++out.moving_triangles;
+    double moves = 0.0, all = 0.0;
+    for (const SceneTriangle& triangle : scene.triangles) {
+        const double area = triangle_area(scene, triangle);
+        all += area;
+        if (!follows(triangle, moving)) continue;
+        ++out.moving_triangles;
+        moves += area;
+        if (scene.materials[triangle.material].emission != glm::vec3(0.0f))
+            out.moving_emission = true;
+    }
     out.geometry = out.moving_triangles > 0;
     if (!out.geometry) return out;
+    if (all > 0.0) out.moving_area = moves / all;
     const Bounds box = bounds(scene);
     const double size = glm::distance(box.low, box.high);
     const Scene posable = only_vertices(scene);

@@ -1,26 +1,52 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/bake_layout.hpp>
 #include <clgi/plan/renderer.hpp>
 #include <clgi/plan/tuning.hpp>
 #include <clgi/solvers/antiradiance_view.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
+#include <clgi/still_bake.hpp>
+
+#include "plan/still.hpp"
 
 namespace clgi {
 namespace {
 
 struct Atlas {
-    Atlas(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
-          const DeviceScene& device, const Plan& plan)
-        : Atlas(programs, queue, make_bake_layout(scene, plan.vpls, plan.layout), device, plan) {}
-
     Atlas(const Programs& programs, const cl::CommandQueue& queue, const BakeLayout& layout,
           const DeviceScene& device, const Plan& plan)
         : solver(programs, queue, device, layout.vpls, layout.atlas, plan.light_atlas),
           view(programs, queue, device, layout.atlas, plan.picture) {}
 
+    // still: what stands still of the scene, on the device.
+    Atlas(const Programs& programs, const cl::CommandQueue& queue, const StillBake& bake,
+          std::unique_ptr<DeviceScene> still, const DeviceScene& device, const Plan& plan)
+        : apart(std::move(still)),
+          solver(programs, queue, *apart, bake.layout.vpls, bake.layout.atlas, plan.light_atlas,
+                 points_of(bake.volume)),
+          view(programs, queue, device, bake.whole, plan.picture, bake.volume) {}
+
+    void lights_changed(const DeviceScene& device) {
+        for (std::size_t i = 0; apart && i < device.lights().size(); ++i)
+            apart->set_light(i, device.lights()[i]);
+    }
+
+    std::unique_ptr<DeviceScene> apart;  // none: the scene itself is baked
     LightAtlasSolver solver;
     LightAtlasView view;
 };
+
+std::unique_ptr<Atlas> make_atlas_of(const Programs& programs, const cl::CommandQueue& queue,
+                                     const Scene& scene, const DeviceScene& device,
+                                     const Plan& plan) {
+    if (!bakes_still(plan))
+        return std::make_unique<Atlas>(
+            programs, queue, make_bake_layout(scene, plan.vpls, plan.layout), device, plan);
+    const StillBake bake = make_still_bake(scene, plan.vpls, plan.layout);
+    return std::make_unique<Atlas>(
+        programs, queue, bake,
+        std::make_unique<DeviceScene>(queue.getInfo<CL_QUEUE_CONTEXT>(),
+                                      queue.getInfo<CL_QUEUE_DEVICE>(), bake.still.scene),
+        device, plan);
+}
 
 // A solver, and what shows its light.
 template <typename Solver, typename View>
@@ -68,7 +94,7 @@ PlannedRenderer::PlannedRenderer(const Programs& programs, const cl::CommandQueu
                                                                  plan.second_order);
             break;
         case Method::light_atlas:
-            s.atlas = std::make_unique<Atlas>(programs, queue, scene, device_scene, plan);
+            s.atlas = make_atlas_of(programs, queue, scene, device_scene, plan);
             break;
         case Method::antiradiance:
             s.elements = std::make_unique<Elements>(programs, queue, scene, device_scene,
@@ -109,6 +135,7 @@ bool PlannedRenderer::tune(const Camera& camera, const Progress& progress) {
 void PlannedRenderer::lights_changed() {
     State& s = *state_;
     if (s.second_order) s.second_order->lights_changed();
+    if (s.atlas) s.atlas->lights_changed(s.scene);
     const auto tell = [](auto& shown) {
         if (!shown) return;
         shown->solver.lights_changed();
@@ -156,7 +183,9 @@ std::vector<PassEvent> PlannedRenderer::events() const {
 std::size_t PlannedRenderer::bytes() const {
     const State& s = *state_;
     if (s.second_order) return s.second_order->bytes();
-    if (s.atlas) return s.atlas->solver.bytes() + s.atlas->view.picture().bytes();
+    if (s.atlas)
+        return s.atlas->solver.bytes() + s.atlas->view.picture().bytes() +
+               (s.atlas->apart ? s.atlas->apart->bytes() : 0);
     if (s.elements) return s.elements->solver.bytes() + s.elements->view.bytes();
     return s.transfer->solver.bytes() + s.transfer->view.bytes();
 }

@@ -72,11 +72,6 @@ private:
     std::size_t most_;
 };
 
-Bounds united(Bounds box, const std::optional<Bounds>& other) {
-    if (!other) return box;
-    return {glm::min(box.low, other->low), glm::max(box.high, other->high)};
-}
-
 std::vector<glm::vec4> arranged(const std::vector<glm::vec4>& values,
                                 const std::vector<std::uint32_t>& order) {
     std::vector<glm::vec4> out;

@@ -8,6 +8,11 @@
 
 namespace clgi {
 
+Bounds united(const Bounds& box, const std::optional<Bounds>& other) {
+    if (!other) return box;
+    return {glm::min(box.low, other->low), glm::max(box.high, other->high)};
+}
+
 SceneFrame local_frame(const Bounds& box) {
     SceneFrame frame;
     frame.origin = 0.5 * (box.low + box.high);

@@ -6,6 +6,9 @@
 
 namespace clgi {
 
+// The box around two.
+Bounds united(const Bounds& box, const std::optional<Bounds>& other);
+
 // Around the middle of a box; exposure 1.
 SceneFrame local_frame(const Bounds& box);
 

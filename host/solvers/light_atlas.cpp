@@ -49,7 +49,8 @@ std::uint32_t device_triangle(const std::vector<std::uint32_t>& of, std::uint32_
 
 LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue& on,
                                const DeviceScene& of, const VplLayout& vpl_layout,
-                               const AtlasLayout& atlas_layout, const LightAtlasOptions& wanted)
+                               const AtlasLayout& atlas_layout, const LightAtlasOptions& wanted,
+                               const std::vector<BakePoint>& beside)
     : queue(on),
       scene(of),
       options(checked(wanted, of)),
@@ -59,18 +60,21 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
       atlas(programs, options.build),
       parallel(programs, options.build),
       emitters(scene, options.emitters, Pixels::depth),
-      record(queue, "light-atlas") {
+      record(queue, "light-atlas"),
+      bake_points(beside) {
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
     const std::size_t memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     const std::size_t room = memory - std::min(memory, scene.bytes());
     const std::size_t budget = options.memory_budget > 0 ? options.memory_budget : room / 2;
     if (vpl_layout.vpls.empty()) throw Error("light-atlas: there is no VPL");
     if (atlas_layout.texels.empty()) throw Error("light-atlas: there is no texel");
+    check_points(bake_points, options);
     AtlasBlocks made;
     if (options.occlusion && options.filling == Filling::gather && options.refine > 1)
         made = make_blocks(atlas_layout, options.refine);
-    const BufferTable all = table(b, emitters, scene, vpl_layout, atlas_layout, made, options,
-                                  budget, device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
+    const BufferTable all =
+        table(b, emitters, scene, vpl_layout, atlas_layout, bake_points.size(), made, options,
+              budget, device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
     all.check(device, options.memory_budget, scene.bytes());
     all.allocate(record);
     bytes = all.bytes();
@@ -104,10 +108,8 @@ void LightAtlasSolver::State::build() {
         gbuffer.build({"raster_views"}, Pixels::visibility);
     } else {
         atlas.build({"gather"});
-        if (b.block_count > 0)
-            atlas.build({"flat", "see_listed", "see_blocks"});
-        else
-            atlas.build({"see"});
+        if (b.block_count > 0) atlas.build({"flat", "see_listed", "see_blocks"});
+        if (b.block_count == 0 || !bake_points.empty()) atlas.build({"see"});
     }
 }
 
@@ -161,6 +163,7 @@ void LightAtlasSolver::State::place() {
         return gbuffer.surface(queue, scene, {b.texel_count, b.texels.stride, 0, 0}, b.texel_list,
                                b.texels, {}, wait);
     });
+    if (!bake_points.empty()) place_points();
     if (b.block_count > 0) place_blocks();
     placed = !record.cancelled();
 }

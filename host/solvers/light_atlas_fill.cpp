@@ -29,7 +29,7 @@ FillParams LightAtlasSolver::State::fill_params(std::uint32_t first, std::uint32
             count,
             b.sites.stride,
             b.sites.sample_stride,
-            b.texel_count,
+            b.receiver_count,
             b.texel_stride,
             0,
             flags,
@@ -53,13 +53,14 @@ void LightAtlasSolver::State::send(float least) {
 
 void LightAtlasSolver::State::gather(std::uint32_t first, std::uint32_t count) {
     if (!options.occlusion) {
-        record("atlas.gather_open", std::size_t{count} * b.texel_count, [&](const WaitList& wait) {
-            return atlas.gather_open(queue, fill_params(first, count), b.sites, b.texels.planes,
-                                     b.gathered, b.filled, wait);
-        });
+        record("atlas.gather_open", std::size_t{count} * b.receiver_count,
+               [&](const WaitList& wait) {
+                   return atlas.gather_open(queue, fill_params(first, count), b.sites,
+                                            b.texels.planes, b.gathered, b.filled, wait);
+               });
         return;
     }
-    record("atlas.gather", std::size_t{count} * b.texel_count, [&](const WaitList& wait) {
+    record("atlas.gather", std::size_t{count} * b.receiver_count, [&](const WaitList& wait) {
         return atlas.gather(queue, fill_params(first, count), b.sites, b.texels.planes, b.seen,
                             b.gathered, b.filled, wait);
     });
@@ -81,15 +82,24 @@ void LightAtlasSolver::State::find_reach() {
             return;
         }
     }
-    record("atlas.nearest", b.texel_count, [&](const WaitList& wait) {
+    record("atlas.nearest", b.receiver_count, [&](const WaitList& wait) {
         return atlas.nearest(queue, fill_params(0, b.sites.site_count), b.sites, b.texels.planes,
                              b.reach, wait);
     });
 }
 
+// What points in space face is measured nowhere near them: nothing is raised there.
+void LightAtlasSolver::State::leave_points() {
+    const std::vector<float> none(bake_points.size());
+    record.write(b.reach, none.data(), none.size() * sizeof(float), b.first_point * sizeof(float));
+}
+
 void LightAtlasSolver::State::fill() {
     const std::uint32_t n = b.sites.site_count;
-    if (!near_known) find_reach();
+    if (!near_known) {
+        find_reach();
+        if (!bake_points.empty()) leave_points();
+    }
     near_known = !record.cancelled();
     const bool drawn = options.occlusion && !b.seen_kept;
     const std::uint32_t most = b.seen_kept ? gathered_at_once : b.batch;
@@ -108,7 +118,7 @@ void LightAtlasSolver::State::fill() {
         else if (first % 64 == 0)
             record.report(0.45 + 0.54 * filled_vpls / n);
     }
-    record("atlas.complete", b.texel_count, [&](const WaitList& wait) {
+    record("atlas.complete", b.receiver_count, [&](const WaitList& wait) {
         return atlas.complete(queue, fill_params(0, n), b.reach, b.filled, b.gathered, b.irradiance,
                               b.non_finite, wait);
     });

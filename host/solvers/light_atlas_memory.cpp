@@ -113,12 +113,12 @@ void add_blocks(BufferTable& t, Buffers& b, const AtlasBlocks& made) {
 }  // namespace
 
 BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, const VplLayout& layout,
-                  const AtlasLayout& atlas, const AtlasBlocks& blocks,
+                  const AtlasLayout& atlas, std::size_t points, const AtlasBlocks& blocks,
                   const LightAtlasOptions& options, std::size_t budget, std::size_t largest) {
     const std::size_t samples = layout.samples.size(), sites = layout.vpls.size();
     const std::size_t texels = atlas.texels.size();
     const char* vpls = "the number of VPLs";
-    const char* points = "the number of VPLs or of samples for each";
+    const char* per_vpl = "the number of VPLs or of samples for each";
     const char* size = "the size of the atlas";
     const std::size_t word = sizeof(float);
     SiteBuffers& s = b.sites;
@@ -130,7 +130,10 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     s.per_site = points_per_site(s.most_samples);
     s.point_stride = plane_stride(sites * s.per_site);
     b.texel_count = static_cast<std::uint32_t>(texels);
-    b.texel_stride = plane_stride(texels);
+    b.first_point = first_bake_point(texels);
+    b.receiver_count =
+        points > 0 ? b.first_point + static_cast<std::uint32_t>(points) : b.texel_count;
+    b.texel_stride = plane_stride(b.receiver_count);
     b.samples.stride = s.sample_stride;
     b.texels.stride = b.texel_stride;
     // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits
@@ -147,16 +150,16 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     t.add(s.power, "powers", vpls, word * s.stride);
     t.add(s.shot, "shot powers", vpls, 3 * word * s.stride);
     t.add(s.chosen, "lists of VPLs", vpls, word * (sites + 1));
-    t.add(b.sample_list, "sample points", points, (samples + sites) * sizeof(SurfaceSample));
-    t.add(s.samples, "planes of sample points", points,
+    t.add(b.sample_list, "sample points", per_vpl, (samples + sites) * sizeof(SurfaceSample));
+    t.add(s.samples, "planes of sample points", per_vpl,
           gbuffer_bytes(Storage::full, s.sample_stride) + 64);
-    t.add(s.points, "points of VPLs", points, SITE_POINT_PLANES * word * s.point_stride);
-    t.add(b.samples.ids, "ids of sample points", points,
+    t.add(s.points, "points of VPLs", per_vpl, SITE_POINT_PLANES * word * s.point_stride);
+    t.add(b.samples.ids, "ids of sample points", per_vpl,
           GBUFFER_ID_PLANES * word * s.sample_stride);
-    t.add(b.sample_irradiance, "irradiance of sample points", points,
+    t.add(b.sample_irradiance, "irradiance of sample points", per_vpl,
           irradiance_bytes(Storage::full, s.sample_stride));
-    t.add(s.sent, "light that was sent", points, 3 * word * s.sample_stride);
-    t.add(s.sample_power, "light that is sent", points, 3 * word * s.sample_stride);
+    t.add(s.sent, "light that was sent", per_vpl, 3 * word * s.sample_stride);
+    t.add(s.sample_power, "light that is sent", per_vpl, 3 * word * s.sample_stride);
     t.add(s.site_power, "light that VPLs send", vpls, 3 * word * s.stride);
     t.add(s.sends, "flags of VPLs", vpls, s.stride);
     t.add(s.list, "lists of VPLs that send", vpls, word * sites);

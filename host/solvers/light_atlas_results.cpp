@@ -14,13 +14,15 @@ std::vector<float> read(const cl::CommandQueue& queue, const cl::Buffer& buffer,
     return out;
 }
 
+// first: of `count` values in a plane.
 std::vector<glm::vec3> colors(const std::vector<float>& planes, std::size_t stride,
-                              std::size_t count, std::size_t first_plane, double exposure) {
+                              std::size_t first, std::size_t count, std::size_t first_plane,
+                              double exposure) {
     std::vector<glm::vec3> out(count);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            out[i][static_cast<int>(c)] = static_cast<float>(
-                planes[(first_plane + c) * stride + i] * exposure);
+            out[i][static_cast<int>(c)] =
+                static_cast<float>(planes[(first_plane + c) * stride + first + i] * exposure);
     return out;
 }
 
@@ -41,8 +43,9 @@ double LightAtlasSolver::State::unshot_power() const {
 
 LightAtlasSolver::LightAtlasSolver(const Programs& programs, const cl::CommandQueue& queue,
                                    const DeviceScene& scene, const VplLayout& vpls,
-                                   const AtlasLayout& atlas, const LightAtlasOptions& options)
-    : state_(std::make_unique<State>(programs, queue, scene, vpls, atlas, options)) {}
+                                   const AtlasLayout& atlas, const LightAtlasOptions& options,
+                                   const std::vector<BakePoint>& points)
+    : state_(std::make_unique<State>(programs, queue, scene, vpls, atlas, options, points)) {}
 
 LightAtlasSolver::~LightAtlasSolver() = default;
 
@@ -100,19 +103,28 @@ std::vector<glm::vec3> LightAtlasSolver::irradiance() const {
     const State& s = *state_;
     s.record.wait();
     return colors(read(s.queue, s.b.irradiance, 3 * std::size_t{s.b.texel_stride}),
-                  s.b.texel_stride, s.b.texel_count, 0, s.scene.frame().exposure);
+                  s.b.texel_stride, 0, s.b.texel_count, 0, s.scene.frame().exposure);
+}
+
+std::vector<glm::vec3> LightAtlasSolver::point_irradiance() const {
+    const State& s = *state_;
+    s.record.wait();
+    return colors(read(s.queue, s.b.irradiance, 3 * std::size_t{s.b.texel_stride}),
+                  s.b.texel_stride, s.b.first_point, s.bake_points.size(), 0,
+                  s.scene.frame().exposure);
 }
 
 std::vector<glm::vec3> LightAtlasSolver::vpl_irradiance() const {
     const State& s = *state_;
     s.record.wait();
     const std::size_t stride = s.b.sites.stride;
-    return colors(read(s.queue, s.b.sites.light, SITE_LIGHT_PLANES * stride), stride,
+    return colors(read(s.queue, s.b.sites.light, SITE_LIGHT_PLANES * stride), stride, 0,
                   s.sites.size(), SITE_RECEIVED, s.scene.frame().exposure);
 }
 
 const cl::Buffer& LightAtlasSolver::irradiance_planes() const { return state_->b.irradiance; }
 std::uint32_t LightAtlasSolver::stride() const { return state_->b.texel_stride; }
+std::uint32_t LightAtlasSolver::first_point() const { return state_->b.first_point; }
 const cl::Buffer& LightAtlasSolver::texel_planes() const { return state_->b.texels.planes; }
 const SiteBuffers& LightAtlasSolver::sites() const { return state_->b.sites; }
 std::size_t LightAtlasSolver::bytes() const { return state_->bytes; }

@@ -1,5 +1,6 @@
-// A bake that goes on where it was cancelled: with what was measured, where that is kept, else with the
-// light that VPLs exchanged and what lies in the texels. The rest is computed anew, which takes little.
+// A bake that goes on where it was cancelled: with what was measured, where that is kept, else with
+// the light that VPLs exchanged and what lies in the texels. The rest is computed anew, which takes
+// little.
 // SPDX-License-Identifier: MIT
 #include <clgi/error.hpp>
 
@@ -12,8 +13,7 @@ template <typename T>
 void read(const cl::CommandQueue& queue, const cl::Buffer& buffer, std::size_t count,
           std::vector<T>& values) {
     values.resize(count);
-    if (count > 0)
-        queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
+    if (count > 0) queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
 }
 
 template <typename T>
@@ -44,7 +44,7 @@ std::optional<LightAtlasState> LightAtlasSolver::state() const {
     s.record.wait();
     LightAtlasState out;
     out.vpls = b.sites.site_count;
-    out.texels = b.texel_count;
+    out.texels = b.receiver_count;
     read(s.queue, b.sites.balance, BALANCE_PLANES * std::size_t{b.sites.stride}, out.balance);
     if (b.seen_kept) {
         out.measured_vpls = s.measured_vpls;
@@ -64,7 +64,7 @@ void LightAtlasSolver::restore(const LightAtlasState& state) {
     const light_atlas::Buffers& b = state_->b;
     const std::size_t vpls = b.sites.stride, texels = b.texel_stride;
     need_count("VPLs", state.vpls, b.sites.site_count);
-    need_count("texels", state.texels, b.texel_count);
+    need_count("texels and points", state.texels, b.receiver_count);
     need_count("numbers for the balance of VPLs", state.balance.size(), BALANCE_PLANES * vpls);
     if (b.seen_kept) {
         need_whole_batches("was measured", state.measured_vpls, state, b.batch);

@@ -38,21 +38,26 @@ void LightAtlasSolver::State::place_blocks() {
 
 // Which texels a batch sees, in the hemicubes that were drawn last.
 void LightAtlasSolver::State::see(std::uint32_t first, std::uint32_t count) {
-    if (b.block_count > 0) {
-        see_in_blocks(first, count);
-        return;
-    }
+    if (b.block_count == 0) return see_all(first, count, 0);
+    see_in_blocks(first, count);
+    if (!bake_points.empty()) see_all(first, count, b.first_point);
+}
+
+// The same for texels from one on and all points, each in full.
+void LightAtlasSolver::State::see_all(std::uint32_t first, std::uint32_t count,
+                                      std::uint32_t first_texel) {
     const SeeParams params{count,
                            static_cast<std::uint32_t>(options.hemicube_size),
-                           b.texel_count,
+                           b.receiver_count,
                            b.texel_stride,
-                           0,
+                           first_texel,
                            b.seen_kept ? first / SEEN_VPLS : 0,
                            0,
                            0};
-    record("atlas.see", std::size_t{count} * b.texel_count, [&](const WaitList& wait) {
-        return atlas.see(queue, params, b.views, b.pixels, b.texels.planes, b.seen, wait);
-    });
+    record("atlas.see", std::size_t{count} * (b.receiver_count - first_texel),
+           [&](const WaitList& wait) {
+               return atlas.see(queue, params, b.views, b.pixels, b.texels.planes, b.seen, wait);
+           });
 }
 
 void LightAtlasSolver::State::see_in_blocks(std::uint32_t first, std::uint32_t count) {

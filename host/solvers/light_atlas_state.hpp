@@ -33,6 +33,8 @@ struct Buffers {
     cl::Buffer non_finite;
     RasterBuffers lists;  // for what is not drawn a view a work-item
     std::uint32_t texel_count = 0, texel_stride = 0;
+    std::uint32_t first_point = 0;  // behind the texels, at the beginning of a packet
+    std::uint32_t receiver_count = 0;  // texels, and all up to the last point if there are points
     std::uint32_t batch = 0;  // shooters at a time
     std::uint32_t listed_count = 0, listed_stride = 0, unblocked = 0;  // as in BlockParams
     std::uint32_t block_count = 0;                                     // 0: nothing is refined
@@ -42,6 +44,9 @@ struct Buffers {
 
 // Throws Error for options out of range.
 void check(const LightAtlasOptions& options);
+
+// Throws Error for points that are not finite, and for a filling that has none.
+void check_points(const std::vector<BakePoint>& points, const LightAtlasOptions& options);
 
 // Pixels of the shadow maps of spots and directional lights, where nothing else is asked for.
 int usual_shadow_size(const DeviceScene& scene, const EmitterOptions& emitters);
@@ -56,7 +61,7 @@ inline Pixels filling_pixels(const LightAtlasOptions& options) {
 
 // The row of every buffer. `budget`: bytes for all, from which it follows what is kept.
 BufferTable table(Buffers& buffers, Emitters& emitters, const DeviceScene& scene,
-                  const VplLayout& vpls, const AtlasLayout& atlas,
+                  const VplLayout& vpls, const AtlasLayout& atlas, std::size_t points,
                   const AtlasBlocks& blocks, const LightAtlasOptions& options, std::size_t budget,
                   std::size_t largest);
 
@@ -64,17 +69,20 @@ BufferTable table(Buffers& buffers, Emitters& emitters, const DeviceScene& scene
 
 struct LightAtlasSolver::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& scene,
-          const VplLayout& vpls, const AtlasLayout& atlas, const LightAtlasOptions& options);
+          const VplLayout& vpls, const AtlasLayout& atlas, const LightAtlasOptions& options,
+          const std::vector<BakePoint>& points);
 
     void build();
     void upload(const VplLayout& vpls, const AtlasLayout& atlas, const AtlasBlocks& blocks);
     void place();
+    void place_points();
     void receive_direct();
     void light_points(const GBuffer& points, std::uint32_t count, const cl::Buffer& irradiance,
                       bool add);
     void hemicubes(std::uint32_t first, std::uint32_t count, Pixels kind);
     void transport(std::uint32_t first, std::uint32_t count);
     void see(std::uint32_t first, std::uint32_t count);
+    void see_all(std::uint32_t first, std::uint32_t count, std::uint32_t first_texel);
     void upload_blocks(const AtlasBlocks& blocks, const std::vector<SurfaceSample>& texels);
     void place_blocks();
     void see_in_blocks(std::uint32_t first, std::uint32_t count);
@@ -89,6 +97,7 @@ struct LightAtlasSolver::State {
     void exchange();
     void send(float least);
     void find_reach();
+    void leave_points();
     void fill();
     void put_back_measurement();
     void put_back_light();
@@ -124,6 +133,7 @@ struct LightAtlasSolver::State {
     std::uint32_t filled_vpls = 0;  // that have lit the texels in this run
     std::optional<LightAtlasState> restored;
     std::vector<Site> sites;
+    std::vector<BakePoint> bake_points;
     std::vector<float> direct;  // irradiance of the sites by direct light, [3][stride]
 };
 

@@ -24,15 +24,18 @@ void check(const AtlasLayout& atlas, const DeviceScene& scene) {
 
 struct LightAtlasView::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,
-          const AtlasLayout& layout, const LightAtlasViewOptions& options)
+          const AtlasLayout& layout, const LightAtlasViewOptions& options,
+          const std::optional<IrradianceVolume>& within)
         : scene(of),
           picture(programs, queue, of, options, "light-atlas-view"),
-          atlas(programs, picture.options().build) {
+          atlas(programs, picture.options().build),
+          volume(within) {
         check(layout, scene);
         BufferTable all = picture.table();
         add_to(all, layout);
         picture.allocate(all);
         atlas.build({"show"});
+        if (volume) atlas.build({"volume"});
         upload(layout);
     }
 
@@ -89,16 +92,38 @@ struct LightAtlasView::State {
         });
     }
 
+    // Where show() found no chart.
+    void show_volume(const cl::Buffer& light, std::uint32_t light_stride) {
+        if (!volume) return;
+        const SceneFrame& frame = scene.frame();
+        const VolumeParams params{float4(frame.to_local(volume->first),
+                                         static_cast<float>(1.0 / (volume->spacing * frame.scale))),
+                                  static_cast<std::uint32_t>(picture.pixels()),
+                                  picture.stride(),
+                                  scene.info().triangle_count,
+                                  static_cast<std::uint32_t>(volume->count.x),
+                                  static_cast<std::uint32_t>(volume->count.y),
+                                  static_cast<std::uint32_t>(volume->count.z),
+                                  first_bake_point(map.texel_count),
+                                  light_stride};
+        picture.record()("atlas.volume", picture.pixels(), [&](const WaitList& wait) {
+            return atlas.volume(picture.record().queue(), params, picture.gbuffer(), map.charts,
+                                light, picture.irradiance(), wait);
+        });
+    }
+
     const DeviceScene& scene;
     Picture picture;
     AtlasPasses atlas;
     AtlasMap map;
+    std::optional<IrradianceVolume> volume;
 };
 
 LightAtlasView::LightAtlasView(const Programs& programs, const cl::CommandQueue& queue,
                                const DeviceScene& scene, const AtlasLayout& atlas,
-                               const LightAtlasViewOptions& options)
-    : state_(std::make_unique<State>(programs, queue, scene, atlas, options)) {}
+                               const LightAtlasViewOptions& options,
+                               const std::optional<IrradianceVolume>& volume)
+    : state_(std::make_unique<State>(programs, queue, scene, atlas, options, volume)) {}
 
 LightAtlasView::~LightAtlasView() = default;
 
@@ -109,6 +134,7 @@ cl::Event LightAtlasView::render(const Camera& camera, const cl::Buffer& light,
     State& s = *state_;
     const View view = s.picture.begin(camera, wait);
     s.show(light, light_stride);
+    s.show_volume(light, light_stride);
     s.picture.combine(view);
     return s.picture.end(view);
 }

@@ -91,6 +91,13 @@ struct AtlasLayout {
 CLGI_API AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& region_of,
                                 const AtlasOptions& options = {});
 
+// The layout of a scene of `count` triangles of which triangles[t] is triangle t of a layout's
+// scene; the others are in no chart. Throws Error for another number of triangles, and one that
+// is not below `count`.
+CLGI_API AtlasLayout atlas_of_whole(const AtlasLayout& part,
+                                    const std::vector<std::uint32_t>& triangles,
+                                    std::size_t count);
+
 enum class AtlasPages {
     stacked,  // one unit square with the pages below each other
     each,     // a unit square each

@@ -18,6 +18,7 @@
 #include <clgi/error.hpp>
 #include <clgi/interiors.hpp>
 #include <clgi/interval.hpp>
+#include <clgi/irradiance_volume.hpp>
 #include <clgi/kernel_source.hpp>
 #include <clgi/kit/buffer_table.hpp>
 #include <clgi/kit/draw.hpp>
@@ -61,5 +62,7 @@
 #include <clgi/solvers/light_atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
 #include <clgi/solvers/second_order.hpp>
+#include <clgi/still_bake.hpp>
+#include <clgi/still_scene.hpp>
 #include <clgi/visible_sets.hpp>
 #include <clgi/vpl_layout.hpp>

@@ -41,9 +41,10 @@ public:
         events_.push_back({name, items, event});
     }
 
-    // Enqueues the write of a copy of these bytes, without waiting. Not a pass, and not part of
-    // interval().
-    void write(const cl::Buffer& buffer, const void* data, std::size_t bytes);
+    // Enqueues the write of a copy of these bytes to `offset` bytes behind the start of a buffer,
+    // without waiting. Not a pass, and not part of interval().
+    void write(const cl::Buffer& buffer, const void* data, std::size_t bytes,
+               std::size_t offset = 0);
 
     // Fills a buffer with a value of 4 bytes; like write().
     void fill(const cl::Buffer& buffer, std::uint32_t value);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <clgi/shared/atlas.h>
+#include <clgi/shared/volume.h>
 #include <clgi/device_scene.hpp>
 #include <clgi/export.hpp>
 #include <clgi/pass.hpp>
@@ -133,13 +134,19 @@ public:
                    const cl::Buffer& light, const cl::Buffer& irradiance,
                    const WaitList& wait = {}) const;
 
+    // The light of a volume at points of a G-buffer whose triangles have no chart; writes nothing
+    // elsewhere. charts: AtlasMap::charts; light: [3][params.light_stride] float, exposed lux.
+    cl::Event volume(const cl::CommandQueue& queue, const VolumeParams& params,
+                     const GBuffer& points, const cl::Buffer& charts, const cl::Buffer& light,
+                     const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
 
 private:
     PassKernel see_, flat_, see_listed_, see_blocks_, gather_, gather_open_, geometry_, replicate_,
-        project_, nearest_, complete_, show_;
-    Storage storage_;  // of what show reads and writes
+        project_, nearest_, complete_, show_, volume_;
+    Storage storage_;  // of what show and volume read and write
 };
 
 }  // namespace clgi

@@ -68,6 +68,8 @@ struct SurfaceFacts {
 struct MotionFacts {
     bool geometry = false;             // some clip moves vertices of triangles
     std::size_t moving_triangles = 0;  // with a vertex that follows what a clip moves
+    double moving_area = 0.0;          // their share of the area, as the scene's arrays have it
+    bool moving_emission = false;      // one of their materials emits
     double travel = 0.0;  // largest way of a vertex from its place in the scene's arrays,
                           // over the diagonal of their bounds, at 3 to 25 times a clip
 };

@@ -7,6 +7,7 @@
 #include <clgi/device_scene.hpp>
 #include <clgi/emitters.hpp>
 #include <clgi/interval.hpp>
+#include <clgi/irradiance_volume.hpp>
 #include <clgi/kit/buffer_table.hpp>
 #include <clgi/kit/recorder.hpp>
 #include <clgi/passes/atlas.hpp>
@@ -89,7 +90,7 @@ struct LightAtlasStatus {
 // Light is exposed. It belongs to one scene, its layouts and its options; the same device carries it
 // on to the same bits.
 struct LightAtlasState {
-    std::uint32_t vpls = 0, texels = 0;
+    std::uint32_t vpls = 0, texels = 0;  // with points
     std::uint32_t measured_vpls = 0;    // the first so many have their rows, seen and balance
     std::uint32_t filled_vpls = 0;      // or: the first so many have lit the texels
     std::uint32_t shots = 0;            // as in LightAtlasStatus
@@ -109,11 +110,14 @@ CLGI_API std::size_t light_atlas_least_bytes(std::size_t vpls, std::size_t sampl
 // outlive the solver; the layouts are not needed afterwards. One thread at a time.
 class CLGI_API LightAtlasSolver {
 public:
-    // Builds kernels and allocates. vpls, atlas: of the scene that was uploaded. Throws Error for
-    // options out of range and layouts of another scene, DeviceError when memory does not suffice.
+    // Builds kernels and allocates. vpls, atlas: of the scene that was uploaded. points: where
+    // indirect light is baked beside the texels, with Filling::gather alone. Throws Error for
+    // options out of range, layouts of another scene and points that are not finite, DeviceError
+    // when memory does not suffice.
     LightAtlasSolver(const Programs& programs, const cl::CommandQueue& queue,
                      const DeviceScene& scene, const VplLayout& vpls, const AtlasLayout& atlas,
-                     const LightAtlasOptions& options = {});
+                     const LightAtlasOptions& options = {},
+                     const std::vector<BakePoint>& points = {});
     ~LightAtlasSolver();
     LightAtlasSolver(const LightAtlasSolver&) = delete;
     LightAtlasSolver& operator=(const LightAtlasSolver&) = delete;
@@ -146,11 +150,15 @@ public:
 
     // Irradiance of each texel of AtlasLayout::texels, lux. Waits.
     std::vector<glm::vec3> irradiance() const;
+    // Irradiance of each point, lux, without direct light. Waits.
+    std::vector<glm::vec3> point_irradiance() const;
     // Irradiance of each VPL, lux, without cosine to a texel: what its surface receives. Waits.
     std::vector<glm::vec3> vpl_irradiance() const;
 
-    const cl::Buffer& irradiance_planes() const;  // [3][stride()] float, exposed lux, by texel
+    // [3][stride()] float, exposed lux, by texel; from first_point() on by point.
+    const cl::Buffer& irradiance_planes() const;
     std::uint32_t stride() const;
+    std::uint32_t first_point() const;
     const cl::Buffer& texel_planes() const;  // a G-buffer's planes, [GBUFFER_PLANES][stride()]
     const SiteBuffers& sites() const;
     std::size_t bytes() const;  // of all buffers

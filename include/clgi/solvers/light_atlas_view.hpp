@@ -5,9 +5,11 @@
 
 #include <clgi/atlas_layout.hpp>
 #include <clgi/device_scene.hpp>
+#include <clgi/irradiance_volume.hpp>
 #include <clgi/kit/picture.hpp>
 #include <clgi/programs.hpp>
 #include <memory>
+#include <optional>
 
 namespace clgi {
 
@@ -17,14 +19,17 @@ using LightAtlasViewOptions = PictureOptions;
 // outlive this object; the layout is not needed afterwards. One thread at a time.
 //
 // The atlas has one light for both sides of a surface, that of its front. Surfaces that the atlas
-// has no place for (AtlasLayout::skipped_area) have no indirect light.
+// has no place for (AtlasLayout::skipped_area), and triangles without a chart, such as those that
+// move (atlas_of_whole), have the indirect light of an irradiance volume, or none without one.
 class CLGI_API LightAtlasView {
 public:
-    // Builds kernels and allocates. atlas: of the scene that was uploaded. Throws Error for options
-    // out of range and the layout of another scene, DeviceError when memory does not suffice.
+    // Builds kernels and allocates. atlas: of the scene that was uploaded; volume: whose points_of()
+    // were baked with it. Throws Error for options out of range and the layout of another scene,
+    // DeviceError when memory does not suffice.
     LightAtlasView(const Programs& programs, const cl::CommandQueue& queue,
                    const DeviceScene& scene, const AtlasLayout& atlas,
-                   const LightAtlasViewOptions& options = {});
+                   const LightAtlasViewOptions& options = {},
+                   const std::optional<IrradianceVolume>& volume = std::nullopt);
     ~LightAtlasView();
     LightAtlasView(const LightAtlasView&) = delete;
     LightAtlasView& operator=(const LightAtlasView&) = delete;
@@ -33,7 +38,7 @@ public:
     void lights_changed();
 
     // Enqueues a picture that begins after `wait`; the event completes when all of it has. light:
-    // by texel of the layout, [3][light_stride] float, exposed lux, as
+    // by texel of the layout and point of the volume, [3][light_stride] float, exposed lux, as
     // LightAtlasSolver::irradiance_planes() and stride() have it.
     cl::Event render(const Camera& camera, const cl::Buffer& light, std::uint32_t light_stride,
                      const WaitList& wait = {});

@@ -19,4 +19,7 @@ MovingParts moving_parts(const Animation& animation);
 // [vertices of the scene] 1: something that moves has a share in it; empty where nothing has.
 std::vector<std::uint8_t> moving_vertices(const Scene& scene);
 
+// Whether a vertex of the triangle is one of them.
+bool follows(const SceneTriangle& triangle, const std::vector<std::uint8_t>& moving);
+
 }  // namespace clgi

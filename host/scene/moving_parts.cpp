@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plan/moving_parts.hpp"
+#include "scene/moving_parts.hpp"
 
 #include <algorithm>
 
@@ -86,6 +86,12 @@ std::vector<std::uint8_t> moving_vertices(const Scene& scene) {
     }
     if (std::find(out.begin(), out.end(), 1) == out.end()) out.clear();
     return out;
+}
+
+bool follows(const SceneTriangle& triangle, const std::vector<std::uint8_t>& moving) {
+    return !moving.empty() &&
+           std::any_of(std::begin(triangle.vertex), std::end(triangle.vertex),
+                       [&](std::uint32_t v) { return moving[v] != 0; });
 }
 
 }  // namespace clgi

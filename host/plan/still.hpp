@@ -1,0 +1,14 @@
+// A light atlas in a plan for pictures between which things move.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/plan/plan.hpp>
+
+namespace clgi {
+
+// Whether an atlas is of what stands still alone, and a volume lights what moves.
+inline bool bakes_still(const Plan& plan) {
+    return plan.wish.animated && plan.on(Effect::moving_geometry) && plan.facts.motion.geometry;
+}
+
+}  // namespace clgi

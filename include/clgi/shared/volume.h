@@ -1,0 +1,41 @@
+// Irradiance at the points of a grid in space, in twelve directions each, and what it comes to at
+// any place and for any normal.
+//
+// The directions are the corners of an icosahedron, over which the mean of every polynomial of
+// degree 5 is its mean over the sphere. Irradiance is all but a polynomial of degree 2 of the normal
+// [Ramamoorthi01], so its projection onto spherical harmonics of three bands is
+//
+//   E(n) = sum_i w(n . n_i) E(n_i),   w(c) = (1 + 3 c + 5 (3 c^2 - 1) / 2) / 12
+//
+// the sum over bands l of (2 l + 1) P_l(c) / 12.          [Greger98; derived: spherical 5-design]
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_VOLUME_H
+#define CLGI_SHARED_VOLUME_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+enum { VOLUME_DIRECTIONS = 12 };
+
+// Coordinates of a corner of an icosahedron in the unit sphere: one is 0, the next of x, y, z, x, y
+// is +-VOLUME_SHORT, the one after it +-VOLUME_LONG.
+#define VOLUME_SHORT 0.525731112f
+#define VOLUME_LONG 0.850650808f
+
+// Points of surfaces that a volume lights.
+typedef struct {
+    float4 origin;  // xyz: of the grid's first point, local frame; w: points per local unit
+    uint point_count;
+    uint stride;  // of the G-buffer's planes and of the irradiance
+    uint triangle_count;
+    uint columns;  // points of the grid along x, y and z
+    uint rows;
+    uint layers;
+    uint first;         // of the grid's irradiance in a plane of light
+    uint light_stride;  // of the planes of light
+} VolumeParams;
+
+CLGI_SHARED_END
+
+#endif

@@ -1,0 +1,33 @@
+// All that the host lays out for a light atlas of a scene in which things move: the atlas is of
+// what stands still, and an irradiance volume lights what moves through it.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/bake_layout.hpp>
+#include <clgi/export.hpp>
+#include <clgi/irradiance_volume.hpp>
+#include <clgi/still_scene.hpp>
+
+namespace clgi {
+
+// For a LightAtlasSolver of `still` with `layout` and points_of(volume), and a LightAtlasView of
+// the whole scene with `whole` and `volume`.
+//
+// Light counts once: direct light, with the shadows of all that moves, is the view's; indirect
+// light of what stands still is the atlas's, of what moves the volume's. What moves casts no
+// indirect shadow and reflects nothing onto others, and where it hides itself its indirect light is
+// too much.
+struct StillBake {
+    StillScene still;
+    BakeLayout layout;  // of still.scene
+    AtlasLayout whole;
+    IrradianceVolume volume;
+};
+
+// volume: the box of Scene::moving_bounds, else of all that moves at rest. Throws what
+// make_bake_layout and make_irradiance_volume throw, and InputError for a scene of which nothing
+// stands still.
+CLGI_API StillBake make_still_bake(const Scene& scene, const VplOptions& vpls = {},
+                                   const AtlasOptions& atlas = {}, int most_points = 512);
+
+}  // namespace clgi

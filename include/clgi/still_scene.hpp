@@ -1,0 +1,23 @@
+// What stands still in a scene, as a scene of its own: what a bake may stand on while the rest
+// moves.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/export.hpp>
+#include <clgi/scene.hpp>
+#include <cstdint>
+#include <vector>
+
+namespace clgi {
+
+struct StillScene {
+    Scene scene;  // without animation and without parts, in the whole scene's frame on the device
+    std::vector<std::uint32_t> triangles;  // [triangles of scene] which one of the whole it is
+};
+
+// The triangles of which no vertex follows what a clip moves. Lights, materials and the environment
+// are all there, so that light on the device has the same unit in both: lights are those of the
+// scene's arrays, and surfaces that move and emit are missing.
+CLGI_API StillScene still_scene(const Scene& scene);
+
+}  // namespace clgi
