@@ -35,7 +35,7 @@ TEST(IrradianceVolume, CoversItsBoxWithEqualCubes) {
                 EXPECT_NEAR(low[k] + high[k], box.low[k] + box.high[k], 1e-9);
             }
         }
-    const IrradianceVolume point = make_irradiance_volume({glm::dvec3(2.0), glm::dvec3(2.0)});
+    const IrradianceVolume point = make_irradiance_volume({glm::dvec3(2.0), glm::dvec3(2.0)}, 512);
     EXPECT_EQ(point.count, glm::ivec3(1));
     EXPECT_EQ(point.first, glm::dvec3(2.0));
 }
@@ -43,9 +43,9 @@ TEST(IrradianceVolume, CoversItsBoxWithEqualCubes) {
 TEST(IrradianceVolume, RefusesBoxesThatAreNone) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double inf = std::numeric_limits<double>::infinity();
-    EXPECT_THROW(make_irradiance_volume({glm::dvec3(1.0), glm::dvec3(0.0)}), Error);
-    EXPECT_THROW(make_irradiance_volume({glm::dvec3(0.0), glm::dvec3(1.0, nan, 1.0)}), Error);
-    EXPECT_THROW(make_irradiance_volume({glm::dvec3(0.0), glm::dvec3(1.0, inf, 1.0)}), Error);
+    EXPECT_THROW(make_irradiance_volume({glm::dvec3(1.0), glm::dvec3(0.0)}, 8), Error);
+    EXPECT_THROW(make_irradiance_volume({glm::dvec3(0.0), glm::dvec3(1.0, nan, 1.0)}, 8), Error);
+    EXPECT_THROW(make_irradiance_volume({glm::dvec3(0.0), glm::dvec3(1.0, inf, 1.0)}, 8), Error);
     EXPECT_THROW(make_irradiance_volume({glm::dvec3(0.0), glm::dvec3(1.0)}, 0), Error);
 }
 
@@ -232,6 +232,24 @@ TEST_P(VolumeLookup, FadesPointsThatAreMuchDarker) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[0][c], wanted * (1 << c), 1e-5 * (1 << c));
 }
 
+// One that lacks a colour is not dark.
+TEST_P(VolumeLookup, CountsPointsThatLackAColour) {
+    for (int missing = 0; missing < 3; ++missing) {
+        Looked looked;
+        looked.volume = {{0.0, 0.0, 0.0}, 1.0, {2, 1, 1}};
+        for (std::size_t point = 0; point < 2; ++point)
+            for (std::size_t i = 0; i < VOLUME_DIRECTIONS; ++i) {
+                glm::dvec3 light(1.0, 2.0, 4.0);
+                if (point == 1) light[missing] = 0.0;
+                looked.set(point * VOLUME_DIRECTIONS + i, light);
+            }
+        looked.look({0.25, 0.0, 0.0}, tilted);
+        const auto found = looked();
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[0][c], (c == missing ? 0.75 : 1.0) * (1 << c), 1e-5 * (1 << c));
+    }
+}
+
 TEST_P(VolumeLookup, HasNoLightBelowZero) {
     Looked looked;
     // All light comes from one direction; seen from behind, the bands swing below zero.
@@ -247,13 +265,25 @@ TEST_P(VolumeLookup, HasNoLightBelowZero) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[1][c], 9.0 / 12.0, 1e-5);
 }
 
-TEST_P(VolumeLookup, SaysThatAPlaceIsNone) {
+TEST_P(VolumeLookup, SaysWhatIsNotFinite) {
     Looked looked;
     looked.look({std::numeric_limits<double>::quiet_NaN(), 1.0, 2.2}, tilted);
     looked.look({0.0, 1.0, 2.2}, tilted);
+    looked.look({0.0, 1.0, 2.2}, {0.0f, std::numeric_limits<float>::quiet_NaN(), 1.0f});
     const auto found = looked();
-    EXPECT_TRUE(std::isnan(found[0].x) && std::isnan(found[0].y) && std::isnan(found[0].z));
-    EXPECT_TRUE(std::isfinite(found[1].x));
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_TRUE(std::isnan(found[0][c]));
+        EXPECT_TRUE(std::isfinite(found[1][c]));
+        EXPECT_TRUE(std::isnan(found[2][c]));
+    }
+    // Light that is none reaches the surfaces around it.
+    for (const float none :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        looked.set(0, glm::dvec3(none));
+        looked.look({-0.9, 0.6, 2.1}, tilted);
+        EXPECT_FALSE(std::isfinite(looked().back().x));
+        EXPECT_TRUE(std::isfinite(looked()[1].x));
+    }
 }
 
 }  // namespace

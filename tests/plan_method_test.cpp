@@ -66,6 +66,12 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
     EXPECT_EQ(method(walks), Method::light_atlas);
     EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
                   walks(f, w);
+                  f.surfaces.triangles = 12000;
+                  w.seconds = 0.02;  // links that follow take longer
+              }),
+              Method::light_atlas);
+    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+                  walks(f, w);
                   f.motion.moving_area = 0.3;
               }),
               Method::second_order);
@@ -264,6 +270,43 @@ TEST(Plan, KnowsTheKindOfAScene) {
     EXPECT_TRUE(stands_on(ground(), "open scenes"));
     facts.proof.surfaces_open = true;
     EXPECT_TRUE(stands_on(ground(), "convex scenes"));
+}
+
+// The bake is before the first picture, whatever moves, and nobody waits for it for long.
+TEST(Plan, ComposesABakeOfWhatStandsStill) {
+    const cl::Device& device = test::device().device;
+    SceneFacts facts = scene_facts(test::furnished_room(3));
+    facts.surfaces.triangles = 300000;
+    facts.motion = {true, 2000, 0.02, false, 0.1};
+    PlanWish wish;
+    wish.animated = true;
+    const Plan plan = make_plan(device, facts, wish);
+    ASSERT_EQ(plan.method, Method::light_atlas);
+    EXPECT_EQ(plan.why, "little moves through light that is baked");
+    const auto by = [&](Effect effect) {
+        return plan.effects[static_cast<std::size_t>(effect)].by;
+    };
+    EXPECT_EQ(by(Effect::first_bounce), "baked VPLs; moving: volume");
+    EXPECT_EQ(by(Effect::further_bounces), "baked VPLs; moving: volume");
+    EXPECT_EQ(by(Effect::moving_geometry), "direct light, volume");
+    EXPECT_LE(plan.cost.once_ms, 10e3 + 1.0);
+    EXPECT_LT(plan.cost.frame_ms, 100.0);
+    ASSERT_TRUE(plan.error);
+    EXPECT_GT(*plan.error, 0.05);
+    EXPECT_NE(plan.error_ground.find("of what moves as in an office"), std::string::npos);
+
+    // The same bake of a scene that stands still is cheaper by the points, and errs less.
+    SceneFacts still = facts;
+    still.motion = MotionFacts();
+    wish.method = Method::light_atlas;
+    const Plan moving = make_plan(device, facts, wish), standing = make_plan(device, still, wish);
+    ASSERT_EQ(moving.vpls.count, standing.vpls.count);
+    EXPECT_GT(moving.cost.once_ms, standing.cost.once_ms);
+    EXPECT_GT(moving.cost.megabytes, standing.cost.megabytes);
+    EXPECT_LT(moving.cost.frame_ms, standing.cost.frame_ms);  // its shadow maps are drawn once
+    EXPECT_NEAR(std::hypot(*standing.error, 0.05), *moving.error, 1e-9);
+    EXPECT_EQ(standing.error_ground.find("of what moves"), std::string::npos);
+    EXPECT_EQ(standing.effects[static_cast<std::size_t>(Effect::first_bounce)].by, "baked VPLs");
 }
 
 }  // namespace

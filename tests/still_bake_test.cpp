@@ -39,8 +39,29 @@ TEST(StillScene, IsWithoutWhatAClipMoves) {
     EXPECT_EQ(a.exposure, b.exposure);
     EXPECT_EQ(a.radius, b.radius);
 
+    // Also where what moves is what makes the scene large.
+    Scene apart = scene;
+    apart.moving_bounds.reset();
+    for (std::uint32_t v = scene.triangles[24].vertex[0]; v < scene.triangles[36].vertex[0]; ++v)
+        apart.positions[v] = scene.positions[v] + 7.0;
+    const SceneFrame c = test::on_device(apart).frame();
+    const SceneFrame d = test::on_device(still_scene(apart).scene).frame();
+    EXPECT_EQ(c.origin, d.origin);
+    EXPECT_EQ(c.scale, d.scale);
+    EXPECT_NE(c.scale, a.scale);
+
+    EXPECT_FALSE(still.moving_emission);
+    Scene glows = scene;
+    glows.materials[scene.triangles[24].material].emission = {0.0f, 0.1f, 0.0f};
+    EXPECT_TRUE(still_scene(glows).moving_emission);
+    EXPECT_TRUE(scene_facts(glows).motion.moving_emission);
+    EXPECT_FALSE(scene_facts(scene).motion.moving_emission);
+
+    EXPECT_TRUE(moves(scene));
     Scene rests = scene;
     rests.animation.reset();
+    EXPECT_FALSE(moves(rests));
+    EXPECT_THROW(make_still_bake(rests), InputError);
     EXPECT_EQ(still_scene(rests).triangles.size(), scene.triangles.size());
 }
 
@@ -63,7 +84,11 @@ TEST(StillScene, HasItsAtlasInTheWhole) {
     ASSERT_EQ(whole.texels.size(), part.texels.size());
     for (std::size_t i = 0; i < part.texels.size(); ++i)
         EXPECT_EQ(whole.texels[i].triangle, bake.still.triangles[part.texels[i].triangle]);
-    // The volume covers the way of the box.
+    // The volume covers the way of the box, which is found if the scene does not say it.
+    Scene silent = scene;
+    silent.moving_bounds.reset();
+    EXPECT_EQ(make_still_bake(silent, {.count = 100}, {.size = 64}).volume.first,
+              bake.volume.first);
     const IrradianceVolume& v = bake.volume;
     const glm::dvec3 low = v.first - 0.5 * v.spacing;
     const glm::dvec3 high = low + v.spacing * glm::dvec3(v.count);
@@ -118,6 +143,48 @@ TEST_P(BakePoints, HaveTheLightOfASphere) {
                         << i << " " << c << " occlusion " << occlusion << " refine " << refine;
                 }
         }
+}
+
+// Also where memory keeps nothing of what they see, after a break, and under other lights.
+TEST_P(BakePoints, HaveTheSameLightHoweverItIsKept) {
+    const Scene scene = test::moving_box_room();
+    Bakery bakery(scene, {.vpls = 150, .atlas = 64});
+    const std::vector<BakePoint> points = {{{0.2, 1.0, 0.3}, {0.0f, 0.0f, 1.0f}},
+                                           {{-1.2, 0.4, 1.0}, {1.0f, 0.0f, 0.0f}}};
+    const auto bake = [&](const LightAtlasOptions& options) {
+        return std::make_unique<LightAtlasSolver>(test::programs(), test::device().queue,
+                                                  bakery.on_device, bakery.vpls, bakery.atlas,
+                                                  options, points);
+    };
+    LightAtlasOptions options = test::bake_options(GetParam());
+    const auto kept = bake(options);
+    ASSERT_TRUE(kept->run());
+    EXPECT_TRUE(kept->status().visibility_kept);
+    const auto wanted = kept->point_irradiance();
+    EXPECT_GT(wanted[0].x, 0.0f);
+    options.memory_budget = kept->bytes() - 1;
+    const auto drawn = bake(options);
+    ASSERT_TRUE(drawn->run());
+    EXPECT_FALSE(drawn->status().visibility_kept);
+    EXPECT_TRUE(test::same_bits(drawn->point_irradiance(), wanted));
+    options.memory_budget = 0;
+    const auto broken = bake(options);
+    EXPECT_FALSE(broken->run([](double done) { return done < 0.4; }));
+    const auto state = broken->state();
+    ASSERT_TRUE(state);
+    const auto resumed = bake(options);
+    resumed->restore(*state);
+    ASSERT_TRUE(resumed->run());
+    EXPECT_TRUE(test::same_bits(resumed->point_irradiance(), wanted));
+    EXPECT_THROW(bakery.solver(options).restore(*state), Error);
+    Light light = scene.lights[0];
+    light.intensity *= 2.0f;
+    bakery.on_device.set_light(0, light);
+    kept->lights_changed();
+    ASSERT_TRUE(kept->update(0.0));
+    const auto brighter = kept->point_irradiance();
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(brighter[i][c] / wanted[i][c], 2.0, 1e-3);
 }
 
 // Two plates that face each other, lit by a point light between them, and points beside them: the
@@ -212,6 +279,18 @@ TEST(BakePoints, AreRefusedWhereTheyAreNone) {
     EXPECT_THROW(make({{0, 1, 0}, {0, 2, 0}}), Error);
     EXPECT_THROW(make({{0, 1, 0}, {0, 0, 0}}), Error);
     EXPECT_THROW(make({{0, 1, 0}, {0, static_cast<float>(nan), 0}}), Error);
+    LightAtlasViewOptions small;
+    small.width = 8;
+    small.height = 6;
+    const auto view = [&](const IrradianceVolume& volume) {
+        LightAtlasView(test::programs(), test::device().queue, bakery.on_device, bakery.atlas,
+                       small, volume);
+    };
+    EXPECT_NO_THROW(view({}));
+    EXPECT_THROW(view({.spacing = 0.0}), Error);
+    EXPECT_THROW(view({.spacing = nan}), Error);
+    EXPECT_THROW(view({.first = glm::dvec3(nan)}), Error);
+    EXPECT_THROW(view({.count = glm::ivec3(1, 0, 1)}), Error);
     LightAtlasOptions projected;
     projected.filling = Filling::project;
     EXPECT_THROW(make({{0, 1, 0}, {0, 1, 0}}, projected), Error);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/passes/atlas.hpp>
 #include <clgi/planes.hpp>
+#include <cmath>
 
 #include "opencl/launch.hpp"
 #include "opencl/planes.hpp"
@@ -241,6 +242,9 @@ cl::Event AtlasPasses::volume(const cl::CommandQueue& queue, const VolumeParams&
     need_stride(volume_, "stride", params.stride, params.point_count);
     const std::size_t grid = std::size_t{params.columns} * params.rows * params.layers;
     if (grid == 0) throw Error(volume_.name + ": the grid has no point");
+    const float4& origin = params.origin;
+    if (!std::isfinite(origin.x + origin.y + origin.z + origin.w))
+        throw Error(volume_.name + ": the grid's origin or spacing is not finite");
     if (params.light_stride < params.first + VOLUME_DIRECTIONS * grid)
         throw Error(volume_.name + ": light_stride is " + std::to_string(params.light_stride) +
                     ", at least " + std::to_string(params.first + VOLUME_DIRECTIONS * grid) +

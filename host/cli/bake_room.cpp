@@ -79,6 +79,11 @@ StillBake lay_out_still(Scene& scene, const VplOptions& vpls, const AtlasOptions
     static_cast<clgi::StillBake&>(out) = make_still_bake(scene, vpls, atlas);
     out.seconds = watch.seconds();
     warn(scene, out.whole, quiet);
+    if (out.still.moving_emission) {
+        const std::string warning = "what moves emits, but lights nothing indirectly";
+        notice(quiet, "warning: " + warning);
+        scene.warnings.push_back(warning);
+    }
     return out;
 }
 

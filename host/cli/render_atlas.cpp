@@ -29,13 +29,14 @@ void check(const RenderFlags& flags, const Scene& scene) {
 class Bake {
 public:
     Bake(const RenderFlags& flags, Scene& scene, const Session& session, bool quiet)
-        : moves_(flags.fps && !scene.animation->ranges.empty()) {
+        : moves_(flags.fps && moves(scene)) {
         const AtlasFlags& atlas = flags.atlas;
         if (moves_)
             apart_ = lay_out_still(scene, atlas.vpls, atlas.layout, quiet);
         else
             layout_ = lay_out(scene, atlas.vpls, atlas.layout, quiet);
         if (moves_) still_.emplace(session.context, session.device, apart_.still.scene);
+        apart_.still.scene = Scene();  // it is on the device
     }
 
     BakeSummary summary() const {

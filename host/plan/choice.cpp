@@ -42,10 +42,7 @@ Choice candidates_for(const Plan& plan) {
         Choice out{{Method::second_order}, "nothing is made before, and there are many triangles"};
         if (facts.surfaces.triangles <= most_moving_triangles)
             out = {{Method::antiradiance, Method::second_order}, "light follows what moves"};
-        if (bakes_the_rest(plan)) {
-            out.methods.push_back(Method::light_atlas);
-            out.why = "little moves through light that may be baked";
-        }
+        if (bakes_the_rest(plan)) out.methods.push_back(Method::light_atlas);
         return out;
     }
     if (sky_alone)

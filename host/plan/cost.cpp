@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/plan/plan.hpp>
+#include <clgi/still_bake.hpp>
 #include <cmath>
 
 #include "plan/method.hpp"
@@ -28,7 +29,7 @@ void operator+=(Amount& a, const Amount& b) {
 // other methods take less than their pictures.
 constexpr double loading = 110.0;
 
-constexpr double volume_points = 6144.0;  // of make_still_bake: 512 times 12 directions
+constexpr double scene_bytes = 200.0;  // of a triangle of what stands still, which is there twice
 
 double triangles(const Plan& plan) { return static_cast<double>(plan.facts.surfaces.triangles); }
 
@@ -113,7 +114,7 @@ Amount open_bake(double vpls, double texels, double triangles) {
 PlanCost light_atlas(const Plan& plan) {
     const double vpls = plan.vpls.count;
     double texels = 0.75 * plan.layout.size * plan.layout.size;
-    if (bakes_still(plan)) texels += volume_points;
+    if (bakes_still(plan)) texels += most_volume_points * VOLUME_DIRECTIONS;
     const Amount bake =
         (plan.light_atlas.occlusion ? drawn_bake : open_bake)(vpls, texels, triangles(plan));
     const bool environment = has_sky(plan);
@@ -124,6 +125,7 @@ PlanCost light_atlas(const Plan& plan) {
         before += maps;
         moved = {};
     }
+    if (bakes_still(plan)) before.bytes += scene_bytes * triangles(plan);
     return added(plan, before, moved, picture(plan, environment));
 }
 

@@ -11,14 +11,16 @@
 #include "plan/expected_error.hpp"
 #include "plan/rungs.hpp"
 #include "plan/settings.hpp"
+#include "plan/still.hpp"
 
 namespace clgi {
 namespace {
 
 constexpr double default_seconds = 1.0;        // of a picture
 constexpr double default_frame_seconds = 0.1;  // of one of an animation
-constexpr double patience = 10.0;              // seconds, for an error that nothing reaches
-constexpr double near_enough = 1.05;           // errors that are as good as the least
+constexpr double patience = 10.0;     // seconds, for an error that nothing reaches, or before an
+                                      // animation begins
+constexpr double near_enough = 1.05;  // errors that are as good as the least
 
 struct Candidate {
     Plan plan;
@@ -39,6 +41,13 @@ void drop_too_large(const cl::Device& device, std::vector<Candidate>& candidates
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), large), candidates.end());
 }
 
+// Removes those that nobody waits for before the first picture, unless there are no others.
+void drop_too_slow_to_begin(std::vector<Candidate>& candidates) {
+    const auto slow = [](const Candidate& one) { return one.plan.cost.once_ms > 1e3 * patience; };
+    if (std::all_of(candidates.begin(), candidates.end(), slow)) return;
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), slow), candidates.end());
+}
+
 }  // namespace
 
 void choose_method(const cl::Device& device, Plan& plan) {
@@ -57,6 +66,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
         }
     }
     drop_too_large(device, candidates);
+    if (plan.wish.animated) drop_too_slow_to_begin(candidates);
 
     const PlanWish& wish = plan.wish;
     const double milliseconds =
@@ -95,7 +105,9 @@ void choose_method(const cl::Device& device, Plan& plan) {
     const Candidate best = choose();
 
     plan = best.plan;
-    plan.why = choice.why;
+    plan.why = !wish.method && plan.method == Method::light_atlas && bakes_still(plan)
+                   ? "little moves through light that is baked"
+                   : choice.why;
     if (!leaves_out_by_wish(plan)) plan.error = best.error;
     if (plan.error) plan.error_ground = ground_of_error(plan);
     plan.meets_time = !wish.seconds || quick(best);

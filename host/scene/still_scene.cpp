@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/still_scene.hpp>
 
 #include "scene/local_frame.hpp"
 #include "scene/moving_parts.hpp"
 
 namespace clgi {
+
+bool moves(const Scene& scene) {
+    const std::vector<std::uint8_t> moving = moving_vertices(scene);
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const SceneTriangle& triangle) { return follows(triangle, moving); });
+}
 
 StillScene still_scene(const Scene& scene) {
     StillScene out;
@@ -14,7 +21,11 @@ StillScene still_scene(const Scene& scene) {
     out.scene.triangles.clear();
     const std::vector<std::uint8_t> moving = moving_vertices(scene);
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-        if (follows(scene.triangles[t], moving)) continue;
+        if (follows(scene.triangles[t], moving)) {
+            const Material& material = scene.materials[scene.triangles[t].material];
+            out.moving_emission |= material.emission != glm::vec3(0.0f);
+            continue;
+        }
         out.scene.triangles.push_back(scene.triangles[t]);
         out.triangles.push_back(t);
     }

@@ -124,7 +124,6 @@ std::vector<glm::vec3> LightAtlasSolver::vpl_irradiance() const {
 
 const cl::Buffer& LightAtlasSolver::irradiance_planes() const { return state_->b.irradiance; }
 std::uint32_t LightAtlasSolver::stride() const { return state_->b.texel_stride; }
-std::uint32_t LightAtlasSolver::first_point() const { return state_->b.first_point; }
 const cl::Buffer& LightAtlasSolver::texel_planes() const { return state_->b.texels.planes; }
 const SiteBuffers& LightAtlasSolver::sites() const { return state_->b.sites; }
 std::size_t LightAtlasSolver::bytes() const { return state_->bytes; }

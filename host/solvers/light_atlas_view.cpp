@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/passes/atlas.hpp>
 #include <clgi/solvers/light_atlas_view.hpp>
+#include <cmath>
 
 namespace clgi {
 namespace {
+
+void check(const IrradianceVolume& volume) {
+    const glm::dvec3& at = volume.first;
+    if (!std::isfinite(at.x + at.y + at.z) || !std::isfinite(volume.spacing) ||
+        !(volume.spacing > 0.0) || glm::any(glm::lessThan(volume.count, glm::ivec3(1))))
+        throw Error("light-atlas-view: the volume is not finite, or has no points");
+}
 
 void check(const AtlasLayout& atlas, const DeviceScene& scene) {
     const std::size_t triangles = scene.triangle_order().size();
@@ -31,6 +39,7 @@ struct LightAtlasView::State {
           atlas(programs, picture.options().build),
           volume(within) {
         check(layout, scene);
+        if (volume) check(*volume);
         BufferTable all = picture.table();
         add_to(all, layout);
         picture.allocate(all);

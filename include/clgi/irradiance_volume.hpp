@@ -32,7 +32,7 @@ struct IrradianceVolume {
 
 // As many points as `most` allows, which is at least 1, in cubes that cover the box. Throws Error
 // for a box that is not finite or whose corners are not in order.
-CLGI_API IrradianceVolume make_irradiance_volume(const Bounds& box, int most = 512);
+CLGI_API IrradianceVolume make_irradiance_volume(const Bounds& box, int most);
 
 // VOLUME_DIRECTIONS for each point of the grid, x fastest, then y, then z.
 CLGI_API std::vector<BakePoint> points_of(const IrradianceVolume& volume);

@@ -13,7 +13,11 @@ namespace clgi {
 struct StillScene {
     Scene scene;  // without animation and without parts, in the whole scene's frame on the device
     std::vector<std::uint32_t> triangles;  // [triangles of scene] which one of the whole it is
+    bool moving_emission = false;          // a triangle that is not in it has a material that emits
 };
+
+// Whether a clip moves a vertex of a triangle.
+CLGI_API bool moves(const Scene& scene);
 
 // The triangles of which no vertex follows what a clip moves. Lights, materials and the environment
 // are all there, so that light on the device has the same unit in both: lights are those of the

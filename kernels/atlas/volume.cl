@@ -11,7 +11,8 @@
 //
 // Work size    1D, one work-item a point of a surface; any local size; tail guarded
 // Writes       the irradiance of its own point where a triangle is seen that no chart has, which is
-//              no number where its place is none, for the passes that count that
+//              not finite where its place, its normal or the light is not, for the passes that
+//              count it
 // Cost         some 140 flops, and for each point of the grid 120 more and 36 floats read
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/atlas.h"
@@ -49,13 +50,14 @@ kernel void atlas_volume(
     if (triangle < 0 || triangle >= (int)params.triangle_count) return;
     if (charts[triangle].x != ATLAS_NONE) return;
     float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, at);
-    if (!is_finite3(point)) {
+    float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, at);
+    if (!is_finite3(point) || !is_finite3(normal)) {
         for (int c = 0; c < 3; ++c)
             row_store_one(as_float(0x7fc00000u), irradiance_row(irradiance, c, stride), at);
         return;
     }
     float weights[VOLUME_DIRECTIONS];
-    volume_weights(gbuffer_load3(planes, GBUFFER_NORMAL, stride, at), weights);
+    volume_weights(normal, weights);
     float3 most = (float3)(params.columns, params.rows, params.layers) - 1.0f;
     float3 place = clamp((point - params.origin.xyz) * params.origin.w, 0.0f, most);
     float3 corner = min(floor(place), max(most - 1.0f, 0.0f));
@@ -91,6 +93,7 @@ kernel void atlas_volume(
     }
     for (int c = 0; c < 3; ++c) {
         float value = all > 0.0f ? sum[c] / all : 0.0f;
+        if (!is_finite(mean)) value = mean;
         row_store_one(value, irradiance_row(irradiance, c, stride), at);
     }
 }

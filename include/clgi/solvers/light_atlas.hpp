@@ -63,7 +63,7 @@ struct LightAtlasOptions {
     int mesh = 512;  // triangles of M over a hemicube's face, for Filling::project: 2 n^2 with an
                      // even n of at most hemicube_size, 8 to 131072
     int kernel = 5;  // K, its soft shadows: pixels to each side, 0 (hard) to 64
-    bool direct = false;      // direct light in the atlas too
+    bool direct = false;      // direct light in the texels too; points never have it
     // Bytes that the solver's buffers may take together; 0: what the device has beside the scene.
     // The transport between all pairs of VPLs is kept if it fits, else computed anew each bounce;
     // then which texels each VPL sees, else the scene is drawn again to fill the atlas.
@@ -87,7 +87,7 @@ struct LightAtlasStatus {
 };
 
 // A bake that was cancelled, as plain data: what was measured, or, where that is not kept, the light.
-// Light is exposed. It belongs to one scene, its layouts and its options; the same device carries it
+// Light is exposed. It belongs to one scene, its layouts, its points and its options; the same device carries it
 // on to the same bits.
 struct LightAtlasState {
     std::uint32_t vpls = 0, texels = 0;  // with points
@@ -155,10 +155,10 @@ public:
     // Irradiance of each VPL, lux, without cosine to a texel: what its surface receives. Waits.
     std::vector<glm::vec3> vpl_irradiance() const;
 
-    // [3][stride()] float, exposed lux, by texel; from first_point() on by point.
+    // [3][stride()] float, exposed lux, by texel; by point from
+    // first_bake_point(AtlasLayout::texels.size()) on.
     const cl::Buffer& irradiance_planes() const;
     std::uint32_t stride() const;
-    std::uint32_t first_point() const;
     const cl::Buffer& texel_planes() const;  // a G-buffer's planes, [GBUFFER_PLANES][stride()]
     const SiteBuffers& sites() const;
     std::size_t bytes() const;  // of all buffers

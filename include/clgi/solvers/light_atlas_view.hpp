@@ -20,7 +20,8 @@ using LightAtlasViewOptions = PictureOptions;
 //
 // The atlas has one light for both sides of a surface, that of its front. Surfaces that the atlas
 // has no place for (AtlasLayout::skipped_area), and triangles without a chart, such as those that
-// move (atlas_of_whole), have the indirect light of an irradiance volume, or none without one.
+// move (atlas_of_whole), have the indirect light of an irradiance volume, outside of it that of its
+// nearest points; without a volume they have none.
 class CLGI_API LightAtlasView {
 public:
     // Builds kernels and allocates. atlas: of the scene that was uploaded; volume: whose points_of()
