@@ -82,6 +82,7 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
               Method::second_order);
     EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
                   walks(f, w);
+                  f.surfaces.triangles = 31000;  // maps that a bake would draw take little
                   f.lights.moving = true;
               }),
               Method::second_order);
@@ -301,7 +302,8 @@ TEST(Plan, ComposesABakeOfWhatStandsStill) {
     wish.method = Method::light_atlas;
     const Plan moving = make_plan(device, facts, wish), standing = make_plan(device, still, wish);
     ASSERT_EQ(moving.vpls.count, standing.vpls.count);
-    EXPECT_GT(moving.cost.once_ms, standing.cost.once_ms);
+    const double maps = standing.cost.frame_ms - moving.cost.frame_ms;
+    EXPECT_GT(moving.cost.once_ms, standing.cost.once_ms + maps + 1.0);
     EXPECT_GT(moving.cost.megabytes, standing.cost.megabytes);
     EXPECT_LT(moving.cost.frame_ms, standing.cost.frame_ms);  // its shadow maps are drawn once
     EXPECT_NEAR(std::hypot(*standing.error, 0.05), *moving.error, 1e-9);

@@ -89,5 +89,23 @@ TEST(SetLight, RefusesWhatIsOutOfRange) {
     expect_refused(fields[11], 0.0f, good);
 }
 
+// All lights at once, or none of them.
+TEST(SetLight, ReplacesAllLights) {
+    const Scene scene = lamps();
+    DeviceScene device = test::on_device(scene);
+    std::vector<Light> lights = scene.lights;
+    lights[0].intensity = {3.0f, 1.0f, 2.0f};
+    lights[1].position.y = 0.25;
+    device.set_lights(lights);
+    EXPECT_EQ(device.lights()[0].intensity, lights[0].intensity);
+    EXPECT_EQ(device.lights()[1].position, lights[1].position);
+    lights[0].intensity.x = 9.0f;
+    lights[1].intensity.y = -1.0f;
+    EXPECT_THROW(device.set_lights(lights), InputError);
+    lights.pop_back();
+    EXPECT_THROW(device.set_lights(lights), Error);
+    EXPECT_EQ(device.lights()[0].intensity.x, 3.0f);
+}
+
 }  // namespace
 }  // namespace clgi

@@ -57,8 +57,7 @@ public:
     // That is baked; whole: that is shown.
     const DeviceScene& scene(const DeviceScene& whole) const { return moves_ ? *still_ : whole; }
     void lights_changed(const DeviceScene& whole) {
-        for (std::size_t i = 0; moves_ && i < whole.lights().size(); ++i)
-            still_->set_light(i, whole.lights()[i]);
+        if (moves_) still_->set_lights(whole.lights());
     }
     std::size_t bytes() const { return moves_ ? still_->bytes() : 0; }
 

@@ -25,8 +25,7 @@ struct Atlas {
           view(programs, queue, device, bake.whole, plan.picture, bake.volume) {}
 
     void lights_changed(const DeviceScene& device) {
-        for (std::size_t i = 0; apart && i < device.lights().size(); ++i)
-            apart->set_light(i, device.lights()[i]);
+        if (apart) apart->set_lights(device.lights());
     }
 
     std::unique_ptr<DeviceScene> apart;  // none: the scene itself is baked

@@ -237,6 +237,14 @@ void DeviceScene::set_light(std::size_t index, const Light& light) {
     lights_[index] = light;
 }
 
+void DeviceScene::set_lights(const std::vector<Light>& lights) {
+    if (lights.size() != lights_.size())
+        throw Error("scene: " + std::to_string(lights.size()) + " lights were to be set, there are " +
+                    std::to_string(lights_.size()));
+    for (std::size_t i = 0; i < lights.size(); ++i) validate_light(lights[i], i);
+    lights_ = lights;
+}
+
 std::array<const cl::Buffer*, 9> DeviceScene::kernel_arguments() const {
     return {&triangles_, &positions_, &normals_, &uvs_,   &colors_,
             &materials_, &textures_,  &texels_,  &decode_};

@@ -72,6 +72,8 @@ public:
     // Throws Error when there is no such light, InputError for one that validate() refuses; the
     // old one stays.
     void set_light(std::size_t index, const Light& light);
+    // The same of all lights, to those of a scene that has as many; Error for another number.
+    void set_lights(const std::vector<Light>& lights);
 
     // In the order of SCENE_ARGUMENTS in kernels/scene/buffers.clh.
     std::array<const cl::Buffer*, 9> kernel_arguments() const;
