@@ -1,13 +1,23 @@
 #!/usr/bin/env bash
-# From a fresh clone to tested: installs packages, builds, runs every test.
+# From a fresh clone to tested: installs packages, builds, runs the tests.
 #
-#   tests/run.sh [cmake options]     for example -DCLGI_WERROR=ON
+#   tests/run.sh [--all] [cmake options]     for example -DCLGI_WERROR=ON
+#
+# Without --all those are left out that take longest (label "slow", tests/CMakeLists.txt): users of
+# an installed clgi, kernels in an interpreter, every kernel in every form, the longest sweeps and
+# references. Continuous integration runs all.
 #
 # Ends with ctest's summary and its exit code. A run without a test on an OpenCL device fails.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
 # shellcheck source-path=SCRIPTDIR source=../cmake/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../cmake/setup.sh"
+
+left_out=(--label-exclude '^slow$')
+if [[ ${1:-} == --all ]]; then
+    left_out=()
+    shift
+fi
 
 build=$clgi_root/build
 clgi_install_packages
@@ -19,9 +29,12 @@ on_device=$(ctest -N --label-regex '^device$' | sed -n 's/^ *Test *#[0-9]*: //p'
 
 # Two at a time: most of a test's time is the build of its kernels, which takes one core.
 log=$build/ctest.log
-ctest --output-on-failure --no-tests=error --parallel 2 2>&1 | tee "$log"
+ctest --output-on-failure --no-tests=error --parallel 2 "${left_out[@]}" 2>&1 | tee "$log"
 
 grep -A1 ': Skipped$' Testing/Temporary/LastTest.log || echo "tests: no case was skipped"
+if ((${#left_out[@]} > 0)); then
+    echo "tests: $(ctest -N --label-regex '^slow$' | sed -n 's/^Total Tests: //p') slow ones are left to --all"
+fi
 for test in $on_device; do
     grep -Eq "Test +#[0-9]+: $test \.+ +Passed" "$log" && exit 0
 done

@@ -72,16 +72,18 @@ kernel void atlas_volume(
         uint from = params.first +
                     VOLUME_DIRECTIONS *
                         ((cell.z * params.rows + cell.y) * params.columns + cell.x);
-        arrives[tap] = 0.0f;
+        float4 size = (float4)(0.0f);
         for (int c = 0; c < 3; ++c) {
             global const float* values = light + c * params.light_stride + from;
-            float sum = 0.0f;
-            for (int i = 0; i < VOLUME_DIRECTIONS; ++i) {
-                sum = fma(weights[i], values[i], sum);
-                arrives[tap] += fabs(values[i]);
+            float4 sum = (float4)(0.0f);
+            for (int i = 0; i < VOLUME_DIRECTIONS / 4; ++i) {
+                float4 value = vload4(i, values);
+                sum = fma(vload4(i, weights), value, sum);
+                size += fabs(value);
             }
-            lit[tap][c] = fmax(sum, 0.0f);
+            lit[tap][c] = fmax((sum.x + sum.y) + (sum.z + sum.w), 0.0f);
         }
+        arrives[tap] = (size.x + size.y) + (size.z + size.w);
         mean = fma(share[tap], arrives[tap], mean);
     }
     float sum[3] = {0.0f, 0.0f, 0.0f}, all = 0.0f;
