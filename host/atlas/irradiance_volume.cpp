@@ -21,7 +21,7 @@ glm::ivec3 cubes(const glm::dvec3& size, double spacing) {
 }
 
 double points(const glm::dvec3& size, double spacing) {
-    const glm::dvec3 count = glm::max(glm::ceil(size / spacing), 1.0);
+    const glm::dvec3 count(cubes(size, spacing));
     return count.x * count.y * count.z;
 }
 

@@ -21,11 +21,12 @@ Bounds box_of_motion(const Scene& scene) {
 
 StillBake make_still_bake(const Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
                           int most_points) {
-    if (!moves(scene)) throw InputError("still-bake: nothing of the scene moves");
     StillBake out;
     out.still = still_scene(scene);
     if (out.still.triangles.empty())
         throw InputError("still-bake: nothing of the scene stands still");
+    if (out.still.triangles.size() == scene.triangles.size())
+        throw InputError("still-bake: nothing of the scene moves");
     out.layout = make_bake_layout(out.still.scene, vpls, atlas);
     out.whole = atlas_of_whole(out.layout.atlas, out.still.triangles, scene.triangles.size());
     out.volume = make_irradiance_volume(box_of_motion(scene), most_points);

@@ -54,11 +54,9 @@ void need_room(const std::string& command, const cl::Device& device, const VplOp
 
 namespace {
 
-void warn(Scene& scene, const AtlasLayout& atlas, bool quiet) {
-    for (const std::string& warning : atlas.warnings) {
-        notice(quiet, "warning: " + warning);
-        scene.warnings.push_back(warning);
-    }
+void warn(Scene& scene, const std::string& warning, bool quiet) {
+    notice(quiet, "warning: " + warning);
+    scene.warnings.push_back(warning);
 }
 
 }  // namespace
@@ -68,7 +66,7 @@ BakeLayout lay_out(Scene& scene, const VplOptions& vpls, const AtlasOptions& atl
     BakeLayout out;
     static_cast<clgi::BakeLayout&>(out) = make_bake_layout(scene, vpls, atlas);
     out.seconds = watch.seconds();
-    warn(scene, out.atlas, quiet);
+    for (const std::string& warning : out.atlas.warnings) warn(scene, warning, quiet);
     return out;
 }
 
@@ -78,12 +76,9 @@ StillBake lay_out_still(Scene& scene, const VplOptions& vpls, const AtlasOptions
     StillBake out;
     static_cast<clgi::StillBake&>(out) = make_still_bake(scene, vpls, atlas);
     out.seconds = watch.seconds();
-    warn(scene, out.whole, quiet);
-    if (out.still.moving_emission) {
-        const std::string warning = "what moves emits, but lights nothing indirectly";
-        notice(quiet, "warning: " + warning);
-        scene.warnings.push_back(warning);
-    }
+    for (const std::string& warning : out.whole.warnings) warn(scene, warning, quiet);
+    if (out.still.moving_emission)
+        warn(scene, "what moves emits, but lights nothing indirectly", quiet);
     return out;
 }
 

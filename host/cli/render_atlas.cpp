@@ -25,47 +25,32 @@ void check(const RenderFlags& flags, const Scene& scene) {
     check_camera("render", flags.camera, scene);
 }
 
-// The bake of a scene that stands still, or of what stands still of it and what lights the rest.
-class Bake {
-public:
-    Bake(const RenderFlags& flags, Scene& scene, const Session& session, bool quiet)
-        : moves_(flags.fps && moves(scene)) {
+// What is baked: the scene, or what stands still of it, with what lights the rest.
+struct Bake {
+    Bake(const RenderFlags& flags, Scene& scene, const Session& session) {
         const AtlasFlags& atlas = flags.atlas;
-        if (moves_)
-            apart_ = lay_out_still(scene, atlas.vpls, atlas.layout, quiet);
-        else
-            layout_ = lay_out(scene, atlas.vpls, atlas.layout, quiet);
-        if (moves_) still_.emplace(session.context, session.device, apart_.still.scene);
-        apart_.still.scene = Scene();  // it is on the device
+        const bool quiet = flags.device.quiet;
+        if (!flags.fps || !moves(scene)) {
+            layout = lay_out(scene, atlas.vpls, atlas.layout, quiet);
+            return;
+        }
+        StillBake apart = lay_out_still(scene, atlas.vpls, atlas.layout, quiet);
+        still.emplace(session.context, session.device, apart.still.scene);
+        static_cast<clgi::BakeLayout&>(layout) = std::move(apart.layout);
+        layout.seconds = apart.seconds;
+        whole = std::move(apart.whole);
+        volume = apart.volume;
+        points = points_of(apart.volume);
     }
 
-    BakeSummary summary() const {
-        const AtlasLayout& atlas = shown();
-        return {layout().vpls.vpls.size(), atlas.texels.size(), atlas.pages, atlas.size,
-                1e3 * (moves_ ? apart_.seconds : layout_.seconds)};
-    }
+    const AtlasLayout& shown() const { return whole ? *whole : layout.atlas; }
+    std::size_t bytes() const { return still ? still->bytes() : 0; }
 
-    const clgi::BakeLayout& layout() const { return moves_ ? apart_.layout : layout_; }
-    const AtlasLayout& shown() const { return moves_ ? apart_.whole : layout_.atlas; }
-    std::optional<IrradianceVolume> volume() const {
-        return moves_ ? std::optional(apart_.volume) : std::nullopt;
-    }
-    std::vector<BakePoint> points() const {
-        return moves_ ? points_of(apart_.volume) : std::vector<BakePoint>();
-    }
-
-    // That is baked; whole: that is shown.
-    const DeviceScene& scene(const DeviceScene& whole) const { return moves_ ? *still_ : whole; }
-    void lights_changed(const DeviceScene& whole) {
-        if (moves_) still_->set_lights(whole.lights());
-    }
-    std::size_t bytes() const { return moves_ ? still_->bytes() : 0; }
-
-private:
-    bool moves_;
-    BakeLayout layout_;
-    StillBake apart_;
-    std::optional<DeviceScene> still_;
+    BakeLayout layout;
+    std::optional<DeviceScene> still;  // none: the scene itself is baked, and so for the others
+    std::optional<AtlasLayout> whole;
+    std::optional<IrradianceVolume> volume;
+    std::vector<BakePoint> points;
 };
 
 }  // namespace
@@ -81,16 +66,18 @@ void run_atlas(RenderFlags flags) {
     const Session session = session_of(flags);
     need_room("render", session.device, atlas_flags.vpls);
 
-    Bake baked(flags, scene, session, quiet);
-    BakeSummary bake = baked.summary();
+    Bake baked(flags, scene, session);
+    const AtlasLayout& atlas = baked.shown();
+    BakeSummary bake{baked.layout.vpls.vpls.size(), atlas.texels.size(), atlas.pages, atlas.size,
+                     1e3 * baked.layout.seconds};
     const Stopwatch build;
     DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
     atlas_flags.bake.build = build_of(flags.device);
-    LightAtlasSolver solver(programs, session.queue, baked.scene(device_scene), baked.layout().vpls,
-                            baked.layout().atlas, atlas_flags.bake, baked.points());
-    LightAtlasView view(programs, session.queue, device_scene, baked.shown(),
-                        picture_options(flags), baked.volume());
+    LightAtlasSolver solver(programs, session.queue, baked.still ? *baked.still : device_scene,
+                            baked.layout.vpls, baked.layout.atlas, atlas_flags.bake, baked.points);
+    LightAtlasView view(programs, session.queue, device_scene, atlas, picture_options(flags),
+                        baked.volume);
     Motion motion(flags, scene, device_scene, session.queue);
     RenderRecord record;
     record.build_ms = 1e3 * build.seconds();
@@ -107,7 +94,7 @@ void run_atlas(RenderFlags flags) {
         const Stopwatch frame_watch;
         const Motion::Step step = motion.at(frame);
         if (step.lights) {  // the frame's time has the change of the bake in it
-            baked.lights_changed(device_scene);
+            if (baked.still) baked.still->set_lights(device_scene.lights());
             solver.lights_changed();
             view.lights_changed();
             if (!solver.update(least_change, [](double) { return !interrupted(); }))

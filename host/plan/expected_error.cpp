@@ -52,8 +52,8 @@ std::optional<double> expected_error(const Plan& plan, const Rung& rung) {
     if (plan.method == Method::direct && has_sky(plan)) return std::nullopt;
     const std::optional<double> indirect = indirect_error(plan, rung);
     if (!indirect) return std::nullopt;
-    const bool apart = plan.method == Method::light_atlas && bakes_still(plan);
-    const double out = std::hypot(*indirect, direct_error(plan), apart ? moving_error : 0.0);
+    const double out =
+        std::hypot(*indirect, direct_error(plan), is_composed(plan) ? moving_error : 0.0);
     if (!std::isfinite(out)) return std::nullopt;  // the probe saw no light
     return out;
 }
@@ -71,9 +71,8 @@ std::string ground_of_error(const Plan& plan) {
                                : plan.probe             ? "direct light by a probe"
                                                         : "direct light as in closed rooms";
     if (!plan.on(Effect::first_bounce)) return direct;
-    const bool apart = plan.method == Method::light_atlas && bakes_still(plan);
     return "indirect light as measured in " + kind + " scenes, " +
-           (apart ? "of what moves as in an office, " : "") + direct;
+           (is_composed(plan) ? "of what moves as in an office, " : "") + direct;
 }
 
 }  // namespace clgi

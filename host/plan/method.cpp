@@ -105,9 +105,8 @@ void choose_method(const cl::Device& device, Plan& plan) {
     const Candidate best = choose();
 
     plan = best.plan;
-    plan.why = !wish.method && plan.method == Method::light_atlas && bakes_still(plan)
-                   ? "little moves through light that is baked"
-                   : choice.why;
+    plan.why =
+        !wish.method && is_composed(plan) ? "little moves through light that is baked" : choice.why;
     if (!leaves_out_by_wish(plan)) plan.error = best.error;
     if (plan.error) plan.error_ground = ground_of_error(plan);
     plan.meets_time = !wish.seconds || quick(best);

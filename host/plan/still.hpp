@@ -11,4 +11,9 @@ inline bool bakes_still(const Plan& plan) {
     return plan.wish.animated && plan.on(Effect::moving_geometry) && plan.facts.motion.geometry;
 }
 
+// Whether the plan does so.
+inline bool is_composed(const Plan& plan) {
+    return plan.method == Method::light_atlas && bakes_still(plan);
+}
+
 }  // namespace clgi

@@ -239,8 +239,8 @@ void DeviceScene::set_light(std::size_t index, const Light& light) {
 
 void DeviceScene::set_lights(const std::vector<Light>& lights) {
     if (lights.size() != lights_.size())
-        throw Error("scene: " + std::to_string(lights.size()) + " lights were to be set, there are " +
-                    std::to_string(lights_.size()));
+        throw Error("scene: " + std::to_string(lights.size()) +
+                    " lights were to be set, there are " + std::to_string(lights_.size()));
     for (std::size_t i = 0; i < lights.size(); ++i) validate_light(lights[i], i);
     lights_ = lights;
 }

@@ -82,9 +82,10 @@ void LightAtlasSolver::State::find_reach() {
             return;
         }
     }
-    record("atlas.nearest", b.receiver_count, [&](const WaitList& wait) {
-        return atlas.nearest(queue, fill_params(0, b.sites.site_count), b.sites, b.texels.planes,
-                             b.reach, wait);
+    FillParams texels = fill_params(0, b.sites.site_count);
+    texels.texel_count = b.texel_count;
+    record("atlas.nearest", b.texel_count, [&](const WaitList& wait) {
+        return atlas.nearest(queue, texels, b.sites, b.texels.planes, b.reach, wait);
     });
 }
 

@@ -1,5 +1,5 @@
-// All that the host lays out for a light atlas of a scene in which things move: the atlas is of what
-// stands still, and an irradiance volume lights what moves through it.
+// All that the host lays out for a light atlas of a scene in which things move: the atlas is of
+// what stands still, and an irradiance volume lights what moves through it.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -12,11 +12,11 @@ namespace clgi {
 
 constexpr int most_volume_points = 512;
 
-// For a LightAtlasSolver of `still` with `layout` and points_of(volume), and a LightAtlasView of the
-// whole scene with `whole` and `volume`.
+// For a LightAtlasSolver of `still` with `layout` and points_of(volume), and a LightAtlasView of
+// the whole scene with `whole` and `volume`.
 //
-// Light counts once: direct light, with the shadows of all that moves, is the view's; indirect light
-// of what stands still is the atlas's, of what moves the volume's. What moves casts no indirect
+// Light counts once: direct light, with the shadows of all that moves, is the view's; indirect
+// light of what stands still is the atlas's, of what moves the volume's. What moves casts no indirect
 // shadow, and reflects and emits nothing onto the rest; where it hides itself its indirect light is
 // too much.
 struct StillBake {

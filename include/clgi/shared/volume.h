@@ -1,9 +1,9 @@
 // Irradiance at the points of a grid in space, in twelve directions each, and what it comes to at
 // any place and for any normal.
 //
-// The directions are the corners of an icosahedron, over which the mean of every polynomial of
-// up to degree 5 is its mean over the sphere. Irradiance is all but a polynomial of degree 2 of the normal
-// [Ramamoorthi01], so its projection onto spherical harmonics of three bands is
+// The directions are the corners of an icosahedron, over which the mean of every polynomial of up
+// to degree 5 is its mean over the sphere. Irradiance is all but a polynomial of degree 2 of the
+// normal [Ramamoorthi01], so its projection onto spherical harmonics of three bands is
 //
 //   E(n) = sum_i w(n . n_i) E(n_i),   w(c) = (1 + 3 c + 5 (3 c^2 - 1) / 2) / 12
 //

@@ -87,10 +87,11 @@ struct LightAtlasStatus {
 };
 
 // A bake that was cancelled, as plain data: what was measured, or, where that is not kept, the light.
-// Light is exposed. It belongs to one scene, its layouts, its points and its options; the same device carries it
-// on to the same bits.
+// Light is exposed. It belongs to one scene, its layouts, its points and its options; the same
+// device carries it on to the same bits.
 struct LightAtlasState {
-    std::uint32_t vpls = 0, texels = 0;  // with points
+    std::uint32_t vpls = 0;
+    std::uint32_t texels = 0;           // and points
     std::uint32_t measured_vpls = 0;    // the first so many have their rows, seen and balance
     std::uint32_t filled_vpls = 0;      // or: the first so many have lit the texels
     std::uint32_t shots = 0;            // as in LightAtlasStatus
