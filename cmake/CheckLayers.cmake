@@ -21,86 +21,124 @@ function(read_includes path)
     set(includes "${names}" PARENT_SCOPE)
 endfunction()
 
-# forbid(pattern reason glob...): no file that matches a glob includes what matches pattern.
-macro(forbid pattern reason)
-    set(paths "")
-    foreach(glob IN ITEMS ${ARGN})
-        if(glob MATCHES "\\*")
-            file(GLOB_RECURSE found RELATIVE "${SOURCE_DIR}" "${glob}")
-        else()  # one file, not all of that name
-            file(RELATIVE_PATH found "${SOURCE_DIR}" "${glob}")
+# ---- modules: what each may include -----------------------------------------------------------
+set(methods second_order light_atlas transfer antiradiance)
+set(reach_core core)
+set(reach_scene core scene)
+set(reach_shading core scene shading)
+foreach(method IN LISTS methods)
+    set(reach_${method} core scene shading ${method})
+endforeach()
+set(reach_plan core scene shading ${methods} plan)
+set(reach_clgi ${reach_plan})
+set(reach_io core scene io)
+set(reach_gl core scene shading gl)
+set(reach_mesh core scene mesh)
+set(reach_reference core scene reference)  # ground truth shares no transport code with the library
+set(reach_lab ${reach_plan} io mesh reference lab)
+set(reach_program ${reach_lab} gl program clgi)
+
+# Every public header of the library, by module; those of io, gl and mesh lie in their own folders.
+set(headers_core error opencl device programs advanced/export advanced/interval
+    advanced/kernel_source advanced/kit/buffer_table advanced/kit/progress advanced/kit/recorder
+    advanced/pass advanced/planes advanced/slice passes/parallel advanced/sh shared/base
+    shared/gbuffer shared/halton shared/image shared/parallel shared/planes)
+set(headers_scene scene device_scene scene_animator scene_mover procedural advanced/adjacency
+    advanced/animation advanced/still_scene passes/scene shared/scene)
+set(headers_shading advanced/emitters advanced/kit/draw advanced/kit/emitters advanced/kit/picture
+    passes/gbuffer passes/image passes/import passes/lights shared/lights)
+set(headers_second_order second_order)
+set(headers_light_atlas light_atlas advanced/atlas_blocks advanced/atlas_layout advanced/atlas_light
+    advanced/bake_layout advanced/irradiance_volume advanced/light_atlas_view advanced/patches
+    advanced/still_bake advanced/vpl_layout passes/atlas passes/vpl shared/atlas shared/volume
+    shared/vpl)
+set(headers_transfer dynamic_transfer advanced/blocker_levels advanced/dynamic_transfer_view
+    advanced/environment_light advanced/mask_weights advanced/visible_sets passes/masks
+    passes/receivers passes/transfer shared/masks shared/receivers shared/transfer)
+set(headers_antiradiance antiradiance advanced/antiradiance_view advanced/direction_bins
+    advanced/elements advanced/links advanced/moving_elements passes/antiradiance
+    passes/antiradiance_gloss passes/moving_elements shared/antiradiance shared/moving_elements)
+set(headers_plan plan renderer advanced/effects advanced/facts advanced/tuning)
+set(headers_reference reference)
+set(headers_clgi clgi)  # the umbrella
+
+set(library core scene shading ${methods} plan)
+foreach(module IN ITEMS ${library} reference clgi)
+    foreach(header IN LISTS headers_${module})
+        set(module_of_${header} ${module})
+    endforeach()
+endforeach()
+
+# module_of(name out): of an include like clgi/passes/vpl.hpp or methods/light_atlas/sites.hpp, or
+# of a path below host/; empty for what is not clgi's.
+function(module_of name out)
+    set(module "")
+    if(name MATCHES "^clgi/(io|gl|mesh)/")
+        set(module ${CMAKE_MATCH_1})
+    elseif(name MATCHES "^clgi/(.+)\\.(hpp|h)$")
+        set(module "${module_of_${CMAKE_MATCH_1}}")
+        if(module STREQUAL "")
+            set(module unknown)
         endif()
-        list(APPEND paths ${found})
-    endforeach()
-    foreach(path IN LISTS paths)
-        read_includes("${SOURCE_DIR}/${path}")
-        foreach(name IN LISTS includes)
-            if(name MATCHES "${pattern}")
-                fault("${path} includes ${name}: ${reason}")
+    elseif(name MATCHES "^methods/([a-z_]+)/")
+        set(module ${CMAKE_MATCH_1})
+    elseif(name MATCHES "^(core|scene|shading|plan|io|gl|mesh|reference|lab|program)/")
+        set(module ${CMAKE_MATCH_1})
+    endif()
+    set(${out} "${module}" PARENT_SCOPE)
+endfunction()
+
+file(GLOB_RECURSE private RELATIVE "${SOURCE_DIR}/host" "${SOURCE_DIR}/host/*.?pp")
+file(GLOB_RECURSE public RELATIVE "${SOURCE_DIR}/include" "${SOURCE_DIR}/include/clgi/*.hpp"
+     "${SOURCE_DIR}/include/clgi/*.h")
+foreach(file IN LISTS private public)
+    module_of("${file}" module)
+    if(module STREQUAL "" OR module STREQUAL "unknown")
+        fault("${file} is in no known module")
+        continue()
+    endif()
+    set(path "${SOURCE_DIR}/include/${file}")
+    if(NOT file MATCHES "^clgi/")
+        set(path "${SOURCE_DIR}/host/${file}")
+    endif()
+    read_includes("${path}")
+    foreach(name IN LISTS includes)
+        module_of("${name}" other)
+        if(NOT other STREQUAL "" AND NOT other IN_LIST reach_${module})
+            fault("${file} includes ${name}: module ${module} may use (${reach_${module}})")
+        endif()
+        # Passes are what everything else stands on.
+        if(file MATCHES "^clgi/passes/|passes\\.cpp$" AND name MATCHES "/kit/")
+            fault("${file} includes ${name}: passes know no kit")
+        endif()
+        # Other people's libraries, each where it belongs.
+        if(module IN_LIST library OR file MATCHES "^clgi/")
+            if(name MATCHES "tiny_gltf|^stb_image|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^meshoptimizer|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/")
+                fault("${file} includes ${name}: the library stands on OpenCL and GLM alone")
             endif()
-        endforeach()
+        endif()
+        if(name MATCHES "stb_rect_pack" AND NOT file STREQUAL "methods/light_atlas/pack.cpp")
+            fault("${file} includes ${name}: only methods/light_atlas/pack.cpp packs")
+        endif()
+        if(name MATCHES "tiny_gltf" AND NOT module STREQUAL "io")
+            fault("${file} includes ${name}: glTF is io's business")
+        endif()
+        if(name MATCHES "^(GL|EGL|GLES[0-9]?|GLFW|X11)/" OR (name MATCHES "^epoxy/" AND NOT module STREQUAL "gl"))
+            fault("${file} includes ${name}: OpenGL and EGL are seen through epoxy, in gl alone")
+        endif()
+        if(module STREQUAL "gl" AND name MATCHES "^(OpenEXR|nlohmann|CLI|fmt)/|^png\\.h")
+            fault("${file} includes ${name}: gl stands on the library alone")
+        endif()
+        if(name MATCHES "^meshoptimizer" AND NOT module STREQUAL "mesh")
+            fault("${file} includes ${name}: meshoptimizer is mesh's business")
+        endif()
+        if(module STREQUAL "reference" AND name MATCHES "^(core/|clgi/device)")
+            fault("${file} includes ${name}: the path tracer shares no code with devices")
+        endif()
     endforeach()
-endmacro()
-
-# ---- what the library is made of --------------------------------------------------------------
-set(library "")
-foreach(room IN ITEMS opencl parallel scene gbuffer lights image vpl atlas antiradiance transfer plan kit solvers)
-    list(APPEND library "${SOURCE_DIR}/host/${room}/*.?pp")
 endforeach()
-set(public "${SOURCE_DIR}/include/clgi/*.hpp" "${SOURCE_DIR}/include/clgi/*.h")
-set(core ${library} "${SOURCE_DIR}/include/clgi/shared/*.h")
-foreach(folder IN ITEMS passes kit solvers plan)
-    list(APPEND core "${SOURCE_DIR}/include/clgi/${folder}/*.hpp")
-endforeach()
-file(GLOB top RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/include/clgi/*.hpp")
-list(TRANSFORM top PREPEND "${SOURCE_DIR}/")
-list(APPEND core ${top})
 
-forbid("^(clgi/)?(io|cli|report|reference|gl|mesh)/" "the library knows no files, program or window"
-       ${core})
-forbid("tiny_gltf|^stb_image|OpenEXR/|^Im(f|ath)|^png\\.h|nlohmann/|embree|^meshoptimizer|^(GL|EGL|GLES|GLFW|epoxy)/|^CLI/|^fmt/"
-       "the library stands on OpenCL and GLM alone" ${public} ${library})
-
-# A header without a library to it, compiled into one file.
-file(GLOB packless "${SOURCE_DIR}/host/*/*.?pp")
-list(REMOVE_ITEM packless "${SOURCE_DIR}/host/atlas/pack.cpp")
-forbid("stb_rect_pack" "only the atlas packs, in host/atlas/pack.cpp" ${public} ${packless})
-
-forbid("tiny_gltf" "glTF is io's business" "${SOURCE_DIR}/host/cli/*" "${SOURCE_DIR}/host/report/*"
-       "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/host/gl/*")
-
-# OpenGL: the library below it, OpenGL itself through epoxy alone, and nobody but the program above.
-set(gl "${SOURCE_DIR}/host/gl/*.?pp" "${SOURCE_DIR}/include/clgi/gl/*.hpp")
-forbid("^(clgi/)?(io|cli|report|reference)/|^clgi/reference\\.hpp|^(OpenEXR|nlohmann|CLI|fmt)/|^png\\.h"
-       "gl stands on the library alone" ${gl})
-forbid("^(GL|EGL|GLES[0-9]?|GLFW|X11)/" "OpenGL and EGL are seen through epoxy" ${gl})
-forbid("^(clgi/)?gl/|^epoxy/" "only the program uses gl"
-       "${SOURCE_DIR}/host/io/*" "${SOURCE_DIR}/host/report/*" "${SOURCE_DIR}/host/reference/*")
-
-# Meshes: the library below, and meshoptimizer nowhere else.
-forbid("^(clgi/)?(io|cli|report|reference|gl)/|^clgi/reference\\.hpp" "mesh stands on the library alone"
-       "${SOURCE_DIR}/host/mesh/*" "${SOURCE_DIR}/include/clgi/mesh/*.hpp")
-forbid("^meshoptimizer" "meshoptimizer is mesh's business" "${SOURCE_DIR}/host/io/*"
-       "${SOURCE_DIR}/host/gl/*" "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/host/report/*"
-       "${SOURCE_DIR}/host/cli/*")
-
-# Ground truth is no use where it shares a mistake with what it judges.
-forbid("^(clgi/)?(passes|solvers|shared|gbuffer|lights|image|opencl|io|report|cli)/|^clgi/(clgi|device_scene|emitters|device|pass)\\.hpp"
-       "the path tracer shares no transport code with the library"
-       "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/include/clgi/reference.hpp")
-
-# Passes and what they stand on know no solver, by name or through the umbrella header.
-set(below ${core})
-list(FILTER below EXCLUDE REGEX "/(solvers|plan)/|clgi/clgi\\.hpp$")
-forbid("solvers/|^clgi/clgi\\.hpp" "passes know no solver" ${below})
-list(FILTER below EXCLUDE REGEX "/kit/|clgi/reference\\.hpp$")
-forbid("^(clgi/)?kit/" "passes know no kit" ${below})
-set(planless ${core})
-list(FILTER planless EXCLUDE REGEX "/plan/|clgi/clgi\\.hpp$")
-forbid("^(clgi/)?plan/" "nothing of the library knows the plan" ${planless} "${SOURCE_DIR}/host/io/*"
-       "${SOURCE_DIR}/host/reference/*" "${SOURCE_DIR}/host/gl/*" "${SOURCE_DIR}/host/mesh/*")
-
-# ---- rooms ------------------------------------------------------------------------------------
+# ---- kernels: folders, and what each may include ------------------------------------------------
 set(upstream_parallel "")
 set(upstream_scene parallel)
 set(upstream_gbuffer parallel scene)
@@ -109,32 +147,9 @@ foreach(transport IN ITEMS image vpl antiradiance transfer)
     set(upstream_${transport} parallel gbuffer lights scene)
 endforeach()
 set(upstream_atlas parallel vpl gbuffer lights scene)
-set(rooms parallel scene gbuffer lights image vpl atlas antiradiance transfer)
+set(folders parallel scene gbuffer lights image vpl atlas antiradiance transfer)
+list(JOIN folders "|" folder_pattern)
 
-# check_room(path room): path, a file of room, includes its own room and those upstream only.
-macro(check_room path room)
-    read_includes("${SOURCE_DIR}/${path}")
-    foreach(name IN LISTS includes)
-        if(name MATCHES "^(clgi/passes/|clgi/shared/)?(${room_pattern})(/|\\.)")
-            set(other "${CMAKE_MATCH_2}")
-            if(NOT other STREQUAL "${room}" AND NOT other IN_LIST upstream_${room})
-                fault("${path} includes ${name}: room ${room} may use (${upstream_${room}})")
-            endif()
-        endif()
-    endforeach()
-endmacro()
-list(JOIN rooms "|" room_pattern)
-
-foreach(room IN LISTS rooms)
-    file(GLOB paths RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/kernels/${room}/*"
-         "${SOURCE_DIR}/host/${room}/*" "${SOURCE_DIR}/include/clgi/passes/${room}.hpp"
-         "${SOURCE_DIR}/include/clgi/shared/${room}.h")
-    foreach(path IN LISTS paths)
-        check_room("${path}" "${room}")
-    endforeach()
-endforeach()
-
-# ---- kernels ----------------------------------------------------------------------------------
 file(GLOB_RECURSE paths RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/kernels/*"
      "${SOURCE_DIR}/include/clgi/shared/*")
 foreach(path IN LISTS paths)
@@ -143,8 +158,12 @@ foreach(path IN LISTS paths)
     if(text MATCHES "[^\t\n -~]")
         fault("${path} is not plain ASCII")
     endif()
-    if(path MATCHES "^kernels/([^/]+)/" AND NOT CMAKE_MATCH_1 IN_LIST rooms)
-        fault("${path} is in no known room")
+    set(folder "")
+    if(path MATCHES "^kernels/([^/]+)/|^include/clgi/shared/([a-z]+)\\.h$")
+        set(folder "${CMAKE_MATCH_1}${CMAKE_MATCH_2}")
+    endif()
+    if(path MATCHES "^kernels/[^/]+/" AND NOT folder IN_LIST folders)
+        fault("${path} is in no known folder")
     endif()
     if(path MATCHES "\\.cl$")
         string(REGEX MATCH "^(//[^\n]*\n)+" header "${text}")
@@ -162,6 +181,12 @@ foreach(path IN LISTS paths)
         if(NOT from_system AND NOT name MATCHES "^clgi/shared/" AND
            (path MATCHES "^include/" OR NOT EXISTS "${SOURCE_DIR}/kernels/${name}"))
             fault("${path} includes ${name}: neither clgi/shared/ nor kernels/")
+        endif()
+        if(folder IN_LIST folders AND name MATCHES "^(clgi/shared/)?(${folder_pattern})(/|\\.)")
+            set(other "${CMAKE_MATCH_2}")
+            if(NOT other STREQUAL "${folder}" AND NOT other IN_LIST upstream_${folder})
+                fault("${path} includes ${name}: ${folder} may use (${upstream_${folder}})")
+            endif()
         endif()
     endforeach()
 endforeach()

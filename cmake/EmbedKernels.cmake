@@ -1,5 +1,5 @@
 # clgi_embed_kernels(target kernel...): flattens each kernels/<kernel>.cl into the build tree and
-# compiles the same bytes into target as a table that host/opencl/embedded.hpp declares.
+# compiles the same bytes into target as a table that host/core/opencl/embedded.hpp declares.
 
 set(CLGI_CMAKE_DIR "${CMAKE_CURRENT_LIST_DIR}")
 

@@ -4,7 +4,7 @@
 #   cmake -DKERNELS="a/b;c/d" -DFOLDER=... -DOUTPUT=... -P EmbedTable.cmake
 
 cmake_minimum_required(VERSION 3.22)
-set(text "// Generated from kernels/. Do not edit.\n#include \"opencl/embedded.hpp\"\n\n")
+set(text "// Generated from kernels/. Do not edit.\n#include \"core/opencl/embedded.hpp\"\n\n")
 string(APPEND text "namespace clgi {\n\nconst EmbeddedKernel embedded_kernels[] = {\n")
 foreach(kernel IN LISTS KERNELS)
     file(READ "${FOLDER}/${kernel}.cl" source)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/export.hpp>
+#include <clgi/advanced/export.hpp>
 #include <cstdint>
 #include <vector>
 

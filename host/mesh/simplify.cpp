@@ -4,7 +4,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <clgi/adjacency.hpp>
+#include <clgi/advanced/adjacency.hpp>
 #include <cmath>
 
 #include "mesh/flip_edges.hpp"

@@ -2,14 +2,14 @@
 // packets of 16 (docs/effects.md), scaled by clock, units and lanes of the device.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/plan/plan.hpp>
-#include <clgi/still_bake.hpp>
+#include <clgi/plan.hpp>
+#include <clgi/advanced/still_bake.hpp>
 #include <cmath>
 
 #include "plan/method.hpp"
 #include "plan/sky.hpp"
 #include "plan/still.hpp"
-#include "solvers/ranges.hpp"
+#include "core/kit/ranges.hpp"
 
 namespace clgi {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/plan/effects.hpp>
+#include <clgi/advanced/effects.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/plan/facts.hpp>
+#include <clgi/advanced/facts.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-#include "opencl/timing.hpp"
+#include "core/opencl/timing.hpp"
 #include "plan/local_triangles.hpp"
 #include "plan/parts.hpp"
 #include "plan/proof.hpp"

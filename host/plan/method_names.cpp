@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/plan/plan.hpp>
+#include <clgi/plan.hpp>
 
 namespace clgi {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/moving_elements.hpp>
+#include <clgi/advanced/moving_elements.hpp>
 
 #include "plan/parts.hpp"
 #include "scene/moving_parts.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/plan/facts.hpp>
+#include <clgi/advanced/facts.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <vector>

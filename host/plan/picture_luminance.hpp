@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/export.hpp>
-#include <clgi/solvers/second_order.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/second_order.hpp>
 #include <vector>
 
 namespace clgi {

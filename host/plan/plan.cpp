@@ -1,6 +1,6 @@
 // From facts and a wish to a plan: effects, then the method and its settings, then what each costs.
 // SPDX-License-Identifier: MIT
-#include <clgi/plan/plan.hpp>
+#include <clgi/plan.hpp>
 
 #include <algorithm>
 #include <clgi/error.hpp>

@@ -2,7 +2,7 @@
 // off are not in it, so no kernel, buffer or pass for them is made.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/plan/plan.hpp>
+#include <clgi/plan.hpp>
 
 #include "plan/one_colour.hpp"
 #include "scene/texture_mean.hpp"

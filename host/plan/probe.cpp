@@ -2,12 +2,12 @@
 #include "plan/probe.hpp"
 
 #include <algorithm>
-#include <clgi/solvers/second_order.hpp>
+#include <clgi/second_order.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "opencl/timing.hpp"
+#include "core/opencl/timing.hpp"
 #include "plan/picture_luminance.hpp"
 #include "scene/luminance.hpp"
 

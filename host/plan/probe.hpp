@@ -3,8 +3,8 @@
 #pragma once
 
 #include <clgi/device_scene.hpp>
-#include <clgi/plan/effects.hpp>
-#include <clgi/plan/plan.hpp>
+#include <clgi/advanced/effects.hpp>
+#include <clgi/plan.hpp>
 #include <clgi/programs.hpp>
 
 namespace clgi {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/plan/renderer.hpp>
-#include <clgi/plan/tuning.hpp>
-#include <clgi/solvers/antiradiance_view.hpp>
-#include <clgi/solvers/light_atlas_view.hpp>
-#include <clgi/still_bake.hpp>
+#include <clgi/renderer.hpp>
+#include <clgi/advanced/tuning.hpp>
+#include <clgi/advanced/antiradiance_view.hpp>
+#include <clgi/advanced/light_atlas_view.hpp>
+#include <clgi/advanced/still_bake.hpp>
 
 #include "plan/still.hpp"
 

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/plan/plan.hpp>
+#include <clgi/plan.hpp>
 #include <vector>
 
 namespace clgi {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <clgi/device_scene.hpp>
-#include <clgi/export.hpp>
+#include <clgi/advanced/export.hpp>
 #include <vector>
 
 namespace clgi {

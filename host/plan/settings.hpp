@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/plan/plan.hpp>
+#include <clgi/plan.hpp>
 
 #include "plan/rungs.hpp"
 

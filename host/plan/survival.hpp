@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <clgi/plan/facts.hpp>
+#include <clgi/advanced/facts.hpp>
 
 namespace clgi {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "opencl/timing.hpp"
+#include "core/opencl/timing.hpp"
 #include "plan/picture_luminance.hpp"
 #include "plan/replicate_mean.hpp"
 

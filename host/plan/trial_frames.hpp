@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/kit/progress.hpp>
-#include <clgi/solvers/second_order.hpp>
+#include <clgi/advanced/kit/progress.hpp>
+#include <clgi/second_order.hpp>
 #include <vector>
 
 #include "plan/tuning_models.hpp"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/error.hpp>
-#include <clgi/plan/tuning.hpp>
+#include <clgi/advanced/tuning.hpp>
 #include <cmath>
 
-#include "opencl/timing.hpp"
+#include "core/opencl/timing.hpp"
 #include "plan/trial_frames.hpp"
 
 namespace clgi {

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/plan/tuning.hpp>
+#include <clgi/advanced/tuning.hpp>
 #include <optional>
 #include <vector>
 

@@ -7,7 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <clgi/error.hpp>
-#include <clgi/sh.hpp>
+#include <clgi/advanced/sh.hpp>
 #include <cmath>
 
 #include "reference/world.hpp"

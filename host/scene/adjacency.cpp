@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/adjacency.hpp>
+#include <clgi/advanced/adjacency.hpp>
 
 #include <algorithm>
 #include <clgi/error.hpp>

@@ -8,7 +8,7 @@
 #include <string>
 #include <tuple>
 
-#include "opencl/error_text.hpp"
+#include "core/opencl/error_text.hpp"
 #include "scene/clusters.hpp"
 #include "scene/emission.hpp"
 #include "scene/environment.hpp"

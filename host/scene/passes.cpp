@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "opencl/launch.hpp"
-#include "opencl/program.hpp"
+#include "core/opencl/launch.hpp"
+#include "core/opencl/program.hpp"
 
 namespace clgi {
 

@@ -1,7 +1,7 @@
 // Curves and nodes at a time. glTF 2.0, appendix C.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/animation.hpp>
+#include <clgi/advanced/animation.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <cstdlib>

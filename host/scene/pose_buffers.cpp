@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "opencl/error_text.hpp"
+#include "core/opencl/error_text.hpp"
 
 namespace clgi {
 namespace {

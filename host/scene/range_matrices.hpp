@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/animation.hpp>
+#include <clgi/advanced/animation.hpp>
 #include <vector>
 
 namespace clgi {

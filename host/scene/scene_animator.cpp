@@ -6,7 +6,7 @@
 #include <deque>
 #include <string>
 
-#include "opencl/error_text.hpp"
+#include "core/opencl/error_text.hpp"
 #include "scene/carried.hpp"
 #include "scene/pose_buffers.hpp"
 #include "scene/range_matrices.hpp"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "opencl/error_text.hpp"
+#include "core/opencl/error_text.hpp"
 #include "scene/local_frame.hpp"
 
 namespace clgi {

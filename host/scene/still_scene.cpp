@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/still_scene.hpp>
+#include <clgi/advanced/still_scene.hpp>
 
 #include "scene/local_frame.hpp"
 #include "scene/moving_parts.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <clgi/export.hpp>
+#include <clgi/advanced/export.hpp>
 #include <clgi/scene.hpp>
 #include <vector>
 

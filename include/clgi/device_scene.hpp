@@ -5,7 +5,7 @@
 #include <clgi/shared/gbuffer.h>
 #include <clgi/shared/scene.h>
 #include <array>
-#include <clgi/export.hpp>
+#include <clgi/advanced/export.hpp>
 #include <clgi/opencl.hpp>
 #include <clgi/scene.hpp>
 #include <memory>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/export.hpp>
+#include <clgi/advanced/export.hpp>
 #include <clgi/opencl.hpp>
-#include <clgi/pass.hpp>
+#include <clgi/advanced/pass.hpp>
 #include <memory>
 #include <string>
 #include <vector>

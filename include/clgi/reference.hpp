@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/export.hpp>
-#include <clgi/kit/progress.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/kit/progress.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <functional>
@@ -101,7 +101,7 @@ public:
                           const Progress& progress = nullptr) const;
 
     // Transfer vectors of diffuse places [places][bands^2], sr: what of the light from everywhere
-    // arrives, cosine included, in spherical harmonics of the world's frame (clgi/sh.hpp). Rays in
+    // arrives, cosine included, in spherical harmonics of the world's frame (clgi/advanced/sh.hpp). Rays in
     // strata x strata directions, jittered in strata of equal cosine. Triangles that touch a place
     // do not block: it sees them edge-on. Place::geometric is not read. Throws Error for bands and
     // strata out of range.

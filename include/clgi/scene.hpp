@@ -5,8 +5,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/animation.hpp>
-#include <clgi/export.hpp>
+#include <clgi/advanced/animation.hpp>
+#include <clgi/advanced/export.hpp>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>

@@ -6,8 +6,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/animation.hpp>
-#include <clgi/export.hpp>
+#include <clgi/advanced/animation.hpp>
+#include <clgi/advanced/export.hpp>
 #include <clgi/scene_mover.hpp>
 #include <memory>
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <clgi/device_scene.hpp>
-#include <clgi/export.hpp>
+#include <clgi/advanced/export.hpp>
 #include <clgi/passes/scene.hpp>
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/export.hpp>
+#include <clgi/advanced/export.hpp>
 #include <clgi/gl/sharing.hpp>
 #include <clgi/passes/import.hpp>
 #include <memory>

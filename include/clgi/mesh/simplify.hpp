@@ -1,9 +1,9 @@
 // Coarse meshes on the vertices of fine ones, for blockers that are far away
-// (clgi/blocker_levels.hpp). On meshoptimizer: the component clgi::mesh.
+// (clgi/advanced/blocker_levels.hpp). On meshoptimizer: the component clgi::mesh.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/export.hpp>
+#include <clgi/advanced/export.hpp>
 #include <clgi/scene.hpp>
 #include <cstddef>
 #include <glm/glm.hpp>
@@ -17,7 +17,7 @@ namespace clgi::mesh {
 // (clgi::posed): the vertices keep their numbers.
 //
 // Vertices in one place are welded first, so seams of UVs and normals do not stop a collapse. Every
-// connected piece (clgi/adjacency.hpp) gets a share in proportion to its triangles, but at least 4,
+// connected piece (clgi/advanced/adjacency.hpp) gets a share in proportion to its triangles, but at least 4,
 // so the result has more triangles than asked for when there are many small pieces. It also has
 // more where every further collapse would turn a triangle over or change how the piece is
 // connected, such as closing a hole or opening a border. A piece with no more triangles than its

@@ -5,9 +5,9 @@
 
 #include <clgi/shared/antiradiance.h>
 #include <clgi/device_scene.hpp>
-#include <clgi/direction_bins.hpp>
-#include <clgi/export.hpp>
-#include <clgi/pass.hpp>
+#include <clgi/advanced/direction_bins.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/pass.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>

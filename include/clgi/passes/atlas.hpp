@@ -6,8 +6,8 @@
 #include <clgi/shared/atlas.h>
 #include <clgi/shared/volume.h>
 #include <clgi/device_scene.hpp>
-#include <clgi/export.hpp>
-#include <clgi/pass.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/pass.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/vpl.hpp>
 #include <clgi/programs.hpp>

@@ -10,9 +10,9 @@
 
 #include <clgi/shared/gbuffer.h>
 #include <clgi/device_scene.hpp>
-#include <clgi/export.hpp>
-#include <clgi/pass.hpp>
-#include <clgi/planes.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/pass.hpp>
+#include <clgi/advanced/planes.hpp>
 #include <clgi/programs.hpp>
 #include <algorithm>
 #include <initializer_list>
@@ -95,7 +95,7 @@ public:
                     const WaitList& wait = {}) const;
 
     // The next four draw the views of a span, at most buffers.views of them, in this order. `draw`
-    // in clgi/kit/draw.hpp calls them for any number of views.
+    // in clgi/advanced/kit/draw.hpp calls them for any number of views.
 
     // Empties the pixels of the views, and their lists.
     cl::Event clear(const cl::CommandQueue& queue, const ViewSpan& span, const cl::Buffer& views,

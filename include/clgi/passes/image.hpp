@@ -5,11 +5,11 @@
 
 #include <clgi/shared/image.h>
 #include <clgi/device_scene.hpp>
-#include <clgi/export.hpp>
-#include <clgi/pass.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/pass.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
-#include <clgi/planes.hpp>
+#include <clgi/advanced/planes.hpp>
 #include <clgi/passes/lights.hpp>
 
 namespace clgi {

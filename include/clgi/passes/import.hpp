@@ -5,7 +5,7 @@
 
 #include <clgi/shared/gbuffer.h>
 #include <clgi/device_scene.hpp>
-#include <clgi/pass.hpp>
+#include <clgi/advanced/pass.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/passes/gbuffer.hpp>
 

@@ -5,8 +5,8 @@
 
 #include <clgi/shared/lights.h>
 #include <clgi/device_scene.hpp>
-#include <clgi/export.hpp>
-#include <clgi/pass.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/pass.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>

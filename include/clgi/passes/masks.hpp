@@ -6,10 +6,10 @@
 
 #include <clgi/shared/masks.h>
 #include <clgi/shared/receivers.h>
-#include <clgi/export.hpp>
-#include <clgi/pass.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/pass.hpp>
 #include <clgi/programs.hpp>
-#include <clgi/sh.hpp>
+#include <clgi/advanced/sh.hpp>
 #include <glm/glm.hpp>
 #include <initializer_list>
 #include <vector>
@@ -32,13 +32,13 @@ struct MaskOptions {
 struct ReceiverBuffers {
     cl::Buffer planes;    // [RECEIVER_PLANES][stride]
     cl::Buffer masks;     // [MASK_WORDS(size)][stride] uint, 1: blocked
-    cl::Buffer transfer;  // [terms][stride] sr, in the world's frame: clgi/sh.hpp
+    cl::Buffer transfer;  // [terms][stride] sr, in the world's frame: clgi/advanced/sh.hpp
     std::uint32_t count = 0;
     std::uint32_t stride = 0;  // plane_stride(count)
 };
 
 // Triangles that block, and for each list of receivers the clusters of them that it looks at. Every
-// receiver may have a list of single triangles besides (clgi/blocker_levels.hpp).
+// receiver may have a list of single triangles besides (clgi/advanced/blocker_levels.hpp).
 struct BlockerBuffers {
     cl::Buffer corners;  // [BLOCKER_PLANES][stride], local frame
     cl::Buffer boxes;    // [stride / BLOCKER_CLUSTER] BlockerBox
@@ -96,7 +96,7 @@ public:
 
     // The triangles of the receivers' clusters and singles (build: visible_near) that are the
     // nearest in some pixel of their masks -> bits of seen [visible_words(triangle_count)][stride]
-    // uint (clgi/visible_sets.hpp). Bits that are set already stay. heights: pixel_heights of the
+    // uint (clgi/advanced/visible_sets.hpp). Bits that are set already stay. heights: pixel_heights of the
     // masks' size; planes are always exact.
     cl::Event visible(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
                       const BlockerBuffers& blockers, const cl::Buffer& heights,

@@ -9,8 +9,8 @@
 #pragma once
 
 #include <clgi/shared/parallel.h>
-#include <clgi/export.hpp>
-#include <clgi/pass.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/pass.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
 

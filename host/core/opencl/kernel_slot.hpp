@@ -1,0 +1,52 @@
+// A kernel that is built when it is first needed, and the lock that its arguments live behind.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <clgi/opencl.hpp>
+#include <clgi/advanced/pass.hpp>
+#include <mutex>
+#include <string>
+
+namespace clgi {
+
+class KernelSlot {
+public:
+    // file: "room/pass" of the embedded kernel. function: its entry point.
+    KernelSlot(const cl::Context& context, const cl::Device& device, std::string file,
+               std::string function, std::string options);
+
+    // Builds once. Throws DeviceError with the compiler's log.
+    void build();
+
+    // calls use(kernel) while no other thread sets arguments of it or enqueues it.
+    template <typename Use>
+    auto with_kernel(Use&& use) {
+        build();
+        const std::lock_guard lock(arguments_);
+        return use(kernel_);
+    }
+
+    // Work-items of a group that the kernel allows at most.
+    std::size_t most_items();
+
+    bool built() const { return built_; }
+
+private:
+    cl::Context context_;
+    cl::Device device_;
+    std::string file_, function_, options_;
+    std::once_flag once_;
+    std::atomic<bool> built_ = false;
+    std::mutex arguments_;
+    cl::Kernel kernel_;
+    std::size_t most_items_ = 1;
+};
+
+// The group that a pass is enqueued with.
+inline std::size_t group_size(const PassKernel& pass) {
+    return std::min(pass.local_size, pass.slot->most_items());
+}
+
+}  // namespace clgi

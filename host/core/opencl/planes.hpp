@@ -1,0 +1,24 @@
+// Checks of what describes planes of pixels, before a kernel is enqueued.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/error.hpp>
+#include <clgi/advanced/pass.hpp>
+#include <string>
+
+namespace clgi {
+
+// Planes are read and written in whole packets, so a plane must hold the last one.
+inline void need_stride(const PassKernel& pass, const char* name, std::size_t stride,
+                        std::size_t points) {
+    if (stride < points || stride % 16 != 0)
+        throw Error(pass.name + ": " + name + " is " + std::to_string(stride) +
+                    ", a multiple of 16 of at least " + std::to_string(points) + " needed");
+}
+
+inline void need_step(const PassKernel& pass, std::uint32_t step) {
+    if (step != 2 && step != 4)
+        throw Error(pass.name + ": step is " + std::to_string(step) + ", 2 or 4 needed");
+}
+
+}  // namespace clgi

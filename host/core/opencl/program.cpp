@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "core/opencl/program.hpp"
+
+#include <algorithm>
+#include <clgi/device.hpp>
+#include <clgi/error.hpp>
+#include <clgi/advanced/kernel_source.hpp>
+#include <future>
+#include <map>
+#include <mutex>
+
+#include "core/opencl/embedded.hpp"
+#include "core/opencl/kernel_slot.hpp"
+
+namespace clgi {
+namespace {
+
+int width_of(const cl::Device& device, const BuildOptions& options) {
+    const int width = options.packet_width > 0 ? options.packet_width : packet_width(device);
+    if (width != 1 && width != 4 && width != 8 && width != 16)
+        throw Error("program: packet_width is " + std::to_string(width) + ", 1, 4, 8 or 16 needed");
+    return width;
+}
+
+// oclgrind's compiler breaks when two threads call it, though OpenCL allows it.
+bool builds_from_threads(const cl::Device& device) {
+    return cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>() !=
+           "Oclgrind";
+}
+
+}  // namespace
+
+std::vector<std::string> kernel_names() {
+    std::vector<std::string> out;
+    for (unsigned i = 0; i < embedded_kernel_count; ++i) out.push_back(embedded_kernels[i].name);
+    return out;
+}
+
+const char* kernel_source(const std::string& name) {
+    for (unsigned i = 0; i < embedded_kernel_count; ++i)
+        if (name == embedded_kernels[i].name) return embedded_kernels[i].source;
+    throw Error("program: no embedded kernel is called " + name);
+}
+
+std::string compiler_options(const cl::Device& device, const BuildOptions& options) {
+    std::string text = "-cl-std=CL1.2 -DCLGI_WIDTH=" + std::to_string(width_of(device, options));
+    if (uses_atomics64(device, options)) text += " -DCLGI_ATOMIC64";
+    if (!options.textures) text += " -DCLGI_NO_TEXTURES";
+    if (options.storage == Storage::half) text += " -DCLGI_HALF";
+    if (options.math == Math::fast) {
+        text += " -cl-fast-relaxed-math";
+    } else if (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) {
+        text += " -cl-fp32-correctly-rounded-divide-sqrt";
+    }
+    return text;
+}
+
+bool uses_atomics64(const cl::Device& device, const BuildOptions& options) {
+    return options.atomics64 && device.getInfo<CL_DEVICE_EXTENSIONS>().find(
+                                    "cl_khr_int64_extended_atomics") != std::string::npos;
+}
+
+PassKernel in_small_groups(PassKernel pass, const cl::Device& device, const BuildOptions& options) {
+    constexpr std::size_t few = 4;
+    if (options.local_size == 0 && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU))
+        pass.local_size = few;
+    return pass;
+}
+
+struct Programs::Store {
+    std::mutex mutex;
+    std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file and options
+};
+
+Programs::Programs(const cl::Context& context, const cl::Device& device)
+    : context_(context), device_(device), store_(std::make_shared<Store>()) {}
+
+PassKernel Programs::kernel(const std::string& room, const std::string& pass,
+                            const BuildOptions& options, const std::string& defines) const {
+    const std::string file = room + "/" + pass;
+    kernel_source(file);  // throws when there is none
+    std::string text = compiler_options(device_, options);
+    if (!defines.empty()) text += " " + defines;
+    PassKernel out;
+    out.name = room + "." + pass;
+    out.local_size = options.local_size > 0 ? options.local_size : 64;
+    out.packet_width = width_of(device_, options);
+    out.storage = options.storage;
+    out.parallel = options.parallel && builds_from_threads(device_);
+    const std::lock_guard lock(store_->mutex);
+    std::shared_ptr<KernelSlot>& slot = store_->slots[file + " " + text];
+    if (!slot)
+        slot = std::make_shared<KernelSlot>(context_, device_, file, room + "_" + pass, text);
+    out.slot = slot;
+    return out;
+}
+
+std::size_t Programs::built() const {
+    const std::lock_guard lock(store_->mutex);
+    return static_cast<std::size_t>(
+        std::count_if(store_->slots.begin(), store_->slots.end(),
+                      [](const auto& entry) { return entry.second->built(); }));
+}
+
+std::vector<std::string> Programs::built_kernels() const {
+    const std::lock_guard lock(store_->mutex);
+    std::vector<std::string> out;
+    for (const auto& [name, slot] : store_->slots)
+        if (slot->built()) out.push_back(name);
+    return out;
+}
+
+void build(const std::vector<PassKernel>& kernels) {
+    std::vector<std::future<void>> builds;
+    for (const PassKernel& kernel : kernels) {
+        if (!kernel.slot || kernel.slot->built()) continue;
+        builds.push_back(std::async(kernel.parallel ? std::launch::async : std::launch::deferred,
+                                    [slot = kernel.slot] { slot->build(); }));
+    }
+    for (auto& build : builds) build.wait();
+    for (auto& build : builds) build.get();
+}
+
+void build_named(const std::vector<PassKernel>& kernels,
+                 std::initializer_list<const char*> passes) {
+    std::vector<PassKernel> wanted;
+    for (const char* pass : passes) {
+        const auto found = std::find_if(kernels.begin(), kernels.end(), [&](const PassKernel& k) {
+            return k.name.substr(k.name.find('.') + 1) == pass;
+        });
+        if (found == kernels.end())
+            throw Error(std::string("build: there is no pass ") + pass + " here");
+        wanted.push_back(*found);
+    }
+    build(wanted);
+}
+
+}  // namespace clgi

@@ -1,0 +1,23 @@
+// Which variants of kernels there are, and how their work is grouped.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/advanced/pass.hpp>
+#include <clgi/programs.hpp>
+#include <initializer_list>
+#include <vector>
+
+namespace clgi {
+
+// The pass with a smaller group, for a kernel whose work-items are few and long, unless the options
+// chose one: on a CPU a group is what one core takes at a time.
+PassKernel in_small_groups(PassKernel pass, const cl::Device& device, const BuildOptions& options);
+
+// Builds those of a room's kernels whose names, without the room's, are given.
+// Throws Error for a name that is not among them.
+void build_named(const std::vector<PassKernel>& kernels, std::initializer_list<const char*> passes);
+
+// Whether the device's kernels are built with 64-bit atomics under these options.
+bool uses_atomics64(const cl::Device& device, const BuildOptions& options);
+
+}  // namespace clgi

@@ -1,0 +1,39 @@
+// One picture of each system of a sweep, side by side with the ground truth and the path tracer.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "lab/raster.hpp"
+#include "lab/sweep.hpp"
+
+namespace clgi::lab {
+
+// Of a method's points, the one with the least error against the first truth whose time is at most
+// `milliseconds`; if none is so fast, the fastest. Of the path tracer, those with all of that
+// truth's light. Null for a method without points that have a result.
+const SweepPoint* shown_point(const Sweep& sweep, const std::string& method, double milliseconds);
+
+struct SheetPanel {
+    const io::Image* picture = nullptr;  // in the sweep
+    std::array<std::string, 2> caption;  // two lines, in letters of lettering.hpp
+    int left = 0, top = 0;               // of the picture in the sheet, pixels
+};
+
+struct Sheet {
+    int width = 0, height = 0;
+    double text = 0.0;  // height of a digit, pixels
+    std::vector<SheetPanel> panels;
+};
+
+// Three columns: the first truth, a panel for each of the sweep's methods, in their order, and the
+// path tracer. Methods without such a point have no panel. Throws Error for a sweep that is not of
+// pictures.
+Sheet contact_sheet(const Sweep& sweep, double milliseconds);
+
+// All pictures with the exposure of the truth, on white paper.
+Raster draw_sheet(const Sheet& sheet);
+
+}  // namespace clgi::lab

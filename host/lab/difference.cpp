@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "lab/difference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "io/image_formats.hpp"
+#include "lab/hdr_flip.hpp"
+#include "lab/rgb_planes.hpp"
+
+namespace clgi::lab {
+namespace {
+
+enum class Pixel : std::uint8_t { counts, does_not, nonfinite };
+
+std::vector<Pixel> classify(const RgbPlanes& a, const RgbPlanes& b, const Mask& mask) {
+    std::vector<Pixel> pixels(mask.counts.size(), Pixel::counts);
+    for (const RgbPlanes* planes : {&a, &b}) {
+        for (const std::vector<float>* plane : *planes) {
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                if (!std::isfinite((*plane)[i])) pixels[i] = Pixel::nonfinite;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (!mask[i]) pixels[i] = Pixel::does_not;
+    }
+    return pixels;
+}
+
+std::vector<double> differences(const RgbPlanes& a, const RgbPlanes& b, Shown shown) {
+    std::vector<double> values(a[0]->size(), 0.0);
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double va = io::finite((*a[c])[i]), vb = io::finite((*b[c])[i]);
+            values[i] += (shown == Shown::size ? std::abs(va - vb) : va - vb) / 3.0;
+        }
+    }
+    return values;
+}
+
+// Neither a few bright pixels nor a mostly black difference may hide the rest.
+double chosen_scale(const std::vector<double>& values, const std::vector<Pixel>& pixels) {
+    std::vector<double> sizes;
+    sizes.reserve(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (pixels[i] == Pixel::counts) sizes.push_back(std::abs(values[i]));
+    }
+    if (sizes.empty()) return 0.0;
+    const auto rank = static_cast<std::ptrdiff_t>((sizes.size() - 1) * 99 / 100);
+    std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
+    const double scale = sizes[static_cast<std::size_t>(rank)];
+    return round_up(scale > 0.0 ? scale : *std::max_element(sizes.begin(), sizes.end()));
+}
+
+const std::map<Shown, const char*> captions = {
+    {Shown::difference, "A-B"}, {Shown::size, "|A-B|"}, {Shown::flip, "FLIP"}};
+
+// Where nothing differs the bar has the one colour of 0.
+Scale scale_of(Shown shown, double size) {
+    const auto signed_color = [](double t) { return diverging_color(2.0 * t - 1.0); };
+    const auto flat = [shown](double) {
+        return shown == Shown::difference ? diverging_color(0.0) : sequential_color(0.0);
+    };
+    if (!(size > 0.0)) return {0.0, 0.0, flat, captions.at(shown)};
+    if (shown == Shown::difference) return {-size, size, signed_color, captions.at(shown)};
+    return {0.0, size, sequential_color, captions.at(shown)};
+}
+
+}  // namespace
+
+DifferencePicture difference_picture(const io::Image& a, const io::Image& b,
+                                     const DifferenceOptions& options) {
+    const auto [planes_a, planes_b] = rgb_planes(a, b);
+    const Mask mask = options.mask ? *options.mask : whole_picture(a.width, a.height);
+    check_mask(mask, a.width, a.height);
+
+    const bool is_flip = options.shown == Shown::flip;
+    std::vector<double> values;
+    if (is_flip) {
+        const std::vector<float> map = options.flip ? *options.flip : hdr_flip(a, b);
+        values.assign(map.begin(), map.end());
+    } else {
+        values = differences(planes_a, planes_b, options.shown);
+    }
+    const std::vector<Pixel> pixels = classify(planes_a, planes_b, mask);
+    double size = options.scale;
+    if (!(size > 0.0)) size = is_flip ? 1.0 : chosen_scale(values, pixels);
+
+    DifferencePicture picture{Raster(a.width, a.height, uncounted_color),
+                              scale_of(options.shown, size)};
+    const auto color_of = options.shown == Shown::difference ? diverging_color : sequential_color;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (pixels[i] == Pixel::does_not) continue;
+        // Where nothing differs the scale is 0, and so are all values.
+        const Color color = pixels[i] == Pixel::nonfinite
+                                ? nonfinite_color
+                                : color_of(size > 0.0 ? values[i] / size : 0.0);
+        std::copy(color.begin(), color.end(),
+                  picture.raster.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+    }
+    return picture;
+}
+
+}  // namespace clgi::lab

@@ -1,0 +1,157 @@
+// FLIP in bands of rows: what is filtered takes memory by a picture's width, not by its area.
+// SPDX-License-Identifier: MIT
+#include "lab/flip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "lab/cie.hpp"
+#include "lab/flip_filters.hpp"
+
+namespace clgi::lab {
+namespace {
+
+constexpr int band_rows = 64;
+constexpr double color_exponent = 0.7;    // q_c
+constexpr double knee = 0.4;              // p_c, in parts of the largest colour difference
+constexpr double knee_value = 0.95;       // p_t
+constexpr double feature_exponent = 0.5;  // q_f
+
+// L* and a*, b* after Hunt: colours look paler where it is darker.
+glm::dvec3 hunt_lab(const glm::dvec3& relative_xyz) {
+    const glm::dvec3 color = lab(relative_xyz);
+    return {color.x, 0.01 * color.x * color.y, 0.01 * color.x * color.z};
+}
+
+// City block for lightness, Euclid for colour.
+double hyab(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
+}
+
+// The distance of green and blue, the largest of any two colours of a screen, is 1.
+double compressed(double distance) {
+    static const double largest =
+        std::pow(hyab(hunt_lab(relative_xyz_from_rgb * glm::dvec3(0.0, 1.0, 0.0)),
+                      hunt_lab(relative_xyz_from_rgb * glm::dvec3(0.0, 0.0, 1.0))),
+                 color_exponent);
+    const double share = std::pow(distance, color_exponent) / largest;
+    if (share < knee) return share * knee_value / knee;
+    return knee_value + (share - knee) / (1.0 - knee) * (1.0 - knee_value);
+}
+
+// YyCxCz, the linear opponent space in which the eye's resolution is known.
+glm::dvec3 opponent(const glm::dvec3& rgb) {
+    const glm::dvec3 xyz = relative_xyz_from_rgb * rgb;
+    return {116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z)};
+}
+
+glm::dvec3 rgb_of(const glm::dvec3& opponent) {
+    const double y = (opponent.x + 16.0) / 116.0;
+    return rgb_from_relative_xyz * glm::dvec3(y + opponent.y / 500.0, y, y - opponent.z / 200.0);
+}
+
+// One picture's rows first - radius to last + radius, filtered along x.
+class Band {
+public:
+    Band(const Display& picture, const FlipFilters& filters, int first, int last)
+        : filters_(filters), width_(picture.width) {
+        const int radius = filters.radius, rows = last - first + 2 * radius;
+        const auto samples = static_cast<std::size_t>(rows) * static_cast<std::size_t>(width_);
+        for (std::vector<double>& plane : planes_) plane.resize(samples);
+        const int padded = width_ + 2 * radius;
+        std::vector<double> y(static_cast<std::size_t>(padded)), cx(y), cz(y);
+        for (int row = 0; row < rows; ++row) {
+            const int source = std::clamp(first - radius + row, 0, picture.height - 1);
+            for (int x = 0; x < padded; ++x) {
+                const auto i = static_cast<std::size_t>(source) * static_cast<std::size_t>(width_) +
+                               static_cast<std::size_t>(std::clamp(x - radius, 0, width_ - 1));
+                const glm::dvec3 color =
+                    opponent({picture.rgb[0][i], picture.rgb[1][i], picture.rgb[2][i]});
+                const auto at = static_cast<std::size_t>(x);
+                y[at] = color.x, cx[at] = color.y, cz[at] = color.z;
+            }
+            const auto along = [&](const Kernel& kernel, const std::vector<double>& in, Plane out) {
+                filter(kernel, in.data() + radius, 1, row_of(out, row), width_);
+            };
+            along(filters.achromatic, y, lightness);
+            along(filters.red_green, cx, red_green);
+            along(filters.blue_yellow[0], cz, blue_yellow_0);
+            along(filters.blue_yellow[1], cz, blue_yellow_1);
+            along(filters.smooth, y, smooth);
+            along(filters.edge, y, edge);
+            along(filters.point, y, point);
+        }
+    }
+
+    // Filters row (0: first) along y too. Afterwards color and features hold that row.
+    void finish(int row) {
+        const auto down = [&](const Kernel& kernel, Plane in) {
+            std::vector<double> out(static_cast<std::size_t>(width_));
+            filter(kernel, row_of(in, row + filters_.radius), width_, out.data(), width_);
+            return out;
+        };
+        y_ = down(filters_.achromatic, lightness);
+        cx_ = down(filters_.red_green, red_green);
+        cz_[0] = down(filters_.blue_yellow[0], blue_yellow_0);
+        cz_[1] = down(filters_.blue_yellow[1], blue_yellow_1);
+        edge_x_ = down(filters_.smooth, edge);
+        edge_y_ = down(filters_.edge, smooth);
+        point_x_ = down(filters_.smooth, point);
+        point_y_ = down(filters_.point, smooth);
+    }
+
+    // What the eye resolves of the finished row, as a colour that a screen can show.
+    glm::dvec3 color(std::size_t x) const {
+        const double cz =
+            filters_.blue_yellow_share[0] * cz_[0][x] + filters_.blue_yellow_share[1] * cz_[1][x];
+        const glm::dvec3 rgb = glm::clamp(rgb_of({y_[x], cx_[x], cz}), 0.0, 1.0);
+        return hunt_lab(relative_xyz_from_rgb * rgb);
+    }
+    // The slope and the curvature of lightness, of which black to white is 116.
+    double edge_at(std::size_t x) const { return std::hypot(edge_x_[x], edge_y_[x]) / 116.0; }
+    double point_at(std::size_t x) const { return std::hypot(point_x_[x], point_y_[x]) / 116.0; }
+
+private:
+    enum Plane { lightness, red_green, blue_yellow_0, blue_yellow_1, smooth, edge, point, planes };
+
+    double* row_of(Plane plane, int row) {
+        return planes_[plane].data() +
+               static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
+    }
+
+    const FlipFilters& filters_;
+    int width_;
+    std::array<std::vector<double>, planes> planes_;
+    std::vector<double> y_, cx_, cz_[2], edge_x_, edge_y_, point_x_, point_y_;
+};
+
+double difference(const Band& a, const Band& b, std::size_t x) {
+    const double color = compressed(hyab(a.color(x), b.color(x)));
+    const double feature =
+        std::max(std::abs(a.edge_at(x) - b.edge_at(x)), std::abs(a.point_at(x) - b.point_at(x)));
+    // Where an edge or a dot comes or goes, a difference of colour weighs more.
+    return std::pow(color, 1.0 - std::pow(feature / std::sqrt(2.0), feature_exponent));
+}
+
+}  // namespace
+
+std::vector<float> flip(const Display& a, const Display& b) {
+    static const FlipFilters filters = flip_filters();
+    std::vector<float> map;
+    map.reserve(a.rgb[0].size());
+    for (int first = 0; first < a.height; first += band_rows) {
+        const int last = std::min(first + band_rows, a.height);
+        Band band_a(a, filters, first, last), band_b(b, filters, first, last);
+        for (int row = 0; row < last - first; ++row) {
+            band_a.finish(row);
+            band_b.finish(row);
+            for (std::size_t x = 0; x < static_cast<std::size_t>(a.width); ++x) {
+                map.push_back(static_cast<float>(difference(band_a, band_b, x)));
+            }
+        }
+    }
+    return map;
+}
+
+}  // namespace clgi::lab

@@ -1,0 +1,55 @@
+// The methods that draw the pictures of a sweep: the settings of each, and a frame of it. A frame
+// is what is done anew when lights change and geometry stands still.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+#include <clgi/programs.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lab/sweep_turns.hpp"
+
+namespace clgi::lab {
+
+inline constexpr const char* second_order_method = "second-order";
+inline constexpr const char* antiradiance_method = "antiradiance";
+inline constexpr const char* light_atlas_method = "light atlas";
+inline constexpr const char* dynamic_transfer_method = "dynamic transfer";
+
+// Names of truths: all light; direct light and one bounce that nothing blocks; indirect light alone.
+inline constexpr const char* full_truth = "full";
+inline constexpr const char* unshadowed_truth = "unshadowed";
+inline constexpr const char* indirect_truth = "indirect";
+
+// What all methods draw. What it refers to must outlive the methods.
+struct PictureTask {
+    const SweepSetup& setup;
+    const Camera& camera;
+    int width, height;
+    const DeviceScene& scene;
+    const Programs& programs;
+    const std::vector<SweepTruth>& truths;
+    bool alone;       // one method: with all of its settings, and the error that it tells of itself
+    int shadow_size;  // alike for all, but for second-order illumination, which varies it
+};
+
+struct PictureMethod {
+    std::vector<std::string> knobs;      // columns of tables
+    std::vector<SweepSetting> settings;  // each with the method's name
+    bool distinct = false;               // settings with the same knobs may differ in others
+    // As Turns::measure, of these settings; a result has its picture and all errors.
+    std::function<Measured(std::size_t setting, SweepPoint* result, const Progress& part)> measure;
+};
+
+// Each throws what its solver throws.
+PictureMethod second_order_pictures(const PictureTask& task);
+PictureMethod antiradiance_pictures(const PictureTask& task);
+PictureMethod light_atlas_pictures(const PictureTask& task);
+PictureMethod dynamic_transfer_pictures(const PictureTask& task);
+
+// Whether a method can light a scene at all; transfer needs an environment.
+bool admits(const Scene& scene, const std::string& method);
+
+}  // namespace clgi::lab

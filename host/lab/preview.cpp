@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "lab/preview.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/luminance.hpp"
+
+namespace clgi::lab {
+namespace {
+
+std::uint8_t encoded(float linear) {
+    const float v = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // not a number is black
+    const float s = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+    return static_cast<std::uint8_t>(s * 255.0f + 0.5f);
+}
+
+// Planes of radiance, stride floats apart.
+io::Image planes_as_picture(const cl::CommandQueue& queue, const cl::Buffer& radiance, int width,
+                            int height, std::size_t stride) {
+    io::Image image;
+    image.width = width;
+    image.height = height;
+    image.attributes = {{"clgi:quantity", "radiance"}, {"clgi:unit", "cd/m^2"}};
+    const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
+    for (std::size_t c = 0; c < RADIANCE_PLANES; ++c) {
+        std::vector<float> values(pixels);
+        queue.enqueueReadBuffer(radiance, CL_TRUE, c * stride * sizeof(float),
+                                pixels * sizeof(float), values.data());
+        image.channels.push_back({std::string(1, "RGB"[c]), std::move(values)});
+    }
+    return image;
+}
+
+}  // namespace
+
+io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
+    return planes_as_picture(queue, solver.radiance(), solver.options().width,
+                             solver.options().height, solver.stride());
+}
+
+io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture) {
+    return planes_as_picture(queue, picture.radiance(), picture.options().width,
+                             picture.options().height, picture.stride());
+}
+
+
+float preview_exposure(const io::Image& picture) {
+    std::vector<double> luminance = luminance_of(picture);
+    std::erase_if(luminance, [](double y) { return !(y > 0.0); });
+    if (luminance.empty()) return 1.0f;
+    const auto white = luminance.begin() + static_cast<std::ptrdiff_t>(luminance.size() * 97 / 100);
+    std::nth_element(luminance.begin(), white, luminance.end());
+    return static_cast<float>(1.0 / *white);
+}
+
+std::vector<std::uint8_t> preview(const io::Image& picture, float exposure) {
+    std::vector<std::uint8_t> rgba(picture.find("R")->values.size() * 4, 255);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::vector<float>& values = picture.find(std::string(1, "RGB"[c]))->values;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            rgba[4 * i + c] = encoded(values[i] * exposure);
+    }
+    return rgba;
+}
+
+}  // namespace clgi::lab

@@ -1,0 +1,24 @@
+// Pictures as eyes take them: exposure, then the sRGB curve.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/io/image.hpp>
+#include <clgi/advanced/kit/picture.hpp>
+#include <clgi/second_order.hpp>
+#include <cstdint>
+#include <vector>
+
+namespace clgi::lab {
+
+// The solver's radiance as a picture with planes R, G and B. Waits for the queue.
+io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver);
+
+io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture);
+
+// A factor that leaves all but three in a hundred of the pixels that are not black below white.
+float preview_exposure(const io::Image& picture);
+
+// RGBA8 of a picture with planes R, G and B; the curve of IEC 61966-2-1, rounded to nearest.
+std::vector<std::uint8_t> preview(const io::Image& picture, float exposure);
+
+}  // namespace clgi::lab

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "lab/reference_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <clgi/error.hpp>
+#include <cstdlib>
+
+#include "lab/hash.hpp"
+
+namespace clgi::lab {
+namespace {
+
+void add_slot(Hash& hash, const TextureSlot& slot) {
+    hash.add(slot.texture);
+    hash.add(slot.uv_set);
+    hash.add(slot.transform);
+}
+
+std::string picture_key(const std::string& scene, const Camera& camera,
+                        const reference::Options& options) {
+    Hash hash;
+    hash.add(tracer_version);
+    for (const char c : scene) hash.add(c);
+    hash.add(camera.kind);
+    hash.add(camera.position);
+    hash.add(camera.right);
+    hash.add(camera.up);
+    hash.add(camera.forward);
+    hash.add(camera.vertical_fov);
+    hash.add(camera.half_height);
+    hash.add(camera.near);
+    hash.add(options.width);
+    hash.add(options.height);
+    hash.add(options.samples);
+    hash.add(options.target);
+    hash.add(options.seed);
+    hash.add(options.roulette_depth);
+    return hash.text();
+}
+
+}  // namespace
+
+io::Image reference_image(const reference::Picture& picture, const std::string& effects) {
+    io::Image out;
+    out.width = picture.width;
+    out.height = picture.height;
+    out.attributes = {{"clgi:quantity", "radiance"},
+                      {"clgi:unit", "cd/m^2"},
+                      {"clgi:effects", effects.empty() ? "all" : effects},
+                      {"clgi:samples", std::to_string(picture.samples)},
+                      {"clgi:relative_error", fmt::format("{:.6g}", picture.relative_error)}};
+    for (int c = 0; c < 3; ++c) {
+        io::Image::Channel channel{std::string(1, "RGB"[c]), {}};
+        for (const glm::vec3& radiance : picture.radiance) channel.values.push_back(radiance[c]);
+        out.channels.push_back(std::move(channel));
+    }
+    out.channels.push_back({"error.Y", picture.error});
+    return out;
+}
+
+double stated_error(const io::Image& picture) {
+    const auto found = picture.attributes.find("clgi:relative_error");
+    return found == picture.attributes.end() ? 0.0 : std::atof(found->second.c_str());
+}
+
+std::string scene_key(const Scene& scene) {
+    Hash hash;
+    hash.add(scene.positions);
+    hash.add(scene.normals);
+    hash.add(scene.uvs);
+    hash.add(scene.colors);
+    hash.add(scene.triangles);
+    for (const Material& material : scene.materials) {
+        hash.add(material.base_color);
+        add_slot(hash, material.base_texture);
+        hash.add(material.metallic);
+        hash.add(material.roughness);
+        hash.add(material.emission);
+        add_slot(hash, material.emission_texture);
+        hash.add(material.alpha_mode);
+        hash.add(material.alpha_cutoff);
+        hash.add(material.double_sided);
+    }
+    for (const Texture& texture : scene.textures) {
+        hash.add(texture.rgba);
+        hash.add(texture.width);
+        hash.add(texture.wrap_s);
+        hash.add(texture.wrap_t);
+        hash.add(texture.nearest);
+        hash.add(texture.srgb);
+    }
+    for (const Light& light : scene.lights) {
+        hash.add(light.kind);
+        hash.add(light.position);
+        hash.add(light.direction);
+        hash.add(light.intensity);
+        hash.add(light.range);
+        hash.add(light.inner_angle);
+        hash.add(light.outer_angle);
+    }
+    if (scene.environment) {
+        hash.add(scene.environment->texels);
+        hash.add(scene.environment->width);
+        hash.add(scene.environment->factor);
+        hash.add(scene.environment->rotation);
+    }
+    return hash.text();
+}
+
+io::Image kept_image(const std::filesystem::path& file, const std::string& key,
+                     const std::function<io::Image()>& make) {
+    if (std::filesystem::exists(file)) {
+        try {
+            io::Image kept = io::load_image(file);
+            const auto found = kept.attributes.find("clgi:key");
+            if (found != kept.attributes.end() && found->second == key) return kept;
+        } catch (const InputError&) {
+            // Broken or another program's: made anew.
+        }
+    }
+    io::Image out = make();
+    if (out.channels.empty()) return out;
+    out.attributes["clgi:key"] = key;
+    io::save_exr(out, file, io::PixelType::full);
+    return out;
+}
+
+io::Image cached_reference(const reference::PathTracer& tracer, const Camera& camera,
+                           const reference::Options& options, const std::string& effects,
+                           const std::filesystem::path& file, const std::string& scene,
+                           const Progress& progress) {
+    const std::string key = picture_key(scene, camera, options) + " " + effects;
+    return kept_image(file, key, [&] {
+        const reference::Picture picture = tracer.render(camera, options, progress);
+        return picture.cancelled ? io::Image() : reference_image(picture, effects);
+    });
+}
+
+}  // namespace clgi::lab

@@ -1,0 +1,37 @@
+// Ground truth as pictures with their own standard error, kept in files between runs.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/io/image.hpp>
+#include <clgi/reference.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace clgi::lab {
+
+// Goes up whenever the path tracer's results change: part of the keys of files that are kept.
+inline constexpr int tracer_version = 2;
+
+// R, G, B and error.Y, with quantity, unit, effects, samples and relative error as attributes.
+io::Image reference_image(const reference::Picture& picture, const std::string& effects);
+
+// The relative error that such a picture states of itself; 0 when it states none.
+double stated_error(const io::Image& picture);
+
+// Tells scenes apart: a hash of everything that a path tracer looks at.
+std::string scene_key(const Scene& scene);
+
+// The image in `file` if it has this key, else what make() returns, which is saved there unless it
+// is without channels.
+io::Image kept_image(const std::filesystem::path& file, const std::string& key,
+                     const std::function<io::Image()>& make);
+
+// The picture in `file` if it was made with the same scene, camera, size, effects, samples and
+// seed, else a new one, which is saved there. Without channels when progress cancelled.
+io::Image cached_reference(const reference::PathTracer& tracer, const Camera& camera,
+                           const reference::Options& options, const std::string& effects,
+                           const std::filesystem::path& file, const std::string& scene_key,
+                           const Progress& progress);
+
+}  // namespace clgi::lab

@@ -1,0 +1,32 @@
+// Frame times and what they come down to.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/second_order.hpp>
+#include <string>
+#include <vector>
+
+#include "core/opencl/timing.hpp"
+
+namespace clgi::lab {
+
+using timing::Clock;
+using timing::milliseconds;
+using timing::Spread;
+using timing::spread;
+using timing::time_frame;
+
+// Renders one frame and waits for it.
+double time_frame(SecondOrderSolver& solver, const cl::CommandQueue& queue, const Camera& camera);
+
+struct PassTime {
+    std::string name;
+    double milliseconds = 0.0;  // on the device, all launches of the frame together
+    std::size_t items = 0;
+};
+
+// Device times of a finished frame by pass, in order of first launch. Needs a profiling queue.
+std::vector<PassTime> pass_times(const SecondOrderSolver& solver);
+std::vector<PassTime> pass_times(const std::vector<PassEvent>& events);
+
+}  // namespace clgi::lab

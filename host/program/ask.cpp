@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "program/ask.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program/duration.hpp"
+#include "program/percent.hpp"
+
+namespace clgi::program {
+
+using nlohmann::ordered_json;
+
+void add_ask_flags(CLI::App& command, AskFlags& flags) {
+    CLI::Option* error =
+        command
+            .add_option("--target-error", flags.target_error,
+                        "Find the settings for this error: 2% or 0.02; auto: against all light, "
+                        "second-order: against its converged picture")
+            ->type_name("E")
+            ->default_str("none");
+    CLI::Option* time =
+        command
+            .add_option("--time-budget", flags.time_budget,
+                        "Find the settings for this time: 33ms or 0.5s; auto: of a picture with "
+                        "all before it, second-order: of a frame")
+            ->type_name("T")
+            ->default_str("none");
+    for (const char* setting : {"--vpls", "--negative-vpls", "--low-res", "--low-res-step"})
+        for (CLI::Option* asked : {error, time}) asked->excludes(command.get_option(setting));
+}
+
+TuningWish wish_of(const std::string& command, const AskFlags& flags) {
+    TuningWish wish;
+    if (!flags.target_error.empty())
+        wish.error = parse_percent(command, "--target-error", flags.target_error);
+    if (!flags.time_budget.empty())
+        wish.frame_ms = parse_milliseconds(command, "--time-budget", flags.time_budget);
+    return wish;
+}
+
+ordered_json ask_json(const AskRecord& record, double delivered_ms) {
+    const SecondOrderTuning& found = record.tuning;
+    ordered_json asked = ordered_json::object();
+    if (record.wish.error) asked["target_error"] = *record.wish.error;
+    if (record.wish.frame_ms) asked["time_budget_ms"] = *record.wish.frame_ms;
+    const SecondOrderSettings& settings = found.settings;
+    ordered_json out = {{"asked", asked}, {"delivered_ms", delivered_ms}};
+    out["promised_ms"] = found.frame_ms;
+    if (record.wish.frame_ms) out["budget_met"] = found.meets_time;
+    if (record.wish.error) {
+        out["promised_error"] =
+            found.meets_error ? ordered_json(*record.wish.error) : ordered_json();
+        out["estimated_error"] = *found.error;
+        out["target_met"] = found.meets_error;
+    }
+    out["settings"] = {{"vpls", settings.vpls},
+                       {"negative_vpls", settings.negative_vpls},
+                       {"low_res_step", settings.low_resolution_step}};
+    // As --low-res takes it: JSON has no infinity, and a float's expansion has too many digits.
+    ordered_json& low_res = out["settings"]["low_res"];
+    if (settings.low_resolution_step == 1)
+        low_res = "off";
+    else if (std::isinf(settings.discontinuity_threshold))
+        low_res = "inf";
+    else
+        low_res = std::stod(fmt::format("{}", settings.discontinuity_threshold));
+    out["probe_ms"] = found.milliseconds;
+    return out;
+}
+
+std::string ask_line(const AskRecord& record, double delivered_ms) {
+    const SecondOrderTuning& found = record.tuning;
+    std::string line = "asked for";
+    if (record.wish.error) line += fmt::format(" an error of {:.3g} %", 100.0 * *record.wish.error);
+    if (record.wish.error && record.wish.frame_ms) line += " and";
+    if (record.wish.frame_ms) line += fmt::format(" {:.4g} ms", *record.wish.frame_ms);
+    line += fmt::format(": promised {:.1f} ms, delivered {:.1f} ms", found.frame_ms, delivered_ms);
+    if (found.error) line += fmt::format(", estimated error {:.3g} %", 100.0 * *found.error);
+    const SecondOrderSettings& settings = found.settings;
+    return line + fmt::format(" (--vpls {} --negative-vpls {} {}; found in {:.1f} s)",
+                              settings.vpls, settings.negative_vpls,
+                              settings.low_resolution_step == 1
+                                  ? "--low-res off"
+                                  : fmt::format("--low-res-step {} --low-res {}",
+                                                settings.low_resolution_step,
+                                                settings.discontinuity_threshold),
+                              1e-3 * found.milliseconds);
+}
+
+std::string ask_warning(const AskRecord& record) {
+    const SecondOrderTuning& found = record.tuning;
+    std::string text;
+    if (record.wish.error && !found.meets_error)
+        text = fmt::format(
+            "warning: the target error of {:.3g} % is not reached{}; the error is {:.3g} %",
+            100.0 * *record.wish.error, record.wish.frame_ms ? " within the time budget" : "",
+            100.0 * *found.error);
+    if (!record.wish.frame_ms) return text;
+    const auto add = [&](const std::string& more) {
+        text += text.empty() ? "warning: " + more : "; " + more;
+    };
+    if (!found.meets_time)
+        add(fmt::format("{} {:.1f} ms, more than the budget of {:.4g} ms",
+                        found.settings.vpls == SecondOrderTuning::fewest_vpls
+                            ? "even the cheapest settings take"
+                            : "times on this machine vary: the chosen settings took",
+                        found.frame_ms, *record.wish.frame_ms));
+    else if (found.settings.vpls == SecondOrderTuning::most_vpls)
+        add(fmt::format("the largest number of lights, {}, does not use up the budget",
+                        SecondOrderTuning::most_vpls));
+    return text;
+}
+
+}  // namespace clgi::program

@@ -1,0 +1,293 @@
+// clgi bake SCENE -o atlas.exr: multi-bounce light into a texture atlas. [Schaerfig16]
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/clgi.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "program/animation.hpp"
+#include "program/bake_gltf.hpp"
+#include "program/bake_room.hpp"
+#include "program/bake_stats.hpp"
+#include "program/commands.hpp"
+#include "program/percent.hpp"
+#include "program/picture.hpp"
+#include "program/session.hpp"
+#include "program/version.hpp"
+#include "lab/bake_state.hpp"
+#include "lab/baked_atlas.hpp"
+#include "lab/reference_picture.hpp"
+
+namespace clgi::program {
+namespace {
+
+struct BakeFlags {
+    std::string scene;
+    DeviceFlags device;
+    PictureFlags picture;
+    EnvironmentFlags environment;
+    AnimationFlags animation;
+    VplOptions vpls;
+    AtlasOptions atlas;
+    std::string uvs = "auto";
+    std::string threshold;
+    std::string filling = "gather";
+    LightAtlasOptions bake;
+    bool progressive = false;
+    bool dilate = false;
+    bool stitch = false;
+    BakeGltfFlags gltf;
+    std::string stats;
+    std::string resume;
+    int scene_index = -1;
+};
+
+AtlasUvs uvs_of(const std::string& text) {
+    if (text == "0") return AtlasUvs::set_0;
+    if (text == "1") return AtlasUvs::set_1;
+    return text == "charts" ? AtlasUvs::charts : AtlasUvs::automatic;
+}
+
+// All that the bits of a bake depend on.
+std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device& device) {
+    const LightAtlasOptions& bake = flags.bake;
+    const EmitterOptions& emitters = bake.emitters;
+    return fmt::format(
+               "{} {} {} | {} {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} {} {} {} | {} {} {} {}",
+               CLGI_VERSION, lab::scene_key(scene), describe(device), flags.vpls.count,
+               flags.vpls.samples_per_vpl, flags.vpls.gap_density, flags.atlas.size, flags.uvs,
+               flags.atlas.padding, flags.atlas.texels_per_metre, flags.atlas.most_pages,
+               bake.bounces, bake.threshold, bake.one_at_a_time, bake.exchange_samples,
+               bake.hemicube_size, flags.filling, bake.refine, bake.mesh, bake.kernel,
+               bake.direct, emitters.shadow_size, emitters.face_size, emitters.area_samples,
+               emitters.environment_lights) +
+           build_flags(flags.device);
+}
+
+// Bakes from the start, or from where the file says. Keeps in the file what Ctrl-C cut short, and
+// deletes it once the bake is done. Returns how many VPLs were done before.
+std::uint32_t run_to_the_end(const BakeFlags& flags, const std::string& key,
+                             LightAtlasSolver& solver) {
+    const auto done = [](const LightAtlasState& state) {
+        return std::max(state.measured_vpls, state.filled_vpls);
+    };
+    std::uint32_t begin = 0;
+    std::error_code ignored;
+    if (!flags.resume.empty() && std::filesystem::exists(flags.resume, ignored)) {
+        const LightAtlasState state = lab::load_bake_state(flags.resume, key);
+        solver.restore(state);
+        begin = done(state);
+        notice(flags.device.quiet,
+               fmt::format("the bake goes on after VPL {} of {}", begin, state.vpls));
+    }
+    if (solver.run(progress_bar("bake", flags.device.quiet))) return begin;
+    if (flags.resume.empty()) throw Interrupted();
+    if (const auto state = solver.state()) {
+        lab::save_bake_state(*state, key, flags.resume);
+        notice(flags.device.quiet, fmt::format("{} keeps the first {} of {} VPLs", flags.resume,
+                                               done(*state), state->vpls));
+    } else {
+        notice(flags.device.quiet, "nothing to keep: no VPL was done yet");
+    }
+    throw Interrupted();
+}
+
+void check(const BakeFlags& flags) {
+    check_formats("bake", flags.picture);
+    if (flags.picture.exr.empty() && flags.picture.png.empty() && flags.gltf.lit.empty() &&
+        flags.gltf.unwrapped.empty())
+        throw Error(
+            "bake: no output; -o FILE.exr, --png FILE.png, --gltf FILE.glb or --unwrapped FILE.glb "
+            "needed");
+    if (flags.gltf.lights && flags.bake.direct)
+        throw Error("bake: --gltf-lights with --direct would show direct light twice");
+    if (flags.gltf.lit.empty() && (flags.gltf.lights || flags.gltf.detail > 0))
+        throw Error("bake: --gltf-lights and --gltf-detail go only with --gltf");
+    if (flags.progressive && flags.picture.exr.empty() && flags.picture.png.empty())
+        throw Error("bake: --progressive goes only with -o or --png");
+}
+
+// The atlas as a picture, in the files that are asked for.
+void save_atlas(const BakeFlags& flags, const AtlasLayout& atlas,
+                const std::vector<glm::vec3>& irradiance) {
+    if (flags.picture.exr.empty() && flags.picture.png.empty()) return;
+    const std::string effects = flags.bake.direct ? "direct,indirect" : "indirect";
+    save_picture(lab::baked_image(atlas, irradiance, effects, flags.dilate), flags.picture);
+}
+
+// Quick bakes with fewer VPLs, each saved: something to look at early that becomes better. As each
+// has four times the VPLs of the one before, all of them take less than half of the last one's time.
+void bake_drafts(const BakeFlags& flags, const Session& session, const Programs& programs,
+                 const Scene& scene, const DeviceScene& device_scene, const BakeLayout& layout) {
+    constexpr std::uint32_t fewest = 50;
+    std::vector<std::uint32_t> counts;
+    for (std::uint32_t n = flags.vpls.count / 4; n >= fewest; n /= 4) counts.push_back(n);
+    for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
+        const Stopwatch watch;
+        VplOptions few = flags.vpls;
+        few.count = *count;
+        LightAtlasSolver solver(programs, session.queue, device_scene,
+                                place_vpls(scene, layout.patches, few), layout.atlas, flags.bake);
+        if (!solver.run(progress_bar(fmt::format("{} VPLs", few.count), flags.device.quiet)))
+            throw Interrupted();
+        save_atlas(flags, layout.atlas, solver.irradiance());
+        notice(flags.device.quiet,
+               fmt::format("saved with {} VPLs after {:.2f} s", few.count, watch.seconds()));
+    }
+}
+
+void run_bake(BakeFlags flags) {
+    check(flags);
+    flags.picture.full = true;  // daylight, in lux, is beyond the range of half
+    if (!flags.threshold.empty())
+        flags.bake.threshold =
+            static_cast<float>(parse_percent("bake", "--threshold", flags.threshold));
+    flags.bake.filling = flags.filling == "project" ? Filling::project : Filling::gather;
+    flags.atlas.uvs = uvs_of(flags.uvs);
+    flags.bake.build = build_of(flags.device);
+    Scene scene =
+        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
+    pose_scene("bake", flags.animation, scene);
+    const Session session = open_session(flags.device);
+    need_room("bake", session.device, flags.vpls);
+
+    const BakeLayout layout = lay_out(scene, flags.vpls, flags.atlas, flags.device.quiet);
+    const Stopwatch build;
+    const DeviceScene device_scene(session.context, session.device, scene);
+    const Programs programs(session.context, session.device);
+    LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, layout.atlas,
+                            flags.bake);
+    const double build_seconds = build.seconds();
+    catch_interrupts();
+    if (flags.progressive)
+        bake_drafts(flags, session, programs, scene, device_scene, layout);
+    const Stopwatch bake;
+    const std::string key = flags.resume.empty() ? "" : key_of(flags, scene, session.device);
+    const std::uint32_t resumed_at = run_to_the_end(flags, key, solver);
+    const double bake_seconds = bake.seconds();
+
+    std::vector<glm::vec3> irradiance = solver.irradiance();
+    if (flags.stitch) irradiance = stitched_seams(scene, layout.atlas, irradiance);
+    save_atlas(flags, layout.atlas, irradiance);
+    const std::optional<LitGltf> gltf =
+        save_bake_gltf(scene, layout.atlas, irradiance, flags.picture.exposure, flags.gltf);
+    if (!flags.stats.empty())
+        save_bake_stats({scene, layout, solver, atlas_seams(scene, layout.atlas, irradiance), gltf,
+                         build_seconds, bake_seconds, resumed_at},
+                        flags.stats);
+    if (!flags.resume.empty()) {
+        std::error_code ignored;
+        std::filesystem::remove(flags.resume, ignored);
+    }
+    if (const std::uint32_t packets = solver.status().non_finite)
+        notice(false, fmt::format("warning: {} packets held numbers that are not finite", packets));
+    if (flags.device.quiet) return;
+    std::string files;
+    for (const std::string& file :
+         {flags.picture.exr, flags.picture.png, flags.gltf.lit, flags.gltf.unwrapped})
+        if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
+    fmt::print("{}: {} texels lit by {} VPLs, {:.2f} s\n", files, layout.atlas.texels.size(),
+               layout.vpls.vpls.size(), layout.seconds + bake_seconds);
+}
+
+void add_method_flags(CLI::App& command, BakeFlags& flags) {
+    add_count(command, "--vpls", flags.vpls.count, "Virtual point lights (VPLs)", 1, 1 << 20);
+    add_count(command, "--samples-per-vpl", flags.vpls.samples_per_vpl,
+              "Sample points of a VPL that receive direct light and send it on near by", 1, 4096);
+    command
+        .add_option("--gap-density", flags.vpls.gap_density,
+                    "VPLs on narrow surfaces, between which light passes through gaps: so many "
+                    "times as dense at most; 1: as elsewhere")
+        ->type_name("X")
+        ->check(CLI::Range(1.0, 1000.0));
+    add_count(command, "--exchange-samples", flags.bake.exchange_samples,
+              "Those of them that tell how much of a VPL another one sees; 0: 4 to 16, fewer for more "
+              "VPLs",
+              0, 4096);
+    add_bake_flags(command, "", flags.bake, flags.atlas);
+    command
+        .add_option("--threshold", flags.threshold,
+                    "With --bounces 0: largest unshot power of a VPL, of the mean direct power of VPLs")
+        ->type_name("X")
+        ->default_str("0.1%");
+    command.add_flag("--progressive", flags.progressive,
+                     "Save -o and --png with fewer VPLs first, then with four times as many, and so on");
+    command.add_flag("--one-at-a-time", flags.bake.one_at_a_time,
+                     "With --bounces 0: shoot the strongest VPL alone, as in the paper");
+    command
+        .add_option("--filling", flags.filling,
+                    "How texels get light: gather, or project as in the paper")
+        ->type_name("HOW")
+        ->check(CLI::IsMember({"gather", "project"}));
+    add_count(command, "--mesh", flags.bake.mesh,
+              "With --filling project: triangles of the mesh over a hemicube's face", 8, 131072);
+    command
+        .add_option("--kernel", flags.bake.kernel,
+                    "With --filling project: pixels to each side for soft shadows; 0: hard ones")
+        ->type_name("K")
+        ->check(CLI::Range(0, 64));
+    command.add_flag("--direct", flags.bake.direct, "Direct light in the atlas too");
+}
+
+void add_atlas_flags(CLI::App& command, BakeFlags& flags) {
+    command.add_option("--uvs", flags.uvs, "Where texels are: auto, 0, 1 (UV sets) or charts")
+        ->type_name("WHAT")
+        ->check(CLI::IsMember({"auto", "0", "1", "charts"}));
+    command
+        .add_option("--texels-per-metre", flags.atlas.texels_per_metre,
+                    "Density of charts; 0: what fills the pages")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1e6));
+    add_count(command, "--pages", flags.atlas.most_pages, "Pages at most, for charts", 1, 64);
+    add_count(command, "--padding", flags.atlas.padding, "Empty texels around a chart", 1, 64);
+    command.add_flag("--dilate", flags.dilate,
+                     "Fill texels that are covered in part, and those around charts");
+    command.add_flag("--stitch", flags.stitch,
+                     "Make light agree where charts cut a smooth surface");
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bake", "Multi-bounce light into a texture atlas");
+    const auto flags = std::make_shared<BakeFlags>();
+    command->add_option("scene", flags->scene, ".gltf or .glb file")
+        ->required()
+        ->type_name("SCENE");
+    command->add_option("-o,--output", flags->picture.exr, "EXR of irradiance, lux")
+        ->type_name("FILE")
+        ->default_str("none");
+    command->add_option("--png", flags->picture.png, "PNG preview of the atlas")
+        ->type_name("FILE")
+        ->default_str("none");
+    command
+        ->add_option("--exposure", flags->picture.exposure,
+                     "Exposure of --png and --gltf; at 0, 1 is white")
+        ->type_name("STOPS")
+        ->default_str("from the light");
+    add_bake_gltf_flags(*command, flags->gltf);
+    add_method_flags(*command, *flags);
+    add_atlas_flags(*command, *flags);
+    add_emitter_flags(*command, flags->bake.emitters);
+    add_environment_flags(*command, flags->environment);
+    add_device_flags(*command, flags->device);
+    add_animation_flags(*command, flags->animation);
+    command->add_option("--scene", flags->scene_index, "Index of the glTF scene")
+        ->type_name("N")
+        ->default_str("the file's");
+    command->add_option("--stats", flags->stats, "JSON file with VPLs, power and time")
+        ->type_name("FILE")
+        ->default_str("none");
+    command
+        ->add_option("--resume", flags->resume,
+                     "File that keeps a bake cut short by Ctrl-C; if it exists, the bake goes on "
+                     "from there")
+        ->type_name("FILE")
+        ->default_str("none");
+    command->callback([flags] { run_bake(*flags); });
+}
+
+}  // namespace clgi::program

@@ -1,0 +1,26 @@
+// Shares as people write them.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <clgi/error.hpp>
+#include <string>
+
+namespace clgi::program {
+
+// "0.5%" or "0.005". Throws Error naming command and flag for anything but a positive number.
+inline double parse_percent(const std::string& command, const std::string& flag,
+                            const std::string& text) {
+    double value = 0.0;
+    const char* last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value);
+    const bool percent = end != last && *end == '%' && end + 1 == last;
+    if (error != std::errc() || (end != last && !percent) || !(value > 0.0) || !(value < 1e9))
+        throw Error(
+            fmt::format("{}: {} is '{}', a share such as 2% or 0.02 needed", command, flag, text));
+    return percent ? value / 100.0 : value;
+}
+
+}  // namespace clgi::program

@@ -1,0 +1,95 @@
+// clgi plan SCENE: what a picture of it calls for, before anything is rendered.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/clgi.hpp>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "program/commands.hpp"
+#include "program/duration.hpp"
+#include "program/percent.hpp"
+#include "program/picture.hpp"
+#include "program/plan_text.hpp"
+#include "program/plan_wish.hpp"
+#include "program/session.hpp"
+
+namespace clgi::program {
+namespace {
+
+struct PlanCommand {
+    DeviceFlags device;
+    EnvironmentFlags environment;
+    PlanFlags plan;
+    std::string scene, size, method = "auto", target_error, time_budget;
+    int scene_index = -1, camera = 0;
+    bool animated = false, json = false;
+};
+
+PlanWish wish_of(const PlanCommand& flags) {
+    PlanWish out = wish_of("plan", flags.plan);
+    parse_size("plan", flags.size, 16384, out.width, out.height);
+    if (!flags.target_error.empty())
+        out.error = parse_percent("plan", "--target-error", flags.target_error);
+    if (!flags.time_budget.empty())
+        out.seconds = 1e-3 * parse_milliseconds("plan", "--time-budget", flags.time_budget);
+    out.animated = flags.animated;
+    out.build = build_of(flags.device);
+    out.method = method_of(flags.method);
+    return out;
+}
+
+void run_plan(const PlanCommand& flags) {
+    const PlanWish wish = wish_of(flags);
+    const Scene scene =
+        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
+    check_camera("plan", flags.camera, scene);
+    DeviceFlags device = flags.device;
+    device.quiet = device.quiet || flags.json;
+    const Session session = open_session(device);
+    const Programs programs(session.context, session.device);
+    const Plan plan = make_plan(session.queue, programs, scene,
+                                scene.cameras[static_cast<std::size_t>(flags.camera)], wish);
+    if (flags.json)
+        fmt::print("{}\n", plan_json(plan).dump(2));
+    else
+        fmt::print("{}", plan_text(plan));
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("plan", "Say what a picture of a scene calls for");
+    const auto flags = std::make_shared<PlanCommand>();
+    command->add_option("scene", flags->scene, ".gltf or .glb file")
+        ->required()
+        ->type_name("SCENE");
+    command->add_option("--size", flags->size, "Of the picture")
+        ->type_name("WxH")
+        ->default_str(fmt::format("{}x{}", PlanWish().width, PlanWish().height));
+    add_place_options(*command, flags->scene_index, flags->camera);
+    add_environment_flags(*command, flags->environment);
+    command->add_option("--method", flags->method, "auto: the plan chooses")
+        ->type_name("METHOD")
+        ->check(
+            CLI::IsMember({"auto", "second-order", "atlas", "transfer", "antiradiance", "direct"}));
+    add_plan_flags(*command, flags->plan);
+    command
+        ->add_option("--target-error", flags->target_error,
+                     "Error against all light that the picture may have: 5% or 0.05")
+        ->type_name("E")
+        ->default_str("none");
+    command
+        ->add_option("--time-budget", flags->time_budget,
+                     "What a picture may take, with all that is done before it: 100ms or 1s")
+        ->type_name("T")
+        ->default_str("none");
+    command->add_flag("--animated", flags->animated, "Plan for pictures between which things move");
+    command->add_flag("--json", flags->json, "Print JSON, with all facts");
+    add_device_flags(*command, flags->device);
+    command->callback([flags] { run_plan(*flags); });
+}
+
+}  // namespace clgi::program

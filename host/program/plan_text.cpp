@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "program/plan_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace clgi::program {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string bound_text(const EffectChoice& choice) {
+    return std::isinf(choice.bound) ? "unknown" : fmt::format("{:.2g} %", 100.0 * choice.bound);
+}
+
+ordered_json effect_names(const std::vector<Effect>& effects) {
+    ordered_json out = ordered_json::array();
+    for (const Effect effect : effects) out.push_back(name_of(effect));
+    return out;
+}
+
+// JSON has no infinity.
+ordered_json number(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json();
+}
+
+std::string settings_text(const Plan& plan) {
+    switch (plan.method) {
+        case Method::direct:
+            return "no indirect light";
+        case Method::second_order:
+            return fmt::format("{} VPLs, {} negative", plan.second_order.emitters.vpls,
+                               plan.second_order.negative_vpls);
+        case Method::light_atlas:
+            return fmt::format("{} VPLs, pages of {} texels", plan.vpls.count, plan.layout.size);
+        case Method::antiradiance:
+            return fmt::format("{} bins, {} leaves wished", plan.antiradiance.bins,
+                               plan.antiradiance.elements.wished);
+        case Method::dynamic_transfer:
+            return fmt::format("{} bands, {} bounces", plan.transfer.masks.bands,
+                               plan.transfer.bounces);
+    }
+    return "";
+}
+
+ordered_json settings_json(const Plan& plan) {
+    switch (plan.method) {
+        case Method::direct:
+            return ordered_json::object();
+        case Method::second_order:
+            return {{"vpls", plan.second_order.emitters.vpls},
+                    {"negative_vpls", plan.second_order.negative_vpls}};
+        case Method::light_atlas:
+            return {{"vpls", plan.vpls.count},
+                    {"atlas_size", plan.layout.size},
+                    {"bounces", plan.light_atlas.bounces}};
+        case Method::antiradiance:
+            return {{"bins", plan.antiradiance.bins},
+                    {"elements", plan.antiradiance.elements.wished},
+                    {"iterations", plan.antiradiance.steps},
+                    {"occlusion", plan.antiradiance.occlusion == Occlusion::always},
+                    {"gloss", plan.antiradiance.least_gloss < 1.0}};
+        case Method::dynamic_transfer:
+            return {{"bands", plan.transfer.masks.bands},
+                    {"interreflections", plan.transfer.bounces},
+                    {"gloss", plan.transfer.gloss},
+                    {"shadowed", plan.transfer.shadowed}};
+    }
+    return ordered_json::object();
+}
+
+// Of direct light in the picture.
+ordered_json emitters_json(const Plan& plan) {
+    const EmitterOptions& options =
+        plan.method == Method::second_order ? plan.second_order.emitters : plan.picture.emitters;
+    return {{"shadows", options.shadows},
+            {"shadow_size", options.shadow_size},
+            {"face_size", options.face_size},
+            {"area_samples", options.area_samples}};
+}
+
+ordered_json effects_json(const Plan& plan) {
+    ordered_json out = ordered_json::array();
+    for (const EffectChoice& choice : plan.effects)
+        out.push_back({{"name", name_of(choice.effect)},
+                       {"on", choice.on},
+                       {"ground", name_of(choice.ground)},
+                       {"why", choice.why},
+                       {"by", choice.by},
+                       {"ms", choice.milliseconds},
+                       {"mb", choice.megabytes},
+                       {"bound", number(choice.bound)}});
+    return out;
+}
+
+ordered_json facts_json(const SceneFacts& facts) {
+    const LightFacts& l = facts.lights;
+    const SurfaceFacts& s = facts.surfaces;
+    const OpennessProof& p = facts.proof;
+    return {{"triangles", s.triangles},
+            {"area", s.area},
+            {"size", facts.size},
+            {"mean_albedo", {s.mean_albedo.r, s.mean_albedo.g, s.mean_albedo.b}},
+            {"smallest_albedo", s.smallest_albedo},
+            {"largest_albedo", s.largest_albedo},
+            {"gloss", s.gloss},
+            {"glossy_area", s.glossy_area},
+            {"double_sided_area", s.double_sided_area},
+            {"textures", s.textures},
+            {"cutouts", s.cutouts},
+            {"vertices", s.vertices},
+            {"degenerate", s.degenerate},
+            {"longest_edges", {s.smallest_edge, s.median_edge, s.largest_edge}},
+            {"lights",
+             {{"points", l.points},
+              {"spots", l.spots},
+              {"directional", l.directional},
+              {"emissive_triangles", l.emissive_triangles},
+              {"emissive_area", l.emissive_area},
+              {"emissive_power", l.emissive_power},
+              {"environment", l.environment},
+              {"environment_mean", l.environment_mean},
+              {"moving", l.moving}}},
+            {"moving_triangles", facts.motion.moving_triangles},
+            {"moving_area", facts.motion.moving_area},
+            {"moving_emission", facts.motion.moving_emission},
+            {"travel", facts.motion.travel},
+            {"openness", facts.openness},
+            {"openness_error", facts.openness_error},
+            {"backs", facts.backs},
+            {"lit", facts.lit},
+            {"lit_twice", facts.lit_twice},
+            {"thin", facts.thin},
+            {"thinnest", facts.thinnest},
+            {"proven",
+             {{"surfaces_open", p.surfaces_open},
+              {"surfaces_apart", p.surfaces_apart},
+              {"lights_open", p.lights_open},
+              {"environment_open", p.environment_open}}},
+            {"ms", facts.milliseconds}};
+}
+
+}  // namespace
+
+std::string plan_line(const Plan& plan) {
+    std::string out = fmt::format(
+        "{} ({}): {}; predicted {:.3g} ms before the first picture, "
+        "{:.3g} ms a picture, {:.0f} MB",
+        name_of(plan.method), settings_text(plan), plan.why, plan.cost.once_ms, plan.cost.frame_ms,
+        plan.cost.megabytes);
+    if (plan.error)
+        out += fmt::format("; error about {:.2g} % ({})", 100.0 * *plan.error, plan.error_ground);
+    return out;
+}
+
+std::string plan_text(const Plan& plan) {
+    const auto line = [](const char* effect, const char* on, const std::string& ms,
+                         const std::string& mb, const std::string& bound, const std::string& by,
+                         const std::string& why) {
+        return fmt::format("{:<20} {:>4} {:>8} {:>7} {:>8}  {:<27} {}\n", effect, on, ms, mb, bound,
+                           by, why);
+    };
+    std::string out = line("effect", "", "ms", "MB", "bound", "by", "why");
+    for (const EffectChoice& choice : plan.effects)
+        out += line(name_of(choice.effect), choice.on ? "on" : "off",
+                    choice.on ? fmt::format("{:.1f}", choice.milliseconds) : "",
+                    choice.on ? fmt::format("{:.1f}", choice.megabytes) : "", bound_text(choice),
+                    choice.by, choice.why);
+    for (const Effect effect : plan.unavoidable)
+        out += fmt::format("{} is rendered all the same\n", name_of(effect));
+    return out + plan_line(plan) + "\n";
+}
+
+ordered_json plan_json(const Plan& plan) {
+    ordered_json wish = {{"width", plan.wish.width},
+                         {"height", plan.wish.height},
+                         {"tolerance", plan.wish.tolerance}};
+    if (plan.wish.seconds) wish["seconds"] = *plan.wish.seconds;
+    if (plan.wish.error) wish["error"] = *plan.wish.error;
+    if (plan.wish.method) wish["method"] = name_of(*plan.wish.method);
+    if (plan.wish.animated) wish["animated"] = true;
+    if (!plan.wish.with.empty()) wish["with"] = effect_names(plan.wish.with);
+    if (!plan.wish.without.empty()) wish["without"] = effect_names(plan.wish.without);
+    ordered_json out = {{"wish", wish},
+                        {"facts", facts_json(plan.facts)},
+                        {"effects", effects_json(plan)},
+                        {"bound", number(plan.bound)},
+                        {"method", name_of(plan.method)},
+                        {"why", plan.why},
+                        {"settings", settings_json(plan)},
+                        {"direct_light", emitters_json(plan)},
+                        {"once_ms", plan.cost.once_ms},
+                        {"frame_ms", plan.cost.frame_ms},
+                        {"memory_mb", plan.cost.megabytes},
+                        {"meets_time", plan.meets_time},
+                        {"meets_error", plan.meets_error}};
+    if (plan.error) {
+        out["error"] = *plan.error;
+        out["error_ground"] = plan.error_ground;
+    }
+    if (!plan.unavoidable.empty()) out["unavoidable"] = effect_names(plan.unavoidable);
+    if (plan.probe)
+        out["probe"] = {{"first_bounce", number(plan.probe->first_bounce)},
+                        {"reflected", number(plan.probe->reflected)},
+                        {"direct_error", number(plan.probe->direct_error)},
+                        {"ms", plan.probe->milliseconds}};
+    return out;
+}
+
+}  // namespace clgi::program

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "program/session.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <clgi/error.hpp>
+#include <clgi/io/gltf.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <optional>
+
+#include "core/opencl/error_text.hpp"
+
+namespace clgi::program {
+namespace {
+
+std::atomic<bool> interrupt_flag{false};
+
+}  // namespace
+
+void add_device_option(CLI::App& command, std::string& choice) {
+    command.add_option("--device", choice, "platform:CPU|GPU:name-or-index")
+        ->type_name("CHOICE")
+        ->default_str("CLGI_DEVICE, else the first GPU, else the first CPU");
+}
+
+void add_quiet_flag(CLI::App& command, bool& quiet) {
+    command.add_flag("--quiet", quiet, "Print no notices, no progress bar and no summary");
+}
+
+void add_place_options(CLI::App& command, int& scene, int& camera) {
+    command.add_option("--scene", scene, "Index of the scene in the file")
+        ->type_name("N")
+        ->default_str("the file's default");
+    command.add_option("--camera", camera, "Index of the camera in the scene")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber);
+}
+
+void add_device_flags(CLI::App& command, DeviceFlags& flags) {
+    add_device_option(command, flags.device);
+    command.add_option("--math", flags.math, "Math of the kernels; fast may reorder and round")
+        ->type_name("MATH")
+        ->check(CLI::IsMember({"strict", "fast"}));
+    command
+        .add_option("--storage", flags.storage,
+                    "Number format of planes between passes: full is float")
+        ->type_name("STORAGE")
+        ->check(CLI::IsMember({"full", "half"}));
+    add_quiet_flag(command, flags.quiet);
+}
+
+Session open_session(const DeviceFlags& flags, const ContextProperties& properties) {
+    Session out;
+    out.device = choose_device(flags.device);
+    notice(flags.quiet, describe(out.device));
+    const auto more = properties ? properties(out.device) : std::vector<cl_context_properties>();
+    try {
+        out.context = cl::Context(out.device, more.empty() ? nullptr : more.data());
+        out.queue = cl::CommandQueue(out.context, out.device, CL_QUEUE_PROFILING_ENABLE);
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("device: {} cannot be opened: {}", describe(out.device),
+                                      error_text(error.err())));
+    }
+    return out;
+}
+
+BuildOptions build_of(const DeviceFlags& flags) {
+    BuildOptions out;
+    out.math = flags.math == "fast" ? Math::fast : Math::strict;
+    out.storage = flags.storage == "half" ? Storage::half : Storage::full;
+    return out;
+}
+
+std::string build_flags(const DeviceFlags& flags) {
+    return (flags.math == "strict" ? "" : " --math " + flags.math) +
+           (flags.storage == "full" ? "" : " --storage " + flags.storage);
+}
+
+void check_camera(const std::string& command, int camera, const Scene& scene) {
+    if (camera >= static_cast<int>(scene.cameras.size()))
+        throw Error(fmt::format("{}: --camera is {}, the scene has {}", command, camera,
+                                scene.cameras.size()));
+}
+
+Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlags& environment,
+                 bool quiet, bool lightmaps) {
+    io::GltfOptions options;
+    options.scene = scene_index;
+    options.lightmaps = lightmaps;
+    Scene scene = io::load_gltf(path, options);
+    for (const std::string& warning : scene.warnings) notice(quiet, "warning: " + warning);
+    if (scene.cameras.empty()) {
+        scene.cameras.push_back(default_camera(scene));
+        notice(quiet, "note: the scene has no camera; a default camera is used");
+    }
+    add_environment(environment, scene, quiet);
+    if (scene.lights.empty() && !has_emission(scene) && !scene.environment) {
+        scene.lights.push_back(default_light(scene));
+        notice(quiet, "note: the scene has no light; a directional light of pi lux is used");
+    }
+    return scene;
+}
+
+void notice(bool quiet, const std::string& text) {
+    if (!quiet) fmt::print(stderr, "clgi: {}\n", text);
+}
+
+void catch_interrupts() {
+    std::signal(SIGINT, [](int) {
+        interrupt_flag = true;
+        std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the program at once
+    });
+}
+
+bool interrupted() { return interrupt_flag; }
+
+std::string time_left(double from, double done, double seconds) {
+    if (!(done > from) || seconds < 1.0) return "";  // too early to tell
+    const double left = seconds * (1.0 - done) / (done - from);
+    if (left < 60.0) return fmt::format("{:.0f} s left", std::ceil(left));
+    const auto minutes = static_cast<long>(std::ceil(left / 60.0));
+    if (minutes < 60) return fmt::format("{} min left", minutes);
+    return fmt::format("{} h {:02} min left", minutes / 60, minutes % 60);
+}
+
+std::vector<std::string> given(const CLI::App& command, std::initializer_list<const char*> names) {
+    std::vector<std::string> out;
+    for (const char* name : names)
+        if (command.count(name) > 0) out.emplace_back(name);
+    return out;
+}
+
+std::function<bool(double)> progress_bar(const std::string& what, bool quiet) {
+    using Clock = std::chrono::steady_clock;
+    struct Begin {
+        double done = 0.0;
+        Clock::time_point time;
+    };
+    const bool draw = !quiet && isatty(fileno(stderr)) == 1;
+    return [what, draw, begin = std::optional<Begin>()](double done) mutable {
+        if (!draw) return !interrupted();
+        // Work that goes on from where it was cancelled begins with a share that took no time.
+        if (!begin && done > 0.0) begin = Begin{done, Clock::now()};
+        std::string left;
+        if (begin && done < 1.0)
+            left = time_left(begin->done, done,
+                             std::chrono::duration<double>(Clock::now() - begin->time).count());
+        fmt::print(stderr, "\r{} [{:<30}] {:3.0f} % {:<14}{}", what,
+                   std::string(static_cast<std::size_t>(done * 30.0), '#'), 100.0 * done, left,
+                   done >= 1.0 || interrupted() ? "\n" : "");
+        std::fflush(stderr);
+        return !interrupted();
+    };
+}
+
+}  // namespace clgi::program

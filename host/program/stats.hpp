@@ -1,0 +1,83 @@
+// The JSON of --stats.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/device_scene.hpp>
+#include <clgi/second_order.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/ask.hpp"
+#include "lab/replicates.hpp"
+#include "lab/timing.hpp"
+
+namespace clgi::program {
+
+// What --method atlas did before the first picture.
+struct BakeSummary {
+    std::size_t vpls = 0;
+    std::size_t texels = 0;
+    int pages = 0;
+    int atlas_size = 0;      // texels, side of a page
+    double layout_ms = 0.0;  // on the host
+    double bake_ms = 0.0;
+};
+
+// What --method transfer works on.
+struct TransferSummary {
+    std::uint32_t receivers = 0;  // vertices and their other sides
+    std::uint32_t triangles = 0;  // that block
+    int terms = 0;
+    std::uint32_t receiver_pixels = 0;  // of the last picture
+};
+
+// What --method antiradiance works on.
+struct AntiradianceSummary {
+    std::size_t elements = 0;
+    std::size_t leaves = 0;
+    std::size_t links = 0;
+    std::size_t moving_links = 0;  // of these
+    int bins = 0;
+    std::string iteration;
+    bool diverged = false;      // the symmetric iteration did, in some frame
+    int given_up_frames = 0;    // in which the one that was used did: no result
+    bool converged = false;     // in all frames
+    bool lets_through = false;  // something may lie between
+    std::size_t steps = 0;
+    double residual = 0.0;
+    double linking_ms = 0.0;  // on the host
+};
+
+struct Planned;
+
+struct RenderRecord {
+    cl::Device device;
+    BuildOptions build;
+    std::string method;
+    std::size_t triangles = 0;
+    std::size_t lights = 0;
+    std::vector<std::string> effects;
+    std::vector<double> frame_ms;
+    std::vector<std::vector<lab::PassTime>> passes;  // of every frame
+    std::size_t bytes = 0;                              // of scene and solver
+    double build_ms = 0.0;                              // kernels and buffers
+    RenderStatus status;
+    std::string gbuffer = "cl";  // what drew the camera's view: cl or gl
+    std::string gl_renderer;     // of gl: "surfaceless: llvmpipe ..."
+    std::string gl_path;         // of gl: "copied: ..."
+    std::optional<lab::Replicates> replicates;
+    std::optional<AskRecord> ask;  // where a result was asked for
+    std::optional<BakeSummary> bake;
+    std::optional<TransferSummary> transfer;
+    std::optional<AntiradianceSummary> antiradiance;
+    std::shared_ptr<const Planned> planned;  // of --method auto
+    std::vector<std::string> warnings;
+};
+
+// Writes a temporary file and renames it. Throws InputError when it cannot be written.
+void save_stats(const RenderRecord& record, const std::filesystem::path& path);
+
+}  // namespace clgi::program

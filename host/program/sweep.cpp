@@ -1,0 +1,239 @@
+// clgi sweep SCENE -o folder/: what accuracy costs in time.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/error.hpp>
+#include <clgi/io/image.hpp>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "program/animation.hpp"
+#include "program/commands.hpp"
+#include "program/duration.hpp"
+#include "program/picture.hpp"
+#include "program/session.hpp"
+#include "program/sweep_flags.hpp"
+#include "program/version.hpp"
+#include "lab/contact_sheet.hpp"
+#include "lab/sweep_atlas.hpp"
+#include "lab/sweep_files.hpp"
+#include "lab/sweep_pictures.hpp"
+#include "lab/sweep_summary.hpp"
+#include "lab/sweep_transfer.hpp"
+
+namespace clgi::program {
+namespace {
+
+bool of_atlas(const SweepFlags& flags) { return flags.method == "atlas"; }
+bool of_transfer(const SweepFlags& flags) { return flags.method == "transfer"; }
+bool of_all(const SweepFlags& flags) { return flags.method == "all"; }
+
+lab::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
+    lab::PictureSweep out;
+    check_camera("sweep", flags.camera, scene);
+    out.camera = flags.camera;
+    out.width = flags.quick ? 160 : 320;
+    out.height = flags.quick ? 120 : 240;
+    if (flags.method == "antiradiance") out.methods = {lab::antiradiance_method};
+    if (of_all(flags))
+        out.methods = {lab::second_order_method, lab::antiradiance_method,
+                       lab::light_atlas_method, lab::dynamic_transfer_method};
+    parse_size("sweep", flags.size, 4096, out.width, out.height);
+    return out;
+}
+
+lab::AtlasSweep atlas_of(const SweepFlags& flags) {
+    lab::AtlasSweep out;
+    out.layout.size = flags.atlas_size > 0 ? flags.atlas_size : flags.quick ? 64 : 256;
+    out.reference = flags.reference;
+    return out;
+}
+
+int samples_of(const SweepFlags& flags) {
+    if (flags.samples > 0) return flags.samples;
+    if (of_atlas(flags)) return flags.quick ? 100 : 400;
+    if (of_transfer(flags)) return flags.quick ? 256 : 1024;
+    return flags.quick ? 64 : 192;
+}
+
+void run_sweep(const SweepFlags& flags) {
+    const auto refuse = [](bool wrong, const std::vector<std::string>& given,
+                           const std::string& why) {
+        if (wrong && !given.empty())
+            throw Error(fmt::format("sweep: {} goes {}", given.front(), why));
+    };
+    refuse(flags.convergence, flags.not_convergence, "not with --convergence");
+    refuse(!flags.convergence, flags.convergence_only, "only with --convergence");
+    if (flags.convergence) return run_convergence(flags);
+    refuse(of_atlas(flags) || of_transfer(flags), flags.pictures_only,
+           "not with --method " + flags.method);
+    refuse(!of_atlas(flags), flags.atlas_only, "only with --method atlas");
+    refuse(!of_all(flags), flags.all_only, "only with --method all");
+    const double sheet_time = parse_milliseconds("sweep", "--sheet-time", flags.sheet_time);
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet,
+                             of_atlas(flags));
+    lab::TransferSweep motion;
+    Scene animated;  // as it was before it is posed
+    if (of_transfer(flags) && flags.animation.given()) {
+        motion.clip = clip_of("sweep", scene, flags.animation);
+        animated = scene;
+        motion.animated = &animated;
+    }
+    pose_scene("sweep", flags.animation, scene);
+    const lab::PictureSweep pictures =
+        of_atlas(flags) || of_transfer(flags) ? lab::PictureSweep() : pictures_of(flags, scene);
+    const Session session = open_session(flags.device);
+    lab::SweepSetup setup{session.queue, scene};
+    setup.quick = flags.quick;
+    setup.solver = flags.method != "reference";
+    setup.path_tracer = flags.method != "second-order";
+    setup.rounds = flags.rounds > 0 ? flags.rounds : flags.quick ? 2 : 3;
+    setup.reference_samples = samples_of(flags);
+    setup.build = build_of(flags.device);
+    setup.folder = flags.output;
+    make_folder(flags.output);
+    catch_interrupts();
+    setup.progress = progress_bar("sweep", flags.device.quiet);
+    lab::Sweep result;
+    try {
+        result = of_atlas(flags)      ? lab::sweep_atlas(setup, atlas_of(flags))
+                 : of_transfer(flags) ? lab::sweep_transfer(setup, motion)
+                                      : lab::sweep_pictures(setup, pictures);
+    } catch (const Error&) {
+        if (interrupted()) throw Interrupted();
+        throw;
+    }
+    if (setup.progress) setup.progress(1.0);
+    const std::string why = lab::save_sweep(result, {flags.command, CLGI_VERSION}, setup.folder);
+    if (!why.empty()) notice(flags.device.quiet, "no plots: " + why);
+    if (of_all(flags)) {
+        const lab::Raster sheet = draw_sheet(lab::contact_sheet(result, sheet_time));
+        io::save_png(sheet.width, sheet.height, sheet.rgba, setup.folder / "methods.png");
+    }
+    if (result.non_finite > 0)
+        notice(false, fmt::format("warning: {} packets held numbers that are not finite",
+                                  result.non_finite));
+    if (flags.device.quiet) return;
+    for (const std::string& line : lab::summary(result)) fmt::print("{}\n", line);
+    fmt::print("{}: index.html, sweep.csv, sweep.json{}{}\n", flags.output,
+               of_all(flags) ? ", methods.png" : "", why.empty() ? ", error-*.svg" : "");
+}
+
+}  // namespace
+
+Scene open_sweep_scene(const SweepFlags& flags) {
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
+    pose_scene("sweep", flags.animation, scene);
+    return scene;
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) throw InputError(fmt::format("{}: {}", folder, failed.message()));
+}
+
+void add_sweep(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("sweep", "Measure accuracy against time");
+    const auto flags = std::make_shared<SweepFlags>();
+    command->add_option("scene", flags->scene, ".gltf or .glb file")
+        ->required()
+        ->type_name("SCENE");
+    command
+        ->add_option("-o,--output", flags->output,
+                     "Folder for the results; references in it are used again")
+        ->required()
+        ->type_name("FOLDER");
+    command->add_option("--method", flags->method, "What to measure")
+        ->type_name("METHOD")
+        ->check(CLI::IsMember(
+            {"second-order", "reference", "all", "atlas", "transfer", "antiradiance"}));
+    command->add_option("--size", flags->size, "Pixels across and down")
+        ->type_name("WxH")
+        ->default_str("320x240; with --quick 160x120");
+    command->add_option("--atlas-size", flags->atlas_size, "atlas: texels, side of a page")
+        ->type_name("N")
+        ->default_str("256; with --quick 64")
+        ->check(CLI::Range(1, 8192));
+    command
+        ->add_option("--reference", flags->reference,
+                     "atlas: EXR of the irradiance that bakes are compared with")
+        ->type_name("FILE")
+        ->default_str("made with --spp");
+    command
+        ->add_option("--spp", flags->samples,
+                     "Samples per pixel, texel or vertex of the references")
+        ->type_name("N")
+        ->default_str("192, atlas 400, transfer 1024; with --quick 64, 100, 256")
+        ->check(CLI::Range(2, 1 << 20));
+    command->add_option("--rounds", flags->rounds, "Times that every setting is measured")
+        ->type_name("N")
+        ->default_str("3; with --quick 2")
+        ->check(CLI::Range(1, 1000));
+    command
+        ->add_option("--sheet-time", flags->sheet_time,
+                     "all: Time of a frame that pictures of methods.png may take")
+        ->type_name("TIME");
+    command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
+    command->add_flag("--convergence", flags->convergence,
+                      "Instead: how the iterations of antiradiance converge, step by step");
+    command->add_option("--bins", flags->bins, "convergence: Bins of directions, a multiple of 4")
+        ->type_name("N")
+        ->default_str("128; with --quick 64")
+        ->check(CLI::Range(32, 4096));
+    command
+        ->add_option("--elements", flags->elements,
+                     "convergence: Parts that surfaces are cut to, about")
+        ->type_name("N")
+        ->default_str("8192; with --quick 2000")
+        ->check(CLI::Range(1, 1 << 24));
+    command->add_option("--iterations", flags->steps, "convergence: Steps of each iteration")
+        ->type_name("N")
+        ->default_str("100; with --quick 40")
+        ->check(CLI::Range(1, 10000));
+    add_place_options(*command, flags->scene_index, flags->camera);
+    add_animation_flags(*command, flags->animation);
+    add_environment_flags(*command, flags->environment);
+    add_device_flags(*command, flags->device);
+    command->callback([flags, command] {
+        flags->pictures_only = given(*command, {"--size", "--camera"});
+        flags->atlas_only = given(*command, {"--atlas-size", "--reference"});
+        flags->all_only = given(*command, {"--sheet-time"});
+        flags->convergence_only = given(*command, {"--bins", "--elements", "--iterations"});
+        flags->not_convergence =
+            given(*command, {"--method", "--size", "--camera", "--spp", "--rounds", "--atlas-size",
+                             "--reference", "--sheet-time"});
+        flags->command = fmt::format(
+            "clgi sweep {} -o {}{}{}", std::filesystem::path(flags->scene).filename().string(),
+            std::filesystem::path(flags->output).filename().string(),
+            flags->method == "all" ? "" : " --method " + flags->method,
+            (flags->quick ? " --quick" : "") +
+                std::string(flags->convergence ? " --convergence" : "") +
+                (flags->bins > 0 ? fmt::format(" --bins {}", flags->bins) : "") +
+                (flags->elements > 0 ? fmt::format(" --elements {}", flags->elements) : "") +
+                (flags->steps > 0 ? fmt::format(" --iterations {}", flags->steps) : "") +
+                (flags->size.empty() ? std::string() : " --size " + flags->size) +
+                (flags->atlas_size > 0 ? fmt::format(" --atlas-size {}", flags->atlas_size) : "") +
+                (flags->reference.empty()
+                     ? std::string()
+                     : " --reference " +
+                           std::filesystem::path(flags->reference).filename().string()) +
+                (flags->samples > 0 ? fmt::format(" --spp {}", flags->samples) : "") +
+                (flags->rounds > 0 ? fmt::format(" --rounds {}", flags->rounds) : "") +
+                (flags->all_only.empty() ? std::string() : " --sheet-time " + flags->sheet_time) +
+                (flags->scene_index >= 0 ? fmt::format(" --scene {}", flags->scene_index) : "") +
+                (flags->camera > 0 ? fmt::format(" --camera {}", flags->camera) : "") +
+                (flags->animation.time ? fmt::format(" --time {}", *flags->animation.time) : "") +
+                (flags->animation.clip.empty() ? "" : " --animation " + flags->animation.clip) +
+                text_of(flags->environment) +
+                (flags->device.device.empty() ? "" : " --device " + flags->device.device) +
+                build_flags(flags->device));
+        run_sweep(*flags);
+    });
+}
+
+}  // namespace clgi::program

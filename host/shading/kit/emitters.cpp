@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/advanced/kit/draw.hpp>
+#include <clgi/advanced/kit/emitters.hpp>
+
+namespace clgi {
+
+Emitters::Emitters(const DeviceScene& scene, const EmitterOptions& options, Pixels kind)
+    : scene_(&scene), set_(make_emitters(scene, options)), room_(set_.room) {
+    buffers_.kind = kind;
+    buffers_.view_count = set_.views.size();
+    buffers_.pixels = set_.pixels;
+}
+
+void Emitters::add_to(BufferTable& table) {
+    const char* lower = "emitters.shadow_size, face_size or area_samples";
+    table.add(buffers_.emitters, "emitters", lower, room_.emitters * sizeof(Emitter));
+    table.add(buffers_.views, "the emitters' views", lower, room_.views * sizeof(View));
+    table.add(buffers_.visibility, "the emitters' shadow maps", lower,
+              room_.pixels * pixel_bytes(buffers_.kind));
+}
+
+bool Emitters::update(const EmitterOptions& options) {
+    EmitterSet next = make_emitters(*scene_, options);
+    if (next.room.emitters > room_.emitters || next.room.views > room_.views ||
+        next.room.pixels > room_.pixels)
+        return false;
+    set_ = std::move(next);
+    buffers_.view_count = set_.views.size();
+    buffers_.pixels = set_.pixels;
+    return true;
+}
+
+void Emitters::adopt(Emitters&& planned) {
+    set_ = std::move(planned.set_);
+    room_ = planned.room_;
+    buffers_.view_count = set_.views.size();
+    buffers_.pixels = set_.pixels;
+}
+
+void Emitters::write(Recorder& record) const {
+    record.write(buffers_.emitters, set_.emitters.data(), set_.emitters.size() * sizeof(Emitter));
+    record.write(buffers_.views, set_.views.data(), set_.views.size() * sizeof(View));
+}
+
+void Emitters::accept(Recorder& record, const LightPasses& passes, const cl::Buffer& mask,
+                      const cl::Buffer& accepted) const {
+    const cl::CommandQueue& queue = record.queue();
+    const auto vpls = static_cast<std::uint32_t>(set_.vpl_count);
+    for (std::size_t e = 0; e < set_.emitters.size(); ++e) {
+        if (set_.candidates[e] == 0) continue;
+        const AcceptParams params{static_cast<std::uint32_t>(e), set_.candidates[e], vpls, 0};
+        record("lights.accept_mask", params.candidate_count, [&](const WaitList& wait) {
+            return passes.accept_mask(queue, params, buffers_.emitters, mask, wait);
+        });
+        record("lights.accept_list", params.candidate_count, [&](const WaitList& wait) {
+            return passes.accept_list(queue, params, buffers_.emitters, mask, accepted, wait);
+        });
+    }
+}
+
+void Emitters::build(const GBufferPasses& gbuffer) const {
+    for (const EmitterRoom::Together& views : room_.together)
+        for (const std::uint32_t count : {views.least, views.most})
+            build_draw(gbuffer, *scene_, {0, count, views.width, views.height, 0}, buffers_.kind);
+}
+
+void Emitters::draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const {
+    lists.pixels = buffers_.visibility;
+    lists.kind = buffers_.kind;
+    // Views of one size are drawn together.
+    for (std::size_t first = 0, last; first < set_.views.size(); first = last) {
+        last = first + 1;
+        while (last < set_.views.size() && set_.views[last].width == set_.views[first].width)
+            ++last;
+        clgi::draw(record, gbuffer, *scene_, span_of(set_.views, first, last - first),
+                   buffers_.views, lists);
+    }
+}
+
+}  // namespace clgi

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/advanced/emitters.hpp>
+
+#include <clgi/shared/halton.h>
+#include <algorithm>
+#include <array>
+#include <clgi/error.hpp>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "shading/lights/replicate.hpp"
+#include "shading/lights/single_view.hpp"
+#include "core/opencl/check.hpp"
+#include "scene/luminance.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::size_t most_pixels = std::size_t{1} << 30;  // kernels count view pixels in ints
+using std::numbers::pi;
+
+// Any unit vector across n.
+glm::vec3 across(const glm::vec3& n) {
+    const glm::vec3 helper = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    return glm::normalize(glm::cross(helper, n));
+}
+
+// Sources that stand for one another: what one of them does not send, others of its group may.
+enum Group : std::size_t { lamps, environment, surfaces, group_count };
+
+struct Source {
+    Emitter emitter{};
+    std::vector<View> views;
+    double power = 0.0;
+    double acceptance = 0.0;  // share of the sphere in a spot's cone
+    Group group = lamps;
+};
+
+View window(const glm::vec3& eye, const glm::vec3& right, const glm::vec3& up,
+            const glm::vec3& forward, float extent_x, float extent_y, float near, int width,
+            int height) {
+    View view{};
+    view.eye = glm::vec4(eye, 0.0f);
+    view.right = glm::vec4(right, extent_x);
+    view.up = glm::vec4(up, extent_y);
+    view.forward = glm::vec4(forward, near);
+    view.width = static_cast<std::uint32_t>(width);
+    view.height = static_cast<std::uint32_t>(height);
+    return view;
+}
+
+std::vector<View> cube(const glm::vec3& eye, float near, int size) {
+    const glm::vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    std::vector<View> views;
+    for (int face = 0; face < 6; ++face) {
+        const glm::vec3 forward = face % 2 == 0 ? axes[face / 2] : -axes[face / 2];
+        const glm::vec3 up = axes[(face / 2 + 1) % 3];
+        views.push_back(window(eye, glm::cross(forward, up), up, forward, 1, 1, near, size, size));
+    }
+    return views;
+}
+
+// The face along the normal and the outer halves of the four around it.
+std::vector<View> hemicube(const glm::vec3& eye, const glm::vec3& normal, float near, int size) {
+    const glm::vec3 right = across(normal);
+    const glm::vec3 up = glm::cross(right, normal);
+    std::vector<View> views = {window(eye, right, up, normal, 1, 1, near, size, size)};
+    for (const glm::vec3& side : {right, up, -right, -up}) {
+        View half = window(eye, glm::cross(side, normal), normal, side, 1, 0.5f, near, size,
+                           std::max(size / 2, 1));
+        half.window.y = 0.5f;
+        views.push_back(half);
+    }
+    return views;
+}
+
+Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterOptions& options) {
+    Source out;
+    const bool spot = light.kind == Light::Kind::spot;
+    const glm::vec3 eye = frame.to_local(light.position);
+    const float near = 1e-4f * frame.radius;
+    // Candela keep their meaning when lengths are scaled: I / d^2 = (I s^2) / (d s)^2.
+    const glm::vec3 intensity =
+        glm::vec3(glm::dvec3(light.intensity) * (frame.scale * frame.scale / frame.exposure));
+    Emitter& e = out.emitter;
+    e.position = glm::vec4(eye, 0.0f);
+    e.intensity = glm::vec4(intensity, 0.0f);
+    e.range = static_cast<float>(light.range * frame.scale);
+    e.kind = spot ? EMITTER_SPOT : EMITTER_POINT;
+    const glm::vec3 axis = spot ? glm::normalize(light.direction) : glm::vec3(0, 0, -1);
+    const glm::vec3 right = across(axis);
+    const double outer = spot ? light.outer_angle : pi;
+    const double inner = spot ? std::min<double>(light.inner_angle, outer) : pi;
+    e.axis = glm::vec4(axis, static_cast<float>(std::cos(outer)));
+    e.right = glm::vec4(right, static_cast<float>(std::cos(inner)));
+    // sin^2 of half the angle keeps what 1 - cos loses for narrow cones.
+    out.acceptance = std::pow(std::sin(0.5 * outer), 2);
+    e.measure = static_cast<float>(4.0 * pi * out.acceptance);
+    // Between inner and outer angle the intensity falls as the square of a linear function of the
+    // cosine, whose mean is a third.
+    const double full = std::pow(std::sin(0.5 * inner), 2);
+    out.power = luminance(intensity) * 4.0 * pi * (full + (out.acceptance - full) / 3.0);
+    if (has_single_view(light)) {
+        const float extent = static_cast<float>(std::tan(outer));
+        out.views = {window(eye, right, glm::cross(right, axis), axis, extent, extent, near,
+                            options.shadow_size, options.shadow_size)};
+    } else {
+        out.views = cube(eye, near, options.face_size);
+    }
+    return out;
+}
+
+Source directional(const Light& light, const SceneFrame& frame, const EmitterOptions& options) {
+    Source out;
+    const glm::vec3 axis = glm::normalize(light.direction);
+    const glm::vec3 right = across(axis);
+    const float radius = 1.001f * frame.radius;
+    const glm::vec3 lux = glm::vec3(glm::dvec3(light.intensity) / frame.exposure);
+    Emitter& e = out.emitter;
+    e.position = glm::vec4(-axis * (1.01f * radius), 0.0f);  // the disc touches the bounds
+    e.axis = glm::vec4(axis, 0.0f);
+    e.right = glm::vec4(right, 0.0f);
+    e.intensity = glm::vec4(lux, 0.0f);
+    e.kind = EMITTER_DIRECTIONAL;
+    e.measure = static_cast<float>(pi) * radius * radius;
+    out.power = luminance(lux) * e.measure;
+    View view = window(glm::vec3(e.position), right, glm::cross(right, axis), axis, radius, radius,
+                       0.0f, options.shadow_size, options.shadow_size);
+    view.eye.w = 1.0f;
+    view.window.z = 2.05f * radius;
+    out.views = {view};
+    return out;
+}
+
+// Directional lights that stand for the environment.
+std::vector<Source> environment_lights(const DeviceScene& scene, const EmitterOptions& options) {
+    std::vector<Source> out;
+    for (const Light& light : scene.environment_lights(options.environment_lights)) {
+        out.push_back(directional(light, scene.frame(), options));
+        out.back().group = environment;
+    }
+    return out;
+}
+
+// `count` points on the emissive triangles, each standing for an equal share of their power.
+std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions& options) {
+    const std::vector<EmissiveTriangle>& triangles = scene.emissive();
+    std::vector<Source> out;
+    if (triangles.empty() || options.area_samples < 1) return out;
+    std::vector<double> cumulative;
+    double total = 0.0;
+    for (const EmissiveTriangle& t : triangles)
+        cumulative.push_back(total += pi * t.area * luminance(t.radiance));
+    const SceneFrame& frame = scene.frame();
+    const double share = total / options.area_samples;
+    for (int k = 0; k < options.area_samples; ++k) {
+        // Every replicate moves the points within their strata.
+        const double within =
+            options.replicate == 0
+                ? 0.5
+                : double{replicate_shift(options.replicate, ShiftUse::stratum, 0)};
+        const double target = (k + within) * share;
+        const std::size_t pick = static_cast<std::size_t>(
+            std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
+        const EmissiveTriangle& t = triangles[std::min(pick, triangles.size() - 1)];
+        // Uniform on the triangle; the index runs on, so triangles picked often are covered evenly.
+        const auto index = static_cast<std::uint32_t>(k) + 1;
+        const float root = std::sqrt(shifted_radical_inverse(
+            index, 2, replicate_shift(options.replicate, ShiftUse::area, 0)));
+        const float v = shifted_radical_inverse(
+            index, 3, replicate_shift(options.replicate, ShiftUse::area, 1));
+        const glm::vec3 on = t.corner[0] * (1.0f - root) + t.corner[1] * (root * (1.0f - v)) +
+                             t.corner[2] * (root * v);
+        const float lift = 1e-4f * frame.radius;
+        const float lum = luminance(t.radiance);
+        Source source;
+        Emitter& e = source.emitter;
+        e.position = glm::vec4(on + t.normal * lift, 0.0f);
+        e.axis = glm::vec4(t.normal, 0.0f);
+        e.right = glm::vec4(across(t.normal), 0.0f);
+        e.intensity = glm::vec4(t.radiance * static_cast<float>(share / lum), 0.0f);
+        e.area = static_cast<float>(share / (pi * lum));
+        e.kind = EMITTER_AREA;
+        source.power = share;
+        source.group = surfaces;
+        source.views = hemicube(glm::vec3(e.position), t.normal, 0.5f * lift, options.face_size);
+        out.push_back(source);
+    }
+    return out;
+}
+
+// The samples of all surfaces, or all directions of the environment, go dark together; each lamp
+// for itself.
+void count_views(const std::vector<Source>& sources, EmitterRoom& room) {
+    std::map<std::uint32_t, EmitterRoom::Together> by_width;
+    std::map<std::pair<std::uint32_t, std::size_t>, std::uint32_t> of_one;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        for (const View& view : sources[i].views) {
+            ++room.views;
+            room.pixels += static_cast<std::size_t>(view.width) * view.height;
+            EmitterRoom::Together& all = by_width[view.width];
+            all.width = view.width;
+            all.height = std::max(all.height, view.height);
+            ++all.most;
+            const std::size_t one = sources[i].group == lamps ? group_count + i : sources[i].group;
+            ++of_one[{view.width, one}];
+        }
+    for (auto& [width, all] : by_width) {
+        all.least = all.most;
+        for (const auto& [key, count] : of_one)
+            if (key.first == width) all.least = std::min(all.least, count);
+        room.together.push_back(all);
+    }
+}
+
+// Of the VPLs, how many are shared evenly, whatever the power: a dim lamp may be all that lights
+// what the camera sees, while most of the power goes by.
+constexpr double even = 0.25;
+
+// Shares of the sources, 1 in sum: by power, and a part of them evenly to each lamp, to all
+// directions and to all samples together.
+std::vector<double> wanted_shares(const std::vector<Source>& sources) {
+    std::array<double, group_count> power{};
+    double total = 0.0, units = 0.0;
+    for (const Source& source : sources) {
+        total += source.power;
+        power[source.group] += source.power;
+        units += source.group == lamps;
+    }
+    for (const Group together : {environment, surfaces}) units += power[together] > 0.0;
+    std::vector<double> out;
+    for (const Source& source : sources) {
+        const double of_unit = source.group == lamps ? 1.0 : source.power / power[source.group];
+        out.push_back((1.0 - even) * (source.power / total) + even * of_unit / units);
+    }
+    return out;
+}
+
+// Whole lights by largest remainders, their sum exactly `lights`.
+std::vector<std::uint32_t> divide(const std::vector<Source>& sources, int lights) {
+    const std::vector<double> wanted = wanted_shares(sources);
+    std::vector<std::uint32_t> shares;
+    std::vector<std::pair<double, std::size_t>> rests;
+    std::uint32_t given = 0;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const double exact = lights * wanted[i];
+        shares.push_back(static_cast<std::uint32_t>(exact));
+        given += shares.back();
+        rests.emplace_back(exact - shares.back(), i);
+    }
+    std::stable_sort(rests.begin(), rests.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (std::size_t i = 0; given < static_cast<std::uint32_t>(lights); ++i, ++given)
+        ++shares[rests[i % rests.size()].second];
+    return shares;
+}
+
+// By what each group multiplies its indirect light, so that sources too weak for a light of their
+// own are not lost: the others of the group take over their power, and all other groups that of a
+// group without lights.
+std::array<double, group_count> taken_over(const std::vector<Source>& sources,
+                                           const std::vector<std::uint32_t>& shares) {
+    std::array<double, group_count> power{}, lit{}, out{};
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        power[sources[i].group] += sources[i].power;
+        if (shares[i] > 0) lit[sources[i].group] += sources[i].power;
+    }
+    double all = 0.0, sending = 0.0;
+    for (std::size_t g = 0; g < group_count; ++g) {
+        all += power[g];
+        if (lit[g] > 0.0) sending += power[g];
+    }
+    for (std::size_t g = 0; g < group_count; ++g)
+        out[g] = lit[g] > 0.0 ? power[g] / lit[g] * (all / sending) : 1.0;
+    return out;
+}
+
+// Halton candidates to try; 0 where nothing is rejected, or where too much would be.
+std::uint32_t candidate_count(const Source& source, std::uint32_t share) {
+    if (source.emitter.kind != EMITTER_SPOT || share == 0) return 0;
+    // Twice what is expected, and some more for few lights: the sequence's discrepancy is far less.
+    const double tried = 2.0 * share / std::max(source.acceptance, 1e-12) + 1024.0;
+    if (tried > most_candidates) return 0;
+    return (static_cast<std::uint32_t>(tried) + 31) / 32 * 32;
+}
+
+}  // namespace
+
+EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options) {
+    need_range("emitters", "vpls", options.vpls, 0, 1 << 20);
+    need_range("emitters", "shadow_size", options.shadow_size, 1, 8192);
+    need_range("emitters", "face_size", options.face_size, 1, 4096);
+    need_range("emitters", "area_samples", options.area_samples, 0, 4096);
+    need_range("emitters", "environment_lights", options.environment_lights, 0, 4096);
+
+    const int vpls = options.shadows ? options.vpls : 0;
+    std::vector<Source> sources;
+    if (scene.info().triangle_count > 0) {
+        for (const Light& light : scene.lights())
+            sources.push_back(light.kind == Light::Kind::directional
+                                  ? directional(light, scene.frame(), options)
+                                  : spot_or_point(light, scene.frame(), options));
+        for (const auto& more : {area_samples(scene, options), environment_lights(scene, options)})
+            sources.insert(sources.end(), more.begin(), more.end());
+    }
+    if (!options.shadows)
+        for (Source& source : sources) source.views.clear();
+    EmitterSet out;
+    out.room.emitters = sources.size();
+    count_views(sources, out.room);
+    if (out.room.pixels > most_pixels)
+        throw Error(
+            "emitters: the sources' views have more than 2^30 pixels; fewer "
+            "area_samples or environment_lights, or smaller shadow_size and face_size needed");
+    std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
+    if (sources.empty()) return out;
+    const std::vector<std::uint32_t> shares = divide(sources, vpls);
+    const std::array<double, group_count> factor = taken_over(sources, shares);
+    // All directions of the environment spread their lights over one disc together, and all samples
+    // of the emissive surfaces theirs over what they light: points of one sequence, as each alone
+    // has too few.
+    std::array<std::uint32_t, group_count> lights_of{}, given{};
+    for (std::size_t i = 0; i < sources.size(); ++i) lights_of[sources[i].group] += shares[i];
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        Source& source = sources[i];
+        const bool alone = source.group == lamps;
+        const std::uint32_t sharing = alone ? shares[i] : lights_of[source.group];
+        if (source.emitter.kind == EMITTER_DIRECTIONAL)
+            source.emitter.area =
+                source.emitter.measure * (1.0f / static_cast<float>(std::max(sharing, 1u)));
+        if (source.emitter.kind == EMITTER_AREA)
+            source.emitter.measure =
+                static_cast<float>(pi * shares[i] / static_cast<double>(std::max(sharing, 1u)));
+        source.emitter.first_index = 1 + (alone ? 0 : given[source.group]);
+        given[source.group] += shares[i];
+        source.emitter.taken_over = static_cast<float>(factor[source.group]);
+        source.emitter.first_view = static_cast<std::uint32_t>(out.views.size());
+        source.emitter.view_count = static_cast<std::uint32_t>(source.views.size());
+        source.emitter.first_vpl = static_cast<std::uint32_t>(out.vpl_count);
+        source.emitter.vpl_count = shares[i];
+        for (int d = 0; d < 4; ++d)
+            source.emitter.shift[d] = replicate_shift(options.replicate, ShiftUse::light, d);
+        out.vpl_count += shares[i];
+        out.candidates.push_back(candidate_count(source, shares[i]));
+        if (source.emitter.kind == EMITTER_SPOT && out.candidates.back() == 0)
+            source.emitter.kind |= EMITTER_MAPPED;
+        out.emitters.push_back(source.emitter);
+        for (View& view : source.views) {
+            view.first_pixel = static_cast<std::uint32_t>(out.pixels);
+            out.pixels += static_cast<std::size_t>(view.width) * view.height;
+            out.views.push_back(view);
+        }
+    }
+    return out;
+}
+
+}  // namespace clgi

@@ -1,0 +1,69 @@
+// From the lights of a scene to the emitters that the device samples.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/shared/gbuffer.h>
+#include <clgi/shared/lights.h>
+#include <clgi/device_scene.hpp>
+#include <clgi/advanced/export.hpp>
+#include <vector>
+
+namespace clgi {
+
+struct EmitterOptions {
+    int vpls = 300;               // virtual point lights (VPLs), of all emitters together
+    int shadow_size = 512;        // pixels per side of a spot or directional light's map
+    int face_size = 256;          // pixels per side of a cube or hemicube face
+    int area_samples = 16;        // sample points on all emissive surfaces together
+    int environment_lights = 16;  // directional lights that approximate it
+    // 0: the Halton points themselves. Other values: randomised shifts of them (Cranley and
+    // Patterson). The differences between replicates estimate the error of one.
+    std::uint32_t replicate = 0;
+    // false: nothing lies between lights and surfaces. Emitters then have no views and no shadow
+    // maps, and light every point that faces them. No VPL can be placed without views, so vpls
+    // counts as 0.
+    bool shadows = true;
+};
+
+// Halton candidates that are tried for a spot at most; a narrower cone is mapped directly.
+constexpr std::uint32_t most_candidates = 1u << 22;
+
+// How much buffers must hold for all lights of a scene, also for those that are dark at the moment.
+struct EmitterRoom {
+    std::size_t emitters = 0;
+    std::size_t views = 0;
+    std::size_t pixels = 0;
+    // Views of one width are drawn together: with only one of the lights that have such views, the
+    // one with the fewest, and with all of them.
+    struct Together {
+        std::uint32_t width = 0, height = 0;  // pixels, of the largest
+        std::uint32_t least = 0, most = 0;    // views
+    };
+    std::vector<Together> together;
+};
+
+struct EmitterSet {
+    std::vector<Emitter> emitters;
+    std::vector<View> views;                // of all emitters, in order
+    std::size_t pixels = 0;                 // of all views
+    std::vector<std::uint32_t> candidates;  // Halton candidates to try, by emitter; spots only
+    std::size_t vpl_count = 0;
+    EmitterRoom room;
+};
+
+// One emitter for each punctual light, `area_samples` for the emissive triangles (stratified by
+// power) and `environment_lights` for the environment (median cut [Debevec05]), each with its views
+// (without EmitterOptions::shadows: none) and its share of the VPLs: three quarters of them by
+// power, a quarter evenly to each lamp, to the emissive triangles and to the environment, so that a
+// dim lamp has some beside a bright one that lights nothing. Lights without power are left out.
+// Emitters too weak for a VPL of their own leave their indirect light to the others of their group
+// (punctual lights, directions, samples). A group without any VPL leaves it to all. Power is
+// luminance.
+//
+// A spot of more than 60 degrees from its axis has the views of a cube, like a point light.
+// If more than 2^22 candidates would have to be tried (300 VPLs below a degree), the cone is mapped
+// directly instead; its samples then turn with the light.
+// Throws Error for options out of range and for more than 2^30 pixels of views.
+CLGI_API EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options);
+
+}  // namespace clgi

@@ -1,0 +1,108 @@
+// A plan: which effects a scene calls for, the method that brings them within a time or an error,
+// and its settings. Plain data, made before anything runs.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/advanced/atlas_layout.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/effects.hpp>
+#include <clgi/advanced/facts.hpp>
+#include <clgi/antiradiance.hpp>
+#include <clgi/dynamic_transfer.hpp>
+#include <clgi/advanced/dynamic_transfer_view.hpp>
+#include <clgi/light_atlas.hpp>
+#include <clgi/second_order.hpp>
+#include <clgi/advanced/vpl_layout.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clgi {
+
+enum class Method { direct, second_order, light_atlas, antiradiance, dynamic_transfer };
+// As in the program: "second-order". The other way round: none for any other word, such as "auto".
+CLGI_API const char* name_of(Method method);
+CLGI_API std::optional<Method> method_of(const std::string& name);
+
+// What is asked for.
+struct PlanWish {
+    int width = 640;  // pixels
+    int height = 480;
+    // Effects may be left out that change a picture by at most this together: root of the mean
+    // squared difference of luminance over its mean.
+    double tolerance = 0.01;
+    // A picture may take so long, with all that is done before it but loading, upload and kernels.
+    // None: what the method takes by default.
+    std::optional<double> seconds;
+    // Of the picture, against all light, as tolerance is measured. None: none in particular.
+    std::optional<double> error;
+    // The scene moves from picture to picture, as its animation says: what is done before may not
+    // depend on where things are.
+    bool animated = false;
+    bool lights_change = false;  // set_light() will be called: nothing is proven of lights, and
+                                 // dark ones count as lights
+    bool camera_moves = false;   // no probe: it would hold for one picture alone
+    std::vector<Effect> with, without;  // overrule what is decided; no effect is in both
+    std::optional<Method> method;       // overrules the choice
+    // Of EmitterOptions, for direct light. None: the plan chooses.
+    std::optional<int> shadow_size, face_size, area_samples;
+    BuildOptions build;
+};
+
+// Predictions. Times are rough: constants of one machine, scaled by clock, units and lanes.
+struct PlanCost {
+    double once_ms = 0.0;   // before the first picture of a process whose kernels are built
+    double frame_ms = 0.0;  // each picture under the same lights
+    double megabytes = 0.0;
+    double total_ms() const { return once_ms + frame_ms; }
+};
+
+struct Plan {
+    PlanWish wish;
+    SceneFacts facts;  // of the scene without the lights and the gloss that the wish leaves out
+    std::optional<ProbeFacts> probe;
+    EffectChoices effects;
+    double bound = 0.0;  // what all effects that are left out for the tolerance change at most
+
+    Method method = Method::direct;
+    std::string why;  // a sentence: the method
+    // Off by wish, but the method cannot do without: they are rendered all the same.
+    std::vector<Effect> unavoidable;
+    PlanCost cost;
+    // Error against all light that the method reaches with such settings on scenes of this kind, as
+    // measured, and where; none where nothing was measured, the probe saw no light, or the wish
+    // leaves out what the scene calls for.
+    std::optional<double> error;
+    std::string error_ground;
+    // As predicted; true where nothing was asked for, meets_error false where the error is unknown.
+    bool meets_time = true, meets_error = true;
+
+    // Settings; those of other methods stay at their defaults.
+    PictureOptions picture;
+    SecondOrderOptions second_order;  // also of Method::direct
+    VplOptions vpls;
+    AtlasOptions layout;
+    LightAtlasOptions light_atlas;
+    AntiradianceOptions antiradiance;
+    DynamicTransferOptions transfer;
+    DynamicTransferViewOptions transfer_view;
+
+    bool on(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+};
+
+// From facts alone. Throws Error for a wish out of range or one that excludes itself.
+CLGI_API Plan make_plan(const cl::Device& device, const SceneFacts& facts, const PlanWish& wish);
+
+// Reads the facts and, where they leave open whether indirect light matters, uploads the scene and
+// draws two small pictures of it.
+CLGI_API Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
+                        const Camera& camera, const PlanWish& wish);
+
+// The scene with what the plan renders alone: without lights, emission, environment, gloss,
+// textures, alpha masks and animation whose effects are off. What is off because it changes nothing
+// (a texture of one colour, a mask without holes) is replaced by what it comes to. Textures that
+// are not read any more are dropped, the others renumbered.
+CLGI_API Scene planned_scene(const Scene& scene, const Plan& plan);
+
+}  // namespace clgi

@@ -1,0 +1,107 @@
+// Clusters that are passed over hold nothing that is seen: pictures are the same with clusters
+// that are never passed over.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clgi/procedural.hpp>
+#include <limits>
+
+#include "depth_words.hpp"
+#include "lab/scenes/rooms.hpp"
+#include "patchwork.hpp"
+
+namespace clgi {
+namespace {
+
+using test::Looking;
+
+// whole: by raster_views, else by lists.
+template <typename Word>
+std::vector<Word> words(const DeviceScene& scene, const View& view, bool whole) {
+    const std::size_t pixels = std::size_t{view.width} * view.height;
+    const Pixels kind = sizeof(Word) == 4 ? Pixels::depth : Pixels::visibility;
+    const RasterBuffers buffers = test::raster_buffers(scene, pixels, kind);
+    test::draw_visibility(test::gbuffer_passes(), scene, view, buffers, whole);
+    return test::download<Word>(buffers.pixels, pixels);
+}
+
+// Everything lies in every cluster, facing all ways.
+void open_clusters(const DeviceScene& scene) {
+    const float far = std::numeric_limits<float>::max() / 16;
+    const std::vector<Cluster> all(
+        scene.info().cluster_count,
+        {glm::vec4(glm::vec3(-far), 0), glm::vec4(glm::vec3(far), 0), {0, 0, 0, 2}});
+    test::device().queue.enqueueWriteBuffer(scene.clusters(), CL_TRUE, 0,
+                                            all.size() * sizeof(Cluster), all.data());
+}
+
+// Facets of one size on a bent sheet: clusters with narrow cones, and sizes of the same order as
+// their distance from the eye.
+Scene sheet() {
+    Scene scene = test::plain_scene();
+    const auto at = [](int column, int row) {
+        const double u = column / 12.0 - 1.0, v = row / 12.0 - 1.0;
+        return glm::dvec3(u, 0.4 * std::cos(3.0 * u) * std::cos(2.0 * v), v);
+    };
+    for (int row = 0; row < 24; ++row)
+        for (int column = 0; column < 24; ++column) {
+            test::add_triangle(scene, at(column, row), at(column, row + 1), at(column + 1, row), 0);
+            test::add_triangle(scene, at(column + 1, row), at(column, row + 1),
+                               at(column + 1, row + 1), 0);
+        }
+    return scene;
+}
+
+// Eyes before, behind, beside and within what is seen; straight windows and windows aside.
+std::vector<View> views_of(const DeviceScene& scene, std::uint64_t seed) {
+    std::vector<View> out;
+    test::Random random(seed);
+    for (int i = 0; i < 24; ++i) {
+        const glm::vec3 eye = test::random_vec3(random, i % 3 ? -1.2 : -0.5, i % 3 ? 1.2 : 0.5);
+        Camera camera =
+            test::camera_at(glm::dvec3(eye), glm::dvec3(test::random_vec3(random, -0.6, 0.6)),
+                            static_cast<float>(random(0.3, 1.2)));
+        camera.near = static_cast<float>(random(0.02, 0.5));
+        if (i % 4 == 1) {
+            camera.kind = Camera::Kind::orthographic;
+            camera.half_height = static_cast<float>(random(0.1, 0.6));
+        }
+        View view = make_view(camera, scene.frame(), i % 2 ? 97 : 41, i % 2 ? 33 : 77);
+        if (i % 5 < 2) {
+            view.window.x = static_cast<float>(random(-1.5, 1.5)) * view.right.w;
+            view.window.y = static_cast<float>(random(-1.5, 1.5)) * view.up.w;
+        }
+        out.push_back(view);
+    }
+    return out;
+}
+
+TEST(ClusterViews, LoseNothing) {
+    Scene dense = bumpy_mesh();
+    for (const Scene& world : {sheet(), test::patchwork(900, 111, false), std::move(dense)}) {
+        const DeviceScene scene = test::on_device(world), open = test::on_device(world);
+        ASSERT_GT(scene.info().cluster_count, 1u);
+        open_clusters(open);
+        std::size_t seen = 0;
+        const std::vector<View> views = views_of(scene, world.triangles.size());
+        for (std::size_t v = 0; v < views.size(); ++v) {
+            const auto wanted = words<std::uint64_t>(open, views[v], false);
+            seen += std::count_if(wanted.begin(), wanted.end(),
+                                  [](std::uint64_t word) { return word != ~std::uint64_t{0}; });
+            const auto depth = words<std::uint32_t>(open, views[v], false);
+            test::expect_closeness(depth, wanted, "depth alone");
+            for (const bool whole : {false, true}) {
+                const char* form = whole ? "raster_views" : "lists";
+                EXPECT_TRUE(words<std::uint64_t>(scene, views[v], whole) == wanted)
+                    << world.triangles.size() << " triangles, view " << v << ", " << form;
+                EXPECT_TRUE(words<std::uint32_t>(scene, views[v], whole) == depth)
+                    << world.triangles.size() << " triangles, depth of view " << v << ", " << form;
+            }
+        }
+        EXPECT_GT(seen, 5000u);
+    }
+}
+
+}  // namespace
+}  // namespace clgi

@@ -1,0 +1,71 @@
+// Small pictures by plans, and how far they are apart.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/renderer.hpp>
+#include <clgi/reference.hpp>
+#include <cmath>
+
+#include "frames.hpp"
+
+namespace clgi::test {
+
+constexpr int plan_width = 32, plan_height = 24;
+
+using Pixels = std::vector<glm::vec3>;
+
+inline double luminance_of(const glm::vec3& rgb) {
+    return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+inline double mean(const Pixels& picture) {
+    double sum = 0.0;
+    for (const glm::vec3& pixel : picture) sum += luminance_of(pixel);
+    return sum / static_cast<double>(picture.size());
+}
+
+// Root of the mean squared difference of luminance, cd/m^2.
+inline double distance(const Pixels& a, const Pixels& b) {
+    double squares = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        squares += std::pow(luminance_of(a[k]) - luminance_of(b[k]), 2);
+    return std::sqrt(squares / static_cast<double>(a.size()));
+}
+
+inline PlanWish quick(std::vector<Effect> with = {}, std::vector<Effect> without = {}) {
+    PlanWish out;
+    out.width = plan_width;
+    out.height = plan_height;
+    out.seconds = 0.2;
+    out.with = std::move(with);
+    out.without = std::move(without);
+    return out;
+}
+
+inline std::vector<Effect> all_effects() {
+    std::vector<Effect> out;
+    for (std::size_t k = 0; k < effect_count; ++k) out.push_back(static_cast<Effect>(k));
+    return out;
+}
+
+inline Plan plan_of(const Scene& scene, const Camera& camera, const PlanWish& wish) {
+    return make_plan(device().queue, programs(), scene, camera, wish);
+}
+
+// The path tracer's, of `samples` a pixel.
+inline Pixels traced(const Scene& scene, const Camera& camera, int samples,
+                     const reference::Effects& effects = {}) {
+    reference::Options tracing;
+    tracing.width = plan_width;
+    tracing.height = plan_height;
+    tracing.samples = samples;
+    tracing.effects = effects;
+    return reference::PathTracer(scene).render(camera, tracing).radiance;
+}
+
+inline Pixels shown_by(const PlannedRenderer& renderer) {
+    return vectors(device().queue, renderer.radiance(), renderer.stride(),
+                   std::size_t{plan_width} * plan_height);
+}
+
+}  // namespace clgi::test
