@@ -44,13 +44,13 @@ set(headers_core error opencl device programs advanced/export advanced/interval
     advanced/pass advanced/planes advanced/slice passes/parallel advanced/sh shared/base
     shared/gbuffer shared/halton shared/image shared/parallel shared/planes)
 set(headers_scene scene device_scene scene_animator scene_mover procedural advanced/adjacency
-    advanced/animation advanced/still_scene passes/scene shared/scene)
+    advanced/animation advanced/static_scene passes/scene shared/scene)
 set(headers_shading advanced/emitters advanced/kit/draw advanced/kit/emitters advanced/kit/picture
     passes/gbuffer passes/image passes/import passes/lights shared/lights)
 set(headers_second_order second_order)
 set(headers_light_atlas light_atlas advanced/atlas_blocks advanced/atlas_layout advanced/atlas_light
     advanced/bake_layout advanced/irradiance_volume advanced/light_atlas_view advanced/patches
-    advanced/still_bake advanced/vpl_layout passes/atlas passes/vpl shared/atlas shared/volume
+    advanced/static_bake advanced/vpl_layout passes/atlas passes/vpl shared/atlas shared/volume
     shared/vpl)
 set(headers_transfer dynamic_transfer advanced/blocker_levels advanced/dynamic_transfer_view
     advanced/environment_light advanced/mask_weights advanced/visible_sets passes/masks
@@ -58,7 +58,7 @@ set(headers_transfer dynamic_transfer advanced/blocker_levels advanced/dynamic_t
 set(headers_antiradiance antiradiance advanced/antiradiance_view advanced/direction_bins
     advanced/elements advanced/links advanced/moving_elements passes/antiradiance
     passes/antiradiance_gloss passes/moving_elements shared/antiradiance shared/moving_elements)
-set(headers_plan plan renderer advanced/effects advanced/facts advanced/tuning)
+set(headers_plan plan renderer advanced/effects advanced/analysis advanced/tuning)
 set(headers_reference reference)
 set(headers_clgi clgi)  # the umbrella
 

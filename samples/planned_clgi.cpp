@@ -20,12 +20,12 @@ int main(int argc, char** argv) {
         cl::CommandQueue queue(context, device);
         clgi::Programs programs(context, device);
 
-        clgi::PlanWish wish;
-        wish.width = 320;
-        wish.height = 240;
-        if (argc > 2) wish.seconds = std::atof(argv[2]);
+        clgi::PlanRequest request;
+        request.width = 320;
+        request.height = 240;
+        if (argc > 2) request.seconds = std::atof(argv[2]);
         const clgi::Camera camera = scene.cameras[0];
-        const clgi::Plan plan = clgi::make_plan(queue, programs, scene, camera, wish);
+        const clgi::Plan plan = clgi::make_plan(queue, programs, scene, camera, request);
         for (const clgi::EffectChoice& effect : plan.effects)
             std::printf("%-20s %s\n", name_of(effect.effect), effect.on ? "on" : "off");
         std::printf("method %s: %s\n", name_of(plan.method), plan.why.c_str());
@@ -36,8 +36,8 @@ int main(int argc, char** argv) {
         renderer.prepare();
         const std::vector<cl::Event> wait{renderer.render(camera)};
 
-        std::vector<float> plane(wish.width * wish.height);
-        clgi::io::Image image{wish.width, wish.height};
+        std::vector<float> plane(request.width * request.height);
+        clgi::io::Image image{request.width, request.height};
         for (int c = 0; c < 3; ++c) {
             queue.enqueueReadBuffer(renderer.radiance(), CL_TRUE,
                                     c * renderer.stride() * sizeof(float),

@@ -104,11 +104,11 @@ cl::Event GBufferImport::convert(const cl::CommandQueue& queue, const View& view
     const cl::Event event = on_device("the textures cannot be read", [&] {
         if (!state.zero_copy) return state.copied(queue, view, params, channels, out, wait);
         try {
-            return while_acquired(
-                state.sharing, queue, images, wait, [&](const WaitList& acquired) {
-                    return state.passes.images(queue, view, params, images, out, state.non_finite,
-                                               acquired);
-                });
+            return while_acquired(state.sharing, queue, images, wait,
+                                  [&](const WaitList& acquired) {
+                                      return state.passes.images(queue, view, params, images, out,
+                                                                 state.non_finite, acquired);
+                                  });
         } catch (const std::exception&) {
             state.shared.clear();  // the next conversion tries with images made anew
             throw;

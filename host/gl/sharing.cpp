@@ -75,47 +75,47 @@ std::vector<cl_context_properties> sharing_properties(const cl::Device& device) 
     return shares_with(device, out) ? out : std::vector<cl_context_properties>();
 }
 
-Sharing decide(const SharingFacts& facts) {
+Sharing decide(const SharingCapabilities& analysis) {
     const auto copied = [](const std::string& reason) {
         Sharing out;
         out.reason = "copied: " + reason;
         return out;
     };
-    if (!lists_extension(facts.extensions, sharing_extension))
+    if (!lists_extension(analysis.extensions, sharing_extension))
         return copied(std::string("device does not list ") + sharing_extension);
-    if (!facts.images) return copied("device has no images");
-    const cl_context_properties shared = value_of(facts.properties, CL_GL_CONTEXT_KHR);
+    if (!analysis.images) return copied("device has no images");
+    const cl_context_properties shared = value_of(analysis.properties, CL_GL_CONTEXT_KHR);
     if (shared == 0) return copied("OpenCL context was made without CL_GL_CONTEXT_KHR");
-    if (reinterpret_cast<void*>(static_cast<std::intptr_t>(shared)) != facts.current)
+    if (reinterpret_cast<void*>(static_cast<std::intptr_t>(shared)) != analysis.current)
         return copied("OpenCL context was made for another OpenGL context than the current one");
-    if (!facts.missing.empty()) return copied("OpenCL platform lacks " + facts.missing);
+    if (!analysis.missing.empty()) return copied("OpenCL platform lacks " + analysis.missing);
     Sharing out;
     out.zero_copy = true;
     out.reason = std::string("zero copy: ") + sharing_extension;
-    out.implicit = lists_extension(facts.extensions, "cl_khr_gl_event");
+    out.implicit = lists_extension(analysis.extensions, "cl_khr_gl_event");
     return out;
 }
 
 Sharing find_sharing(const cl::Context& context, const cl::Device& device) {
     need_context("gl.sharing");
-    SharingFacts facts;
-    facts.extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
-    facts.images = device.getInfo<CL_DEVICE_IMAGE_SUPPORT>() != 0;
+    SharingCapabilities analysis;
+    analysis.extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
+    analysis.images = device.getInfo<CL_DEVICE_IMAGE_SUPPORT>() != 0;
     // Some drivers (PoCL 3.1) crash when asked for the properties of a context without any.
-    if (lists_extension(facts.extensions, sharing_extension))
-        facts.properties = context.getInfo<CL_CONTEXT_PROPERTIES>();
-    facts.current = current_context().context;
-    Sharing out = decide(facts);
+    if (lists_extension(analysis.extensions, sharing_extension))
+        analysis.properties = context.getInfo<CL_CONTEXT_PROPERTIES>();
+    analysis.current = current_context().context;
+    Sharing out = decide(analysis);
     if (!out.zero_copy) return out;
 
     const cl_platform_id platform = platform_of(device);
     if (!find(platform, "clCreateFromGLTexture", out.create))
-        facts.missing = "clCreateFromGLTexture";
+        analysis.missing = "clCreateFromGLTexture";
     else if (!find(platform, "clEnqueueAcquireGLObjects", out.acquire))
-        facts.missing = "clEnqueueAcquireGLObjects";
+        analysis.missing = "clEnqueueAcquireGLObjects";
     else if (!find(platform, "clEnqueueReleaseGLObjects", out.release))
-        facts.missing = "clEnqueueReleaseGLObjects";
-    return facts.missing.empty() ? out : decide(facts);
+        analysis.missing = "clEnqueueReleaseGLObjects";
+    return analysis.missing.empty() ? out : decide(analysis);
 }
 
 }  // namespace clgi::gl

@@ -1,4 +1,4 @@
-// The decision between zero copy and copy, apart from where its facts come from.
+// The decision between zero copy and copy, apart from where its analysis come from.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace clgi::gl {
 
-struct SharingFacts {
+struct SharingCapabilities {
     std::string extensions;                         // of the device
     bool images = false;                            // the device has them
     std::vector<cl_context_properties> properties;  // that the OpenCL context was made with
@@ -17,7 +17,7 @@ struct SharingFacts {
 };
 
 // Sets zero_copy, reason and implicit.
-Sharing decide(const SharingFacts& facts);
+Sharing decide(const SharingCapabilities& analysis);
 
 // Whether a list of extensions, separated by spaces, has this one.
 bool lists_extension(const std::string& extensions, const std::string& wanted);

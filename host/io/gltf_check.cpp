@@ -173,7 +173,7 @@ public:
           accessors_(document.model.accessors),
           largest_index_(accessors_.size()),
           finite_(accessors_.size()),
-          mended_(accessors_.size()),
+          sanitised_(accessors_.size()),
           needed_(accessors_.size()) {}
 
     void check(const Primitive& primitive) {
@@ -199,7 +199,7 @@ public:
     // Animations that hold such numbers are left out.
     void pass_over(const tinygltf::Animation& animation) {
         for (const tinygltf::AnimationSampler& sampler : animation.samplers)
-            mended_[sampler.input] = mended_[sampler.output] = true;
+            sanitised_[sampler.input] = sanitised_[sampler.output] = true;
     }
 
     void need(const tinygltf::Skin& skin) {
@@ -209,7 +209,7 @@ public:
     // Accessors of skins and copies, and those that nothing uses.
     void check_others() {
         for (std::size_t i = 0; i < accessors_.size(); ++i) {
-            if (mended_[i] && !needed_[i]) continue;
+            if (sanitised_[i] && !needed_[i]) continue;
             of_entry("accessors", i, [&] { require_finite(static_cast<int>(i), "element "); });
         }
     }
@@ -218,7 +218,7 @@ private:
     void check_attributes(const Attributes& attributes, std::size_t count, Use use) {
         for (const auto& [key, accessor] : attributes) {
             if (use == instance) needed_[accessor] = true;
-            if (use != instance && key != "POSITION") mended_[accessor] = true;
+            if (use != instance && key != "POSITION") sanitised_[accessor] = true;
             const Format* format = find_format(key, use);
             if (!format) continue;
             const Accessor& found = accessors_[accessor];
@@ -271,8 +271,8 @@ private:
     // Known once an accessor was read: thousands of primitives may share it.
     std::vector<std::optional<std::uint32_t>> largest_index_;
     std::vector<bool> finite_;
-    std::vector<bool> mended_;  // used where numbers that are not finite are mended
-    std::vector<bool> needed_;  // used where they cannot be
+    std::vector<bool> sanitised_;  // used where numbers that are not finite are sanitised
+    std::vector<bool> needed_;     // used where they cannot be
 };
 
 }  // namespace

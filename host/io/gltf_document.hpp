@@ -104,8 +104,8 @@ void check_links(const Model& model);
 void check_accessors(const Document& document);
 
 // What the buffers hold, whether a node places it or not: attributes are of an allowed format and
-// of equal length, indices name vertices, numbers are finite except where they are mended, in the
-// attributes other than POSITION, or left out with what they belong to, in keys of animations.
+// of equal length, indices name vertices, numbers are finite except where they are sanitised, in
+// the attributes other than POSITION, or left out with what they belong to, in keys of animations.
 void check_meshes(const Document& document);
 
 // Fills lights and cameras, one for one, whether a node carries them or not.

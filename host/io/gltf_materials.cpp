@@ -163,7 +163,7 @@ TextureSlot read_slot(const tinygltf::TextureInfo& info, Warnings& warnings) {
 // Its slots name textures of the model.
 Material read_material(const tinygltf::Material& source, const std::string& name,
                        Warnings& warnings) {
-    // What leaves the range of the specification is mended, not refused.
+    // What leaves the range of the specification is sanitised, not refused.
     const auto clamped = [&](double number, double most, const std::string& warning) {
         if (number < 0.0 || number > most) warnings.add(warning);
         return std::clamp(number, 0.0, most);

@@ -104,7 +104,7 @@ private:
             animation_.add({index, primitive, split, copy, true}, scene_);
             return;
         }
-        if (mend_normals(topology, pose)) {
+        if (repair_normals(topology, pose)) {
             document_.warnings.add("vertex normals without a direction are computed anew");
         }
         append(node, primitive, topology, pose);
@@ -131,17 +131,17 @@ private:
         scene_.positions.insert(scene_.positions.end(), pose.positions.begin(),
                                 pose.positions.end());
         scene_.normals.insert(scene_.normals.end(), pose.normals.begin(), pose.normals.end());
-        mended_ = false;
+        sanitised_ = false;
         if (textured_) append_uvs(primitive.attributes, topology.vertices);
         if (colored_) append_colors(primitive.attributes, topology.vertices);
-        if (mended_) {
+        if (sanitised_) {
             document_.warnings.add("texture coordinates or colors that are not finite are mended");
         }
     }
 
     float finite_or(double value, float fallback) {
         if (std::isfinite(value)) return static_cast<float>(value);
-        mended_ = true;
+        sanitised_ = true;
         return fallback;
     }
 
@@ -198,7 +198,7 @@ private:
     Poser poser_;
     bool textured_;  // or its texture coordinates are wanted all the same
     bool colored_ = false;
-    bool mended_ = false;
+    bool sanitised_ = false;
     std::optional<std::uint32_t> default_material_;
     std::map<int, DrawnMesh> meshes_;
     Renumberer renumberer_;

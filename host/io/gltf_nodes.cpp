@@ -80,8 +80,7 @@ AnimatedNode transform_of(const Node& node, Warnings& warnings) {
         return parts;
     }
     if (!node.translation.empty()) parts.translation = glm::make_vec3(node.translation.data());
-    if (!node.rotation.empty())
-        parts.rotation = quaternion(glm::make_vec4(node.rotation.data()));
+    if (!node.rotation.empty()) parts.rotation = quaternion(glm::make_vec4(node.rotation.data()));
     if (!node.scale.empty()) parts.scale = glm::make_vec3(node.scale.data());
     return parts;
 }

@@ -162,7 +162,7 @@ void Poser::morph(const Primitive& primitive, const Node& node,
 }
 
 PosedVertices Poser::pose(const Primitive& primitive, const Node& node, const glm::dmat4& matrix,
-                 const std::vector<std::uint32_t>& vertices) {
+                          const std::vector<std::uint32_t>& vertices) {
     PosedVertices pose;
     const auto read = [&](const char* name, std::vector<glm::dvec3>& values) {
         const auto reader = reader_of(document_, primitive.attributes, name);
@@ -223,7 +223,7 @@ void make_flat(Topology& topology, PosedVertices& pose) {
     pose = std::move(flat);
 }
 
-bool mend_normals(const Topology& topology, PosedVertices& pose) {
+bool repair_normals(const Topology& topology, PosedVertices& pose) {
     std::map<std::uint32_t, glm::dvec3> sums;
     for (std::uint32_t i = 0; i < pose.normals.size(); ++i) {
         if (pose.normals[i] == glm::dvec3(0.0)) sums.emplace(i, 0.0);

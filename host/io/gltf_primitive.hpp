@@ -44,7 +44,7 @@ public:
 
     // matrix: what places an unskinned primitive.
     PosedVertices pose(const Primitive& primitive, const Node& node, const glm::dmat4& matrix,
-              const std::vector<std::uint32_t>& vertices);
+                       const std::vector<std::uint32_t>& vertices);
 
 private:
     void morph(const Primitive& primitive, const Node& node,
@@ -63,6 +63,6 @@ void make_flat(Topology& topology, PosedVertices& pose);
 
 // Replaces normals of no direction by the mean of the triangles around the vertex. Returns
 // whether there were any.
-bool mend_normals(const Topology& topology, PosedVertices& pose);
+bool repair_normals(const Topology& topology, PosedVertices& pose);
 
 }  // namespace clgi::io::gltf

@@ -63,13 +63,13 @@ void AnimationReader::read_rest(const AppendedPart& part, PosedRange& range) {
     for (const glm::dvec3& place : places) out_.rest_positions.emplace_back(place - range.centre);
 
     const auto normals = reader_of(document_, part.primitive.attributes, "NORMAL");
-    std::vector<glm::dvec3> mended;
+    std::vector<glm::dvec3> sanitised;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         glm::dvec3 normal(0.0, 1.0, 0.0);  // of a flat range, which does not read it
         if (normals) normal = unit_or_zero(normals->vector<3>(vertices[i]));
         if (normal == glm::dvec3(0.0)) {
-            if (mended.empty()) mended = triangle_normals(part.topology, places);
-            normal = unit_or_zero(mended[i]);
+            if (sanitised.empty()) sanitised = triangle_normals(part.topology, places);
+            normal = unit_or_zero(sanitised[i]);
             if (normal == glm::dvec3(0.0)) normal.y = 1.0;
         }
         out_.rest_normals.emplace_back(normal);

@@ -45,8 +45,8 @@ public:
              [&](const Material& material) { add_material(material); });
         PrimitiveWriter meshes(scene, extras.attributes, out_);
         LightWriter lights(scene, out_);
-        add_still_meshes(scene, moved_triangles(scene), meshes, out_);
-        lights.add_still();
+        add_static_meshes(scene, moved_triangles(scene), meshes, out_);
+        lights.add_static();
         add_animation(scene, meshes, lights, out_);
         if (!out_.roots.empty()) {  // tinygltf writes null for a scene of nothing
             tinygltf::Scene listed;

@@ -81,7 +81,7 @@ void LightWriter::put_camera(const Camera& camera, Node& node) {
     node.camera = add(out_.model.cameras, camera_of(camera, size_));
 }
 
-void LightWriter::add_still() {
+void LightWriter::add_static() {
     const Animation none;
     const Animation& animation = scene_.animation ? *scene_.animation : none;
     for (const std::size_t i : still(animation.lights, scene_.lights.size())) {

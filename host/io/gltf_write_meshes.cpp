@@ -24,8 +24,7 @@ PrimitiveWriter::PrimitiveWriter(const Scene& scene, const std::vector<VertexAtt
                 "' does not begin with an underscore");
         require(names.insert(one.name).second, "two attributes are named ", one.name);
         require(one.values.size() == scene_.positions.size(), "attribute ", one.name, " has ",
-                one.values.size(), " values, the scene has ", scene_.positions.size(),
-                " vertices");
+                one.values.size(), " values, the scene has ", scene_.positions.size(), " vertices");
         for (const glm::vec4& value : one.values)
             for (int c = 0; c < 4; ++c)
                 require(std::isfinite(value[c]), "attribute ", one.name,
@@ -82,8 +81,8 @@ Mesh PrimitiveWriter::mesh_of(const std::vector<std::uint32_t>& triangles,
 // A node at the centre of the scene; below it the parts in the order of their triangles, and what
 // is between them. Readers take nodes by their distance from the root; beside parts that move,
 // each is a root of its own, so that it comes first.
-void add_still_meshes(const Scene& scene, const std::vector<bool>& moved, PrimitiveWriter& meshes,
-                      GlbModel& out) {
+void add_static_meshes(const Scene& scene, const std::vector<bool>& moved, PrimitiveWriter& meshes,
+                       GlbModel& out) {
     if (std::find(moved.begin(), moved.end(), false) == moved.end()) return;
     const Bounds box = bounds(scene);
     const glm::dvec3 centre = (box.low + box.high) * 0.5;

@@ -143,8 +143,8 @@ void PosedMeshWriter::add_targets(const PosedRange& range, const std::vector<std
 }
 
 // The reader exchanges two corners of triangles that the rest pose mirrors.
-void PosedMeshWriter::mend_order(const PosedRange& range, const std::vector<std::uint32_t>& used,
-                                 const Primitive& primitive) {
+void PosedMeshWriter::repair_order(const PosedRange& range, const std::vector<std::uint32_t>& used,
+                                   const Primitive& primitive) {
     const std::vector<glm::dmat4> matrices = range_matrices(animation_, range, rest_);
     const auto is_mirrored = [&](std::uint32_t v) {
         glm::dmat4 sum(range.influence_count == 0 ? matrices.back() : glm::dmat4(0.0));
@@ -182,7 +182,7 @@ void PosedMeshWriter::add_range(const PosedRange& range, Mesh& mesh) {
             vertices.push_back(used);
         });
     for (std::size_t i = 0; i < made.primitives.size(); ++i)
-        mend_order(range, vertices[i], made.primitives[i]);
+        repair_order(range, vertices[i], made.primitives[i]);
     if (mesh.name.empty()) mesh.name = utf8(part.name);
     std::move(made.primitives.begin(), made.primitives.end(), std::back_inserter(mesh.primitives));
 }

@@ -28,8 +28,8 @@ private:
                         Primitive& primitive);
     void add_targets(const PosedRange& range, const std::vector<std::uint32_t>& used,
                      Primitive& primitive);
-    void mend_order(const PosedRange& range, const std::vector<std::uint32_t>& used,
-                    const Primitive& primitive);
+    void repair_order(const PosedRange& range, const std::vector<std::uint32_t>& used,
+                      const Primitive& primitive);
 
     const Scene& scene_;
     const Animation& animation_;

@@ -67,7 +67,7 @@ class LightWriter {
 public:
     LightWriter(const Scene& scene, GlbModel& out);
 
-    void add_still();
+    void add_static();
     // What the node carries: nodes have room for one light and one camera.
     void put_light(const Light& light, Node& node);
     void put_camera(const Camera& camera, Node& node);
@@ -98,8 +98,8 @@ private:
 };
 
 // Triangles that no range of the animation moves, below one node at their centre.
-void add_still_meshes(const Scene& scene, const std::vector<bool>& moved, PrimitiveWriter& meshes,
-                      GlbModel& out);
+void add_static_meshes(const Scene& scene, const std::vector<bool>& moved, PrimitiveWriter& meshes,
+                       GlbModel& out);
 
 // Triangles whose vertices a range of the animation moves. Throws InputError for one that names
 // vertices both of a range and of none, or of a range to whose part it does not belong.

@@ -35,8 +35,8 @@ void put(std::string& out, const std::vector<T>& values) {
 // All counts and all lists of a state, in the order of the file.
 template <typename State, typename Count, typename List>
 void each(State& state, const Count& count, const List& list) {
-    for (auto* value : {&state.vpls, &state.texels, &state.measured_vpls, &state.filled_vpls,
-                        &state.shots})
+    for (auto* value :
+         {&state.vpls, &state.texels, &state.measured_vpls, &state.filled_vpls, &state.shots})
         count(*value);
     list(state.rows);
     list(state.seen);

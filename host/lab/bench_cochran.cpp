@@ -16,7 +16,8 @@ namespace {
 
 constexpr double low_share_wanted = 0.875;  // the paper's own setting
 // A pair of light and point in image.gather: 3 subtractions, 3 dot products of 5, 2 maxima and
-// their product, 5 fused multiply-adds (3 for colour, 2 in the kernel), 1 sum, 1 product, 1 division.
+// their product, 5 fused multiply-adds (3 for colour, 2 in the kernel), 1 sum, 1 product, 1
+// division.
 constexpr double flops_per_pair = 3 + 15 + 3 + 10 + 1 + 1 + 1;
 
 struct Row {

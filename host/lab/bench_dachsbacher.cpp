@@ -111,12 +111,11 @@ DachsbacherRow2 row2(const DachsbacherSetup& setup, const Programs& programs,
     play(setup, run, begin, part, [&](int, const DachsbacherRun::Frame& frame) {
         double sums[parts] = {};
         for (const PassTime& pass : pass_times(frame.passes)) {
-            const Part of = pass.name == "antiradiance.local" || pass.name == "antiradiance.gloss"
-                                ? local
-                            : pass.name == "antiradiance.global" ? global
-                            : pass.name == "antiradiance.pull" || pass.name == "antiradiance.push"
-                                ? push_pull
-                                : other;
+            const Part of =
+                pass.name == "antiradiance.local" || pass.name == "antiradiance.gloss" ? local
+                : pass.name == "antiradiance.global"                                   ? global
+                : pass.name == "antiradiance.pull" || pass.name == "antiradiance.push" ? push_pull
+                                                                                       : other;
             sums[of] += pass.milliseconds;
         }
         for (int i = 0; i < parts; ++i) times[i].push_back(sums[i]);

@@ -2,10 +2,10 @@
 #include "lab/bench_kautz.hpp"
 
 #include <algorithm>
-#include "lab/scenes/deforming.hpp"
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <numeric>
+#include "lab/scenes/deforming.hpp"
 
 #include "lab/kautz_run.hpp"
 #include "lab/timing.hpp"

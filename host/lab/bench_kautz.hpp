@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/opencl.hpp>
 #include <clgi/advanced/pass.hpp>
-#include <clgi/scene.hpp>
 #include <clgi/dynamic_transfer.hpp>
+#include <clgi/opencl.hpp>
+#include <clgi/scene.hpp>
 #include <functional>
 #include <optional>
 #include <string>

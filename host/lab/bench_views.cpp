@@ -2,8 +2,8 @@
 #include "lab/bench_views.hpp"
 
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/kit/draw.hpp>
+#include <clgi/error.hpp>
 
 #include "lab/timing.hpp"
 

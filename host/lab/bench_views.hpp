@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/opencl.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/opencl.hpp>
 #include <clgi/scene.hpp>
 #include <functional>
 #include <string>
@@ -18,7 +18,7 @@ struct ViewsRow {
     std::string scene;
     std::string form;
     std::size_t triangles = 0;
-    double hemicube_ms = 0.0;          // device time of one hemicube: the median over repeats
+    double hemicube_ms = 0.0;           // device time of one hemicube: the median over repeats
     double triangles_per_second = 0.0;  // of the scene, times hemicubes per second
     double gigabytes_per_second = 0.0;  // of the least that must move: each face written once, each
                                         // triangle and vertex read once a hemicube
@@ -29,8 +29,8 @@ struct ViewsRow {
 struct ViewsSetup {
     cl::CommandQueue queue;  // with profiling
     BuildOptions build;
-    int size = 256;       // pixels, side of a whole face
-    int hemicubes = 32;   // drawn together, around centroids of triangles spread over the scene
+    int size = 256;      // pixels, side of a whole face
+    int hemicubes = 32;  // drawn together, around centroids of triangles spread over the scene
     int repeats = 10;
     std::function<bool(double)> progress;  // share done; false ends it with Error
 };

@@ -22,7 +22,8 @@ struct ConvergenceSetup {
 };
 
 struct ConvergenceCurve {
-    std::string name;  // "symmetric", "asymmetric, 4 to 1": steps that let light through for one that reflects
+    std::string name;  // "symmetric", "asymmetric, 4 to 1": steps that let light through for one
+                       // that reflects
     Iteration iteration = Iteration::symmetric;
     int through_steps = 0;          // 0: as many as it takes
     bool diverged = false;          // and was given up after the last step

@@ -43,7 +43,8 @@ std::string script(const Convergence& convergence, const std::string& file) {
     }
     return data + plot_head(file, 1000, 480) +
            "set multiplot layout 1,2\nset logscale y\nset format y '10^{%T}'\n"
-           "set xlabel 'step' offset 0,0.5\nset xrange [0:]\nset key below vertical maxrows 3 Left reverse\n"
+           "set xlabel 'step' offset 0,0.5\nset xrange [0:]\nset key below vertical maxrows 3 Left "
+           "reverse\n"
            "set title 'Change of what arrives in a step, of the first step'\n" +
            panels[0] + "\nset title 'Error of what arrives, against the converged solution'\n" +
            panels[1] + "\nunset multiplot\n";

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/advanced/antiradiance_view.hpp>
 #include <clgi/io/image.hpp>
 #include <clgi/scene_animator.hpp>
-#include <clgi/advanced/antiradiance_view.hpp>
 
 #include <optional>
 

@@ -22,9 +22,9 @@ Scene made(const std::string& name) {
                 " is not one of office, character, oriental, glossy-box and glossy-bust");
 }
 
-// Areas of leaves and shares of bins that give about the paper's elements and links, to a tenth; the
-// character has 13 % fewer elements. Those of the bust are at its vertices, as in the paper. In the
-// rooms without gloss links are 1.6 to 1.9 times as many however large the share is, because
+// Areas of leaves and shares of bins that give about the paper's elements and links, to a tenth;
+// the character has 13 % fewer elements. Those of the bust are at its vertices, as in the paper. In
+// the rooms without gloss links are 1.6 to 1.9 times as many however large the share is, because
 // elements that overlap along a bin are refined (docs/papers.md): with shares of 4 and of 60 they
 // differ by a twentieth.
 const DachsbacherScene table[] = {

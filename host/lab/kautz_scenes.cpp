@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/advanced/animation.hpp>
-#include "lab/scenes/deforming.hpp"
 #include <clgi/error.hpp>
+#include "lab/scenes/deforming.hpp"
 
 #include "lab/bench_kautz.hpp"
 

@@ -1,9 +1,9 @@
 // Frames in the light of an atlas: baked once, lit anew for every frame. [Schaerfig16, section 6.2]
 // SPDX-License-Identifier: MIT
 #include <clgi/advanced/bake_layout.hpp>
+#include <clgi/advanced/light_atlas_view.hpp>
 #include <clgi/error.hpp>
 #include <clgi/light_atlas.hpp>
-#include <clgi/advanced/light_atlas_view.hpp>
 #include <optional>
 #include <utility>
 

@@ -18,7 +18,8 @@ inline constexpr const char* antiradiance_method = "antiradiance";
 inline constexpr const char* light_atlas_method = "light atlas";
 inline constexpr const char* dynamic_transfer_method = "dynamic transfer";
 
-// Names of truths: all light; direct light and one bounce that nothing blocks; indirect light alone.
+// Names of truths: all light; direct light and one bounce that nothing blocks; indirect light
+// alone.
 inline constexpr const char* full_truth = "full";
 inline constexpr const char* unshadowed_truth = "unshadowed";
 inline constexpr const char* indirect_truth = "indirect";

@@ -44,7 +44,6 @@ io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture
                              picture.options().height, picture.stride());
 }
 
-
 float preview_exposure(const io::Image& picture) {
     std::vector<double> luminance = luminance_of(picture);
     std::erase_if(luminance, [](double y) { return !(y > 0.0); });

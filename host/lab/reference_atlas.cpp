@@ -39,7 +39,8 @@ AtlasPlaces atlas_places(const Scene& scene, const AtlasLayout& layout) {
     out.uv_set = layout.uv_set;
     for (const AtlasTexel& texel : layout.texels)
         if (texel.centre)
-            add_place(out, scene, {texel.texel, texel.triangle, double{texel.b1}, double{texel.b2}});
+            add_place(out, scene,
+                      {texel.texel, texel.triangle, double{texel.b1}, double{texel.b2}});
     return out;
 }
 

@@ -1,4 +1,4 @@
-// Ground truth as pictures with their own standard error, kept in files between runs.
+// Evidence truth as pictures with their own standard error, kept in files between runs.
 // SPDX-License-Identifier: MIT
 #pragma once
 

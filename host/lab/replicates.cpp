@@ -4,10 +4,10 @@
 #include <clgi/error.hpp>
 #include <cmath>
 
-#include "plan/picture_luminance.hpp"
-#include "plan/replicate_mean.hpp"
 #include "lab/luminance.hpp"
 #include "lab/preview.hpp"
+#include "plan/picture_luminance.hpp"
+#include "plan/replicate_mean.hpp"
 
 namespace clgi::lab {
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/io/image.hpp>
 #include <clgi/advanced/kit/progress.hpp>
+#include <clgi/io/image.hpp>
 #include <clgi/second_order.hpp>
 #include <optional>
 

@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/advanced/pass.hpp>
 #include <clgi/io/image.hpp>
 #include <clgi/opencl.hpp>
-#include <clgi/advanced/pass.hpp>
 #include <clgi/scene.hpp>
 #include <cstddef>
 #include <filesystem>

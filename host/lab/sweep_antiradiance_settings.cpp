@@ -16,7 +16,7 @@ AntiradianceSettings named(AntiradianceSettings one, const std::string& series) 
     one.series = series;
     one.estimate = series != "grid" && 2 * options.bins <= most_bins;
     one.knobs = {{"bins", std::to_string(options.bins)},
-                 {"elements", std::to_string(options.elements.wished)},
+                 {"elements", std::to_string(options.elements.requested)},
                  {"iteration", name_of(options.iteration)},
                  {"steps", options.steps == 0 ? "converged" : std::to_string(options.steps)},
                  {"spread", options.links.spread == Spread::precise ? "precise" : "none"},
@@ -42,11 +42,11 @@ std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildO
     };
     AntiradianceSettings base;
     base.options.bins = few ? 64 : 128;
-    base.options.elements.wished = few ? 1000 : 8192;
+    base.options.elements.requested = few ? 1000 : 8192;
     base.options.build = build;
     const auto bins = [](AntiradianceSettings& to, int n) { to.options.bins = n; };
     const auto elements = [](AntiradianceSettings& to, int n) {
-        to.options.elements.wished = static_cast<std::size_t>(n);
+        to.options.elements.requested = static_cast<std::size_t>(n);
     };
     const auto steps = [](AntiradianceSettings& to, int n) { to.options.steps = n; };
     using Values = std::vector<int>;

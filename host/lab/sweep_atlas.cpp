@@ -37,9 +37,15 @@ public:
         out_.width = layout_.size;
         out_.height = layout_.size * layout_.pages;
         out_.methods = {atlas_gather, atlas_project};
-        out_.knobs = {"vpls",          "bounces", "samples-per-vpl", "exchange-samples",
-                      "filling",       "hemicube-size", "mesh",
-                      "kernel",        "spp"};
+        out_.knobs = {"vpls",
+                      "bounces",
+                      "samples-per-vpl",
+                      "exchange-samples",
+                      "filling",
+                      "hemicube-size",
+                      "mesh",
+                      "kernel",
+                      "spp"};
         const reference::PathTracer tracer(setup_.scene);
         progress_.part(0.0, 0.3);
         find_truth(tracer);

@@ -63,7 +63,7 @@ private:
     void vary(const AtlasSettings& base, const std::string& series, const Values& quick,
               const Values& full, const Set& set) {
         lab::vary(base, series, quick_ ? quick : full, set,
-                     [this](AtlasSettings one, const std::string& name) { add(one, name); });
+                  [this](AtlasSettings one, const std::string& name) { add(one, name); });
     }
 
     void grid(const AtlasSettings& base, const Values& vpls, const std::vector<int>& sizes,

@@ -5,9 +5,9 @@
 
 #include <clgi/second_order.hpp>
 
-#include "plan/second_order_fronts.hpp"
 #include "lab/picture_methods.hpp"
 #include "lab/sweep.hpp"
+#include "plan/second_order_fronts.hpp"
 
 namespace clgi::lab {
 

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "plan/tuning_models.hpp"
 #include "lab/sweep_pictures.hpp"
+#include "plan/tuning_models.hpp"
 
 namespace clgi::lab {
 namespace {

@@ -280,7 +280,7 @@ private:
     Programs programs_;
     std::vector<std::uint32_t> vertices_;  // of the scene, those that count
     std::vector<reference::Place> places_;
-    std::vector<glm::dvec3> light_;  // of smooth_, cd/m^2 sr
+    std::vector<glm::dvec3> light_;                                      // of smooth_, cd/m^2 sr
     std::map<std::map<std::string, std::string>, TransferLooks> looks_;  // by knobs
     Mask counted_;
     Sweep out_;

@@ -94,7 +94,7 @@ private:
     void vary(const TransferSettings& base, const std::string& series, const Values& quick,
               const Values& full, const Set& set) {
         lab::vary(base, series, quick_ ? quick : full, set,
-                     [this](TransferSettings one, const std::string& name) { add(one, name); });
+                  [this](TransferSettings one, const std::string& name) { add(one, name); });
     }
 
     void add(TransferSettings one, const std::string& series) {

@@ -2,9 +2,9 @@
 #include "lab/transfer_truth.hpp"
 
 #include <algorithm>
+#include <clgi/advanced/sh.hpp>
 #include <clgi/error.hpp>
 #include <clgi/reference.hpp>
-#include <clgi/advanced/sh.hpp>
 #include <cmath>
 #include <numeric>
 #include <random>

@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/dynamic_transfer.hpp>
 #include <clgi/io/gltf.hpp>
 #include <clgi/io/image.hpp>
-#include <clgi/dynamic_transfer.hpp>
 #include <map>
 #include <string>
 #include <vector>

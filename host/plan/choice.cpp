@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "plan/carrier.hpp"
+#include "plan/provider.hpp"
 #include "plan/sky.hpp"
-#include "plan/still.hpp"
+#include "plan/static_part.hpp"
 
 namespace clgi {
 namespace {
@@ -22,25 +22,26 @@ constexpr double little_moves = 0.1;  // of the area
 
 // Whether a bake of what stands still lights the scene while the rest moves through it.
 bool bakes_the_rest(const Plan& plan) {
-    const MotionFacts& motion = plan.facts.motion;
-    return bakes_still(plan) && !plan.on(Effect::moving_lights) && !plan.wish.lights_change &&
-           !motion.moving_emission && motion.moving_area <= little_moves;
+    const MotionAnalysis& motion = plan.analysis.motion;
+    return bakes_static_part(plan) && !plan.on(Effect::moving_lights) &&
+           !plan.request.lights_change && !motion.moving_emission &&
+           motion.moving_area <= little_moves;
 }
 
 Choice candidates_for(const Plan& plan) {
-    const SceneFacts& facts = plan.facts;
+    const SceneAnalysis& analysis = plan.analysis;
     const bool sky = has_sky(plan);
-    const bool sky_alone = sky && !facts.lights.any_direct() && facts.openness > mostly;
-    if (facts.surfaces.triangles <= facts.surfaces.degenerate)
+    const bool sky_alone = sky && !analysis.lights.any_direct() && analysis.openness > mostly;
+    if (analysis.surfaces.triangles <= analysis.surfaces.degenerate)
         return {{Method::direct}, "there are no surfaces"};
     if (!plan.on(Effect::first_bounce)) {
         if (!sky) return {{Method::direct}, "there is no indirect light"};
         return {{Method::dynamic_transfer, Method::direct}, "there is the sky's light alone"};
     }
-    if (plan.wish.animated) {
+    if (plan.request.animated) {
         if (sky_alone) return {{Method::dynamic_transfer}, "the environment lights what moves"};
         Choice out{{Method::second_order}, "nothing is made before, and there are many triangles"};
-        if (facts.surfaces.triangles <= most_moving_triangles)
+        if (analysis.surfaces.triangles <= most_moving_triangles)
             out = {{Method::antiradiance, Method::second_order}, "light follows what moves"};
         if (bakes_the_rest(plan)) out.methods.push_back(Method::light_atlas);
         return out;
@@ -48,14 +49,14 @@ Choice candidates_for(const Plan& plan) {
     if (sky_alone)
         return {{Method::dynamic_transfer, Method::antiradiance},
                 "the environment is the light, and most of it is seen"};
-    if (facts.surfaces.gloss > noticeable && plan.on(Effect::gloss) &&
-        facts.surfaces.triangles <= most_glossy_triangles)
+    if (analysis.surfaces.gloss > noticeable && plan.on(Effect::gloss) &&
+        analysis.surfaces.triangles <= most_glossy_triangles)
         return {{Method::antiradiance}, "glossy surfaces reflect indirect light"};
     return {{Method::second_order, Method::antiradiance, Method::light_atlas},
             "light goes on between surfaces"};
 }
 
-// Whether a method can do what is on, and without what is off by wish.
+// Whether a method can do what is on, and without what is off by request.
 bool suits(Method method, const Plan& plan) {
     if (!unavoidable(plan, method).empty()) return false;
     switch (method) {
@@ -63,7 +64,7 @@ bool suits(Method method, const Plan& plan) {
         case Method::second_order:
             return true;
         case Method::light_atlas:  // has one light for both sides of a surface
-            return plan.facts.surfaces.double_sided_area <= few_backs;
+            return plan.analysis.surfaces.double_sided_area <= few_backs;
         case Method::antiradiance:  // masked surfaces block as a whole; all bounces come together
             return !plan.on(Effect::cutouts) &&
                    (!plan.on(Effect::first_bounce) || plan.on(Effect::further_bounces));
@@ -76,14 +77,14 @@ bool suits(Method method, const Plan& plan) {
 }  // namespace
 
 Choice methods_for(const Plan& plan) {
-    if (plan.wish.method) return {{*plan.wish.method}, "asked for"};
+    if (plan.request.method) return {{*plan.request.method}, "asked for"};
     Choice out = candidates_for(plan);
     std::vector<Method> suitable;
     for (const Method method : out.methods)
         if (suits(method, plan)) suitable.push_back(method);
     // What no candidate can do, one of the others may.
     const bool indirect = plan.on(Effect::first_bounce);
-    if (suitable.empty() && indirect && !plan.wish.animated && suits(Method::light_atlas, plan))
+    if (suitable.empty() && indirect && !plan.request.animated && suits(Method::light_atlas, plan))
         suitable = {Method::light_atlas};
     if (suitable.empty()) suitable = {indirect ? Method::second_order : Method::direct};
     out.methods = std::move(suitable);

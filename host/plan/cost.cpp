@@ -1,15 +1,15 @@
-// Costs of methods, predicted from facts and settings: fits of times on two cores of a CPU with
+// Costs of methods, predicted from analysis and settings: fits of times on two cores of a CPU with
 // packets of 16 (docs/effects.md), scaled by clock, units and lanes of the device.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <clgi/advanced/static_bake.hpp>
 #include <clgi/plan.hpp>
-#include <clgi/advanced/still_bake.hpp>
 #include <cmath>
 
+#include "core/kit/ranges.hpp"
 #include "plan/method.hpp"
 #include "plan/sky.hpp"
-#include "plan/still.hpp"
-#include "core/kit/ranges.hpp"
+#include "plan/static_part.hpp"
 
 namespace clgi {
 namespace {
@@ -31,14 +31,14 @@ constexpr double loading = 110.0;
 
 constexpr double scene_bytes = 200.0;  // of a triangle of what stands still, which is there twice
 
-double triangles(const Plan& plan) { return static_cast<double>(plan.facts.surfaces.triangles); }
+double triangles(const Plan& plan) { return static_cast<double>(plan.analysis.surfaces.triangles); }
 
 // Those that direct light comes from, and the views of their shadow maps.
 struct Lamps {
     double emitters = 0.0, views = 0.0, pixels = 0.0;
 };
 Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment) {
-    const LightFacts& lights = plan.facts.lights;
+    const LightAnalysis& lights = plan.analysis.lights;
     Lamps out;
     const auto add = [&](double count, double views, double side) {
         out.emitters += count;
@@ -67,7 +67,7 @@ Amount shadow_maps(const Plan& plan, const Lamps& lamps, bool drawn) {
 
 // The camera's view, and direct light at each pixel.
 Amount picture(const Plan& plan, bool environment) {
-    const double pixels = static_cast<double>(plan.wish.width) * plan.wish.height;
+    const double pixels = static_cast<double>(plan.request.width) * plan.request.height;
     const EmitterOptions& options = plan.picture.emitters;
     const Lamps lamps = lamps_of(plan, options, environment);
     Amount out{0.3 + 2.5e-5 * triangles(plan) + pixels * (1.0e-5 + 6e-6 * lamps.emitters),
@@ -93,7 +93,7 @@ PlanCost second_order(const Plan& plan) {
 // Of what is done before the first picture: once, whenever things move, and for each picture.
 PlanCost added(const Plan& plan, const Amount& once, const Amount& moved, const Amount& picture) {
     PlanCost out{once.ms, picture.ms, 1e-6 * (once.bytes + moved.bytes + picture.bytes)};
-    (plan.wish.animated ? out.frame_ms : out.once_ms) += moved.ms;
+    (plan.request.animated ? out.frame_ms : out.once_ms) += moved.ms;
     return out;
 }
 
@@ -114,31 +114,31 @@ Amount open_bake(double vpls, double texels, double triangles) {
 PlanCost light_atlas(const Plan& plan) {
     const double vpls = plan.vpls.count;
     double texels = 0.75 * plan.layout.size * plan.layout.size;
-    if (bakes_still(plan)) texels += most_volume_points * VOLUME_DIRECTIONS;
+    if (bakes_static_part(plan)) texels += most_volume_points * VOLUME_DIRECTIONS;
     const Amount bake =
         (plan.light_atlas.occlusion ? drawn_bake : open_bake)(vpls, texels, triangles(plan));
     const bool environment = has_sky(plan);
     const Amount maps = shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
                                     plan.light_atlas.emitters.shadows);
     Amount before = bake, moved = maps;
-    if (bakes_still(plan) && !plan.on(Effect::moving_lights)) {  // baked once, whatever moves
+    if (bakes_static_part(plan) && !plan.on(Effect::moving_lights)) {  // baked once, whatever moves
         before += maps;
         moved = {};
     }
-    if (bakes_still(plan)) before.bytes += scene_bytes * triangles(plan);
+    if (bakes_static_part(plan)) before.bytes += scene_bytes * triangles(plan);
     return added(plan, before, moved, picture(plan, environment));
 }
 
 PlanCost antiradiance(const Plan& plan) {
     const AntiradianceOptions& options = plan.antiradiance;
-    const double wished = static_cast<double>(options.elements.wished);
+    const double requested = static_cast<double>(options.elements.requested);
     // Leaves of fine meshes are joined vertices, each of which is looked at from nearby; where they
     // move or are not shared, small triangles are leaves. Each has links of its own to what is
     // near.
-    const bool fine = triangles(plan) > wished;
+    const bool fine = triangles(plan) > requested;
     const bool joined = !plan.on(Effect::moving_geometry) &&
-                        plan.facts.surfaces.vertices < plan.facts.surfaces.triangles;
-    const double leaves = fine && !joined ? wished + triangles(plan) : wished;
+                        plan.analysis.surfaces.vertices < plan.analysis.surfaces.triangles;
+    const double leaves = fine && !joined ? requested + triangles(plan) : requested;
     const double links =
         leaves * options.bins * (fine ? 3.0 : 2.2 * std::pow(leaves / 1000.0, -0.2));
     const double steps = options.steps > 0 ? options.steps : 20.0;
@@ -152,11 +152,11 @@ PlanCost antiradiance(const Plan& plan) {
     Amount exchange{steps * step + 1e-4 * leaves * lamps.emitters,
                     leaves * options.bins * 12.0 * (rows ? 2.0 : 1.0)};
     if (plan.on(Effect::gloss))
-        exchange +=
-            {steps * plan.facts.surfaces.glossy_area * leaves * options.bins * options.bins * 1e-7,
-             plan.facts.surfaces.glossy_area * leaves * options.bins * 24.0};
+        exchange += {steps * plan.analysis.surfaces.glossy_area * leaves * options.bins *
+                         options.bins * 1e-7,
+                     plan.analysis.surfaces.glossy_area * leaves * options.bins * 24.0};
     exchange += shadow_maps(plan, lamps, options.emitters.shadows);
-    if (plan.wish.animated && plan.on(Effect::moving_geometry))
+    if (plan.request.animated && plan.on(Effect::moving_geometry))
         exchange += {2.8e-5 * links, 8.0 * links};  // links follow
     return added(plan, linking, exchange, picture(plan, false));
 }

@@ -34,14 +34,14 @@ constexpr double probe_margin = 2.0;
 
 struct Decision {
     bool on;
-    Ground ground;
+    Evidence evidence;
     double bound;
     std::string why;
 };
 
-Decision absent(std::string why) { return {false, Ground::absent, 0.0, std::move(why)}; }
-Decision proven(std::string why) { return {false, Ground::proven, 0.0, std::move(why)}; }
-Decision needed(std::string why) { return {true, Ground::needed, unknown, std::move(why)}; }
+Decision absent(std::string why) { return {false, Evidence::absent, 0.0, std::move(why)}; }
+Decision proven(std::string why) { return {false, Evidence::proven, 0.0, std::move(why)}; }
+Decision needed(std::string why) { return {true, Evidence::needed, unknown, std::move(why)}; }
 
 Decision has(bool present, const char* what) {
     return present ? needed(std::string("the scene has ") + what)
@@ -50,20 +50,22 @@ Decision has(bool present, const char* what) {
 
 constexpr const char* no_reflection = "no surface reflects light";
 
-bool reflects_nothing(const SceneFacts& facts) { return facts.surfaces.largest_albedo <= 0.0; }
+bool reflects_nothing(const SceneAnalysis& analysis) {
+    return analysis.surfaces.largest_albedo <= 0.0;
+}
 
-Decision direct_shadows(const SceneFacts& facts) {
-    if (!facts.lights.any_direct()) return absent("no light but the environment");
-    if (reflects_nothing(facts)) return proven(no_reflection);
-    if (facts.proof.lights_open)
+Decision direct_shadows(const SceneAnalysis& analysis) {
+    if (!analysis.lights.any_direct()) return absent("no light but the environment");
+    if (reflects_nothing(analysis)) return proven(no_reflection);
+    if (analysis.proof.lights_open)
         return proven("the surfaces are convex: nothing lies between them and the lights");
     return needed("something may lie between a light and a surface");
 }
 
-Decision environment_shadows(const SceneFacts& facts) {
-    if (!facts.lights.environment) return absent("no environment");
-    if (reflects_nothing(facts)) return proven(no_reflection);
-    if (facts.proof.environment_open)
+Decision environment_shadows(const SceneAnalysis& analysis) {
+    if (!analysis.lights.environment) return absent("no environment");
+    if (reflects_nothing(analysis)) return proven(no_reflection);
+    if (analysis.proof.environment_open)
         return proven("the surfaces are convex: nothing lies before any of them");
     return needed("something may lie before a surface");
 }
@@ -71,42 +73,42 @@ Decision environment_shadows(const SceneFacts& facts) {
 // All bounces but the first: what the picture shows of the first one, or what the scene reflects
 // once, whichever is more, reflected again and again by q at most. Light may come late to what the
 // camera sees: from surfaces behind it, by way of others.
-double further_bound(const SceneFacts& facts, const ProbeFacts& probe) {
-    const double q = survival(facts);
+double further_bound(const SceneAnalysis& analysis, const ProbeResult& probe) {
+    const double q = survival(analysis);
     return probe_margin * std::max(probe.first_bounce, q * probe.reflected) * q / (1.0 - q);
 }
 
-Decision first_bounce(const SceneFacts& facts, double tolerance,
-                      const std::optional<ProbeFacts>& probe) {
-    if (!facts.lights.any_direct() && !facts.lights.environment) return absent("no light");
-    if (reflects_nothing(facts)) return proven(no_reflection);
-    if (facts.proof.surfaces_apart) return proven("no surface faces another");
+Decision first_bounce(const SceneAnalysis& analysis, double tolerance,
+                      const std::optional<ProbeResult>& probe) {
+    if (!analysis.lights.any_direct() && !analysis.lights.environment) return absent("no light");
+    if (reflects_nothing(analysis)) return proven(no_reflection);
+    if (analysis.proof.surfaces_apart) return proven("no surface faces another");
     Decision out = needed("surfaces that reflect light face each other");
-    if (!probe || !bounds_indirect_light(facts)) return out;
-    const double bound = probe_margin * probe->first_bounce + further_bound(facts, *probe);
+    if (!probe || !bounds_indirect_light(analysis)) return out;
+    const double bound = probe_margin * probe->first_bounce + further_bound(analysis, *probe);
     out.bound = bound;
     if (bound <= tolerance)
-        out = {false, Ground::measured, bound, "a probe finds less indirect light than that"};
+        out = {false, Evidence::measured, bound, "a probe finds less indirect light than that"};
     return out;
 }
 
-Decision further_bounces(const SceneFacts& facts, double tolerance, const Decision& first,
-                         const std::optional<ProbeFacts>& probe) {
-    if (!first.on) return {false, first.ground, 0.0, first.why};
+Decision further_bounces(const SceneAnalysis& analysis, double tolerance, const Decision& first,
+                         const std::optional<ProbeResult>& probe) {
+    if (!first.on) return {false, first.evidence, 0.0, first.why};
     Decision out = needed("light that was reflected once is reflected again");
-    if (!probe || !bounds_indirect_light(facts)) return out;
-    out.bound = further_bound(facts, *probe);
+    if (!probe || !bounds_indirect_light(analysis)) return out;
+    out.bound = further_bound(analysis, *probe);
     if (out.bound <= tolerance) {
         out.on = false;
-        out.ground = Ground::measured;
+        out.evidence = Evidence::measured;
         out.why = "a probe finds little indirect light, and little of it is reflected again";
     }
     return out;
 }
 
-Decision indirect_occlusion(const SceneFacts& facts, const Decision& first) {
-    if (!first.on) return {false, first.ground, 0.0, first.why};
-    if (facts.proof.surfaces_open)
+Decision indirect_occlusion(const SceneAnalysis& analysis, const Decision& first) {
+    if (!first.on) return {false, first.evidence, 0.0, first.why};
+    if (analysis.proof.surfaces_open)
         return proven("the surfaces are convex: nothing lies between two of them");
     return needed("something may lie between two surfaces");
 }
@@ -121,46 +123,46 @@ std::optional<Effect> effect_of(const std::string& name) {
     return static_cast<Effect>(found - names.begin());
 }
 
-const char* name_of(Ground ground) {
-    switch (ground) {
-        case Ground::absent:
+const char* name_of(Evidence evidence) {
+    switch (evidence) {
+        case Evidence::absent:
             return "absent";
-        case Ground::proven:
+        case Evidence::proven:
             return "proven";
-        case Ground::measured:
+        case Evidence::measured:
             return "measured";
-        case Ground::needed:
+        case Evidence::needed:
             return "needed";
-        case Ground::wished:
+        case Evidence::requested:
             return "wished";
     }
     return "";
 }
 
-EffectChoices choose_effects(const SceneFacts& facts, double tolerance,
-                             const std::optional<ProbeFacts>& probe) {
+EffectChoices choose_effects(const SceneAnalysis& analysis, double tolerance,
+                             const std::optional<ProbeResult>& probe) {
     EffectChoices out;
     const auto put = [&](Effect effect, Decision decision) {
         out[static_cast<std::size_t>(effect)] = {
-            effect, decision.on, decision.ground, decision.bound, std::move(decision.why), "",
+            effect, decision.on, decision.evidence, decision.bound, std::move(decision.why), "",
             0.0,    0.0};
     };
-    const LightFacts& lights = facts.lights;
+    const LightAnalysis& lights = analysis.lights;
     put(Effect::point_light, has(lights.points > 0, "point lights"));
     put(Effect::spot_light, has(lights.spots > 0, "spots"));
     put(Effect::directional_light, has(lights.directional > 0, "directional lights"));
     put(Effect::area_light, has(lights.emission, "emissive surfaces"));
     put(Effect::environment_light, has(lights.environment, "environment"));
-    put(Effect::direct_shadows, direct_shadows(facts));
-    put(Effect::environment_shadows, environment_shadows(facts));
-    const Decision first = first_bounce(facts, tolerance, probe);
+    put(Effect::direct_shadows, direct_shadows(analysis));
+    put(Effect::environment_shadows, environment_shadows(analysis));
+    const Decision first = first_bounce(analysis, tolerance, probe);
     put(Effect::first_bounce, first);
-    put(Effect::further_bounces, further_bounces(facts, tolerance, first, probe));
-    put(Effect::indirect_occlusion, indirect_occlusion(facts, first));
-    put(Effect::gloss, has(facts.surfaces.glossy_area > 0.0, "glossy surfaces"));
-    put(Effect::textures, has(facts.surfaces.textures, "textures of more than one colour"));
-    put(Effect::cutouts, has(facts.surfaces.cutouts, "alpha masks with holes"));
-    put(Effect::moving_geometry, has(facts.motion.geometry, "geometry that moves"));
+    put(Effect::further_bounces, further_bounces(analysis, tolerance, first, probe));
+    put(Effect::indirect_occlusion, indirect_occlusion(analysis, first));
+    put(Effect::gloss, has(analysis.surfaces.glossy_area > 0.0, "glossy surfaces"));
+    put(Effect::textures, has(analysis.surfaces.textures, "textures of more than one colour"));
+    put(Effect::cutouts, has(analysis.surfaces.cutouts, "alpha masks with holes"));
+    put(Effect::moving_geometry, has(analysis.motion.geometry, "geometry that moves"));
     put(Effect::moving_lights, has(lights.moving, "lights that move"));
     return out;
 }

@@ -6,7 +6,7 @@
 
 #include "plan/settings.hpp"
 #include "plan/sky.hpp"
-#include "plan/still.hpp"
+#include "plan/static_part.hpp"
 
 namespace clgi {
 namespace {
@@ -16,7 +16,7 @@ constexpr double usual_direct_error = 0.03;
 
 // Direct light of points and directions with nothing that shadows it is exact, and so is none.
 bool exact_direct_light(const Plan& plan) {
-    if (!(plan.facts.surfaces.largest_albedo > 0.0)) return true;
+    if (!(plan.analysis.surfaces.largest_albedo > 0.0)) return true;
     return !plan.on(Effect::direct_shadows) && !plan.on(Effect::area_light) &&
            !plan.on(Effect::environment_light);
 }
@@ -31,26 +31,26 @@ double direct_error(const Plan& plan) {
     return usual / std::sqrt(fineness_of(plan));
 }
 
-std::optional<double> indirect_error(const Plan& plan, const Rung& rung) {
+std::optional<double> indirect_error(const Plan& plan, const Preset& preset) {
     if (!plan.on(Effect::first_bounce)) {
         const EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
         return first.bound;
     }
-    const double relative = rung.error[static_cast<std::size_t>(kind_of(plan))];
+    const double relative = preset.error[static_cast<std::size_t>(kind_of(plan))];
     if (!(relative > 0.0)) return std::nullopt;
     return relative * indirect_share(plan);
 }
 
 }  // namespace
 
-std::optional<double> expected_error(const Plan& plan, const Rung& rung) {
+std::optional<double> expected_error(const Plan& plan, const Preset& preset) {
     if (plan.method == Method::dynamic_transfer) {
-        const double whole = rung.error[static_cast<std::size_t>(kind_of(plan))];
+        const double whole = preset.error[static_cast<std::size_t>(kind_of(plan))];
         return whole > 0.0 ? std::optional(whole) : std::nullopt;
     }
     // A few lights for all of the sky: nobody measured that.
     if (plan.method == Method::direct && has_sky(plan)) return std::nullopt;
-    const std::optional<double> indirect = indirect_error(plan, rung);
+    const std::optional<double> indirect = indirect_error(plan, preset);
     if (!indirect) return std::nullopt;
     const double out =
         std::hypot(*indirect, direct_error(plan), is_composed(plan) ? moving_error : 0.0);
@@ -58,13 +58,13 @@ std::optional<double> expected_error(const Plan& plan, const Rung& rung) {
     return out;
 }
 
-bool leaves_out_by_wish(const Plan& plan) {
+bool left_out_by_request(const Plan& plan) {
     return std::any_of(plan.effects.begin(), plan.effects.end(), [](const EffectChoice& choice) {
-        return !choice.on && choice.ground == Ground::wished;
+        return !choice.on && choice.evidence == Evidence::requested;
     });
 }
 
-std::string ground_of_error(const Plan& plan) {
+std::string evidence_of_error(const Plan& plan) {
     const std::string kind = name_of(kind_of(plan));
     if (plan.method == Method::dynamic_transfer) return "measured in " + kind + " scenes";
     const std::string direct = exact_direct_light(plan) ? "direct light is exact"

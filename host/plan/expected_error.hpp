@@ -6,21 +6,21 @@
 #include <optional>
 #include <string>
 
-#include "plan/rungs.hpp"
+#include "plan/presets.hpp"
 
 namespace clgi {
 
 // Root of the mean squared difference of luminance over the mean luminance, of indirect and of
-// direct light together: what the rung erred by in scenes of the kind, times the share of indirect
-// light that the probe found; and what the probe found of direct light, by how fine that is. None
-// where nothing was measured. plan: as the rung sets it.
-std::optional<double> expected_error(const Plan& plan, const Rung& rung);
+// direct light together: what the preset erred by in scenes of the kind, times the share of
+// indirect light that the probe found; and what the probe found of direct light, by how fine that
+// is. None where nothing was measured. plan: as the preset sets it.
+std::optional<double> expected_error(const Plan& plan, const Preset& preset);
 
-// Whether the plan lacks an effect because of the wish: its error against all light is not known,
-// but the errors of settings still compare.
-bool leaves_out_by_wish(const Plan& plan);
+// Whether the plan lacks an effect because of the request: its error against all light is not
+// known, but the errors of settings still compare.
+bool left_out_by_request(const Plan& plan);
 
 // What the error of a plan stands on.
-std::string ground_of_error(const Plan& plan);
+std::string evidence_of_error(const Plan& plan);
 
 }  // namespace clgi

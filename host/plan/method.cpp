@@ -6,12 +6,12 @@
 #include <iterator>
 #include <limits>
 
-#include "plan/carrier.hpp"
 #include "plan/choice.hpp"
 #include "plan/expected_error.hpp"
-#include "plan/rungs.hpp"
+#include "plan/presets.hpp"
+#include "plan/provider.hpp"
 #include "plan/settings.hpp"
-#include "plan/still.hpp"
+#include "plan/static_part.hpp"
 
 namespace clgi {
 namespace {
@@ -53,29 +53,31 @@ void drop_too_slow_to_begin(std::vector<Candidate>& candidates) {
 void choose_method(const cl::Device& device, Plan& plan) {
     const Choice choice = methods_for(plan);
     std::vector<Candidate> candidates;
-    for (const Rung& rung : rungs()) {
-        if (std::find(choice.methods.begin(), choice.methods.end(), rung.method) ==
+    for (const Preset& preset : presets()) {
+        if (std::find(choice.methods.begin(), choice.methods.end(), preset.method) ==
             choice.methods.end())
             continue;
         for (const int fineness : {1, 2, 4, 8, 16}) {
             Candidate one{plan, std::nullopt};
-            set(one.plan, rung, fineness);
+            set(one.plan, preset, fineness);
             one.plan.cost = cost_of(device, one.plan);
-            one.error = expected_error(one.plan, rung);
+            one.error = expected_error(one.plan, preset);
             candidates.push_back(std::move(one));
         }
     }
     drop_too_large(device, candidates);
-    if (plan.wish.animated) drop_too_slow_to_begin(candidates);
+    if (plan.request.animated) drop_too_slow_to_begin(candidates);
 
-    const PlanWish& wish = plan.wish;
+    const PlanRequest& request = plan.request;
     const double milliseconds =
-        1e3 * wish.seconds.value_or(wish.animated ? default_frame_seconds : default_seconds);
+        1e3 * request.seconds.value_or(request.animated ? default_frame_seconds : default_seconds);
     const auto time = [&](const Candidate& one) {
-        return wish.animated ? one.plan.cost.frame_ms : one.plan.cost.total_ms();
+        return request.animated ? one.plan.cost.frame_ms : one.plan.cost.total_ms();
     };
     const auto quick = [&](const Candidate& one) { return time(one) <= milliseconds; };
-    const auto right = [&](const Candidate& one) { return one.error && *one.error <= *wish.error; };
+    const auto right = [&](const Candidate& one) {
+        return one.error && *one.error <= *request.error;
+    };
 
     const auto quicker = [&](const Candidate& a, const Candidate& b) { return time(a) < time(b); };
     // Keeps the candidates that are wanted, if there are any, and says whether.
@@ -91,8 +93,8 @@ void choose_method(const cl::Device& device, Plan& plan) {
         const auto cheapest = [&] {
             return *std::min_element(candidates.begin(), candidates.end(), quicker);
         };
-        if ((wish.seconds || !wish.error) && !keep(quick)) return cheapest();
-        if (wish.error && keep(right)) return cheapest();
+        if ((request.seconds || !request.error) && !keep(quick)) return cheapest();
+        if (request.error && keep(right)) return cheapest();
         keep([&](const Candidate& one) { return time(one) <= 1e3 * patience; });
         const auto known = [](const Candidate& one) { return one.error.has_value(); };
         if (!keep(known))  // the more work, the better
@@ -105,15 +107,15 @@ void choose_method(const cl::Device& device, Plan& plan) {
     const Candidate best = choose();
 
     plan = best.plan;
-    plan.why =
-        !wish.method && is_composed(plan) ? "little moves through light that is baked" : choice.why;
-    if (!leaves_out_by_wish(plan)) plan.error = best.error;
-    if (plan.error) plan.error_ground = ground_of_error(plan);
-    plan.meets_time = !wish.seconds || quick(best);
-    plan.meets_error = !wish.error || (plan.error && right(best));
+    plan.why = !request.method && is_composed(plan) ? "little moves through light that is baked"
+                                                    : choice.why;
+    if (!left_out_by_request(plan)) plan.error = best.error;
+    if (plan.error) plan.error_evidence = evidence_of_error(plan);
+    plan.meets_time = !request.seconds || quick(best);
+    plan.meets_error = !request.error || (plan.error && right(best));
     plan.unavoidable = unavoidable(plan, plan.method);
     for (EffectChoice& effect : plan.effects)
-        effect.by = effect.on ? carrier_of(plan, plan.method, effect.effect).by : "";
+        effect.by = effect.on ? provider_of(plan, plan.method, effect.effect).by : "";
 }
 
 }  // namespace clgi

@@ -1,8 +1,8 @@
-// The parts that SceneFacts are made of. Every scene here is sound, as validate() says.
+// The parts that SceneAnalysis are made of. Every scene here is sound, as validate() says.
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/advanced/facts.hpp>
+#include <clgi/advanced/analysis.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <vector>
@@ -21,17 +21,17 @@ struct TriangleAlbedo {
 std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene);
 
 // [triangles of the scene] triangles and albedos.
-SurfaceFacts surface_facts(const Scene& scene, const std::vector<LocalTriangle>& triangles,
-                           const std::vector<TriangleAlbedo>& albedos);
+SurfaceAnalysis surface_analysis(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+                                 const std::vector<TriangleAlbedo>& albedos);
 
 double triangle_area(const Scene& scene, const SceneTriangle& triangle);  // m^2, one side
 
 struct LightsFound {
-    LightFacts facts;
+    LightAnalysis analysis;
     std::vector<std::uint32_t> emissive;  // triangles
 };
-LightsFound light_facts(const Scene& scene);
+LightsFound light_analysis(const Scene& scene);
 
-MotionFacts motion_facts(const Scene& scene);
+MotionAnalysis motion_analysis(const Scene& scene);
 
 }  // namespace clgi

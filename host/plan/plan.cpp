@@ -1,4 +1,5 @@
-// From facts and a wish to a plan: effects, then the method and its settings, then what each costs.
+// From analysis and a request to a plan: effects, then the method and its settings, then what each
+// costs.
 // SPDX-License-Identifier: MIT
 #include <clgi/plan.hpp>
 
@@ -8,8 +9,8 @@
 
 #include "plan/method.hpp"
 #include "plan/probe.hpp"
+#include "plan/requested_analysis.hpp"
 #include "plan/settings.hpp"
-#include "plan/wished_facts.hpp"
 
 namespace clgi {
 namespace {
@@ -22,50 +23,52 @@ bool asked(const std::vector<Effect>& list, Effect effect) {
     return std::find(list.begin(), list.end(), effect) != list.end();
 }
 
-void check(const PlanWish& wish) {
-    need(wish.width >= 1 && wish.width <= 16384 && wish.height >= 1 && wish.height <= 16384,
-         "width and height are " + std::to_string(wish.width) + " and " +
-             std::to_string(wish.height) + ", 1 to 16384 needed");
-    need(wish.tolerance >= 0.0 && std::isfinite(wish.tolerance),
+void check(const PlanRequest& request) {
+    need(request.width >= 1 && request.width <= 16384 && request.height >= 1 &&
+             request.height <= 16384,
+         "width and height are " + std::to_string(request.width) + " and " +
+             std::to_string(request.height) + ", 1 to 16384 needed");
+    need(request.tolerance >= 0.0 && std::isfinite(request.tolerance),
          "tolerance is negative or not finite");
-    need(!wish.seconds || (*wish.seconds > 0.0 && std::isfinite(*wish.seconds)),
+    need(!request.seconds || (*request.seconds > 0.0 && std::isfinite(*request.seconds)),
          "seconds is not above 0 or not finite");
-    need(!wish.error || (*wish.error > 0.0 && std::isfinite(*wish.error)),
+    need(!request.error || (*request.error > 0.0 && std::isfinite(*request.error)),
          "error is not above 0 or not finite");
     for (const Effect effect : {Effect::further_bounces, Effect::indirect_occlusion})
-        need(!asked(wish.with, effect) || !asked(wish.without, Effect::first_bounce),
+        need(!asked(request.with, effect) || !asked(request.without, Effect::first_bounce),
              std::string(name_of(effect)) + " is with, but its first-bounce is without");
-    for (const Effect effect : wish.with)
-        need(std::find(wish.without.begin(), wish.without.end(), effect) == wish.without.end(),
+    for (const Effect effect : request.with)
+        need(std::find(request.without.begin(), request.without.end(), effect) ==
+                 request.without.end(),
              std::string(name_of(effect)) + " is both with and without");
 }
 
 // called: what the whole scene calls for.
-void overrule(EffectChoices& effects, const EffectChoices& called, const SceneFacts& facts,
-              const PlanWish& wish) {
+void overrule(EffectChoices& effects, const EffectChoices& called, const SceneAnalysis& analysis,
+              const PlanRequest& request) {
     const auto set = [&](Effect effect, bool on) {
         EffectChoice& choice = effects[static_cast<std::size_t>(effect)];
         if (choice.on == on) return;
         choice.on = on;
-        choice.ground = Ground::wished;
+        choice.evidence = Evidence::requested;
         choice.why = std::string(on ? "asked for; without: " : "left out by wish; ") + choice.why;
     };
-    for (const Effect effect : wish.without) {
-        // The facts no longer have what is left out, so it would count as absent.
+    for (const Effect effect : request.without) {
+        // The analysis no longer have what is left out, so it would count as absent.
         EffectChoice& choice = effects[static_cast<std::size_t>(effect)];
         if (!choice.on) choice = called[static_cast<std::size_t>(effect)];
         set(effect, false);
     }
-    for (const Effect effect : wish.with) set(effect, true);
+    for (const Effect effect : request.with) set(effect, true);
     // What is left of indirect light needs its first bounce, and follows where it is asked for.
     const Effect rest[] = {Effect::further_bounces, Effect::indirect_occlusion};
     for (const Effect effect : rest)
-        if (asked(wish.with, effect)) set(Effect::first_bounce, true);
+        if (asked(request.with, effect)) set(Effect::first_bounce, true);
     const EffectChoice& first = effects[static_cast<std::size_t>(Effect::first_bounce)];
-    if (first.ground != Ground::wished) return;
+    if (first.evidence != Evidence::requested) return;
     for (const Effect effect : rest) {
-        const bool nothing = effect == Effect::indirect_occlusion && facts.proof.surfaces_open;
-        if (!first.on || (!asked(wish.without, effect) && !nothing)) set(effect, first.on);
+        const bool nothing = effect == Effect::indirect_occlusion && analysis.proof.surfaces_open;
+        if (!first.on || (!asked(request.without, effect) && !nothing)) set(effect, first.on);
     }
 }
 
@@ -74,7 +77,7 @@ void overrule(EffectChoices& effects, const EffectChoices& called, const SceneFa
 double largest_bound(const EffectChoices& effects) {
     double out = 0.0;
     for (const EffectChoice& choice : effects)
-        if (!choice.on && choice.ground == Ground::measured) out = std::max(out, choice.bound);
+        if (!choice.on && choice.evidence == Evidence::measured) out = std::max(out, choice.bound);
     return out;
 }
 
@@ -88,14 +91,15 @@ void price(const cl::Device& device, Plan& plan) {
     }
 }
 
-Plan planned(const cl::Device& device, const SceneFacts& facts, const PlanWish& wish,
-             const std::optional<ProbeFacts>& probed) {
+Plan planned(const cl::Device& device, const SceneAnalysis& analysis, const PlanRequest& request,
+             const std::optional<ProbeResult>& probed) {
     Plan plan;
-    plan.wish = wish;
-    plan.facts = wished_facts(facts, wish);
+    plan.request = request;
+    plan.analysis = requested_analysis(analysis, request);
     plan.probe = probed;
-    plan.effects = choose_effects(plan.facts, wish.tolerance, probed);
-    overrule(plan.effects, choose_effects(facts, wish.tolerance, probed), plan.facts, wish);
+    plan.effects = choose_effects(plan.analysis, request.tolerance, probed);
+    overrule(plan.effects, choose_effects(analysis, request.tolerance, probed), plan.analysis,
+             request);
     plan.bound = largest_bound(plan.effects);
     choose_method(device, plan);
     price(device, plan);
@@ -104,26 +108,27 @@ Plan planned(const cl::Device& device, const SceneFacts& facts, const PlanWish& 
 
 }  // namespace
 
-Plan make_plan(const cl::Device& device, const SceneFacts& facts, const PlanWish& wish) {
-    check(wish);
-    return planned(device, facts, wish, std::nullopt);
+Plan make_plan(const cl::Device& device, const SceneAnalysis& analysis,
+               const PlanRequest& request) {
+    check(request);
+    return planned(device, analysis, request, std::nullopt);
 }
 
 Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
-               const Camera& camera, const PlanWish& wish) {
-    check(wish);
+               const Camera& camera, const PlanRequest& request) {
+    check(request);
     const auto device = queue.getInfo<CL_QUEUE_DEVICE>();
-    const SceneFacts facts = scene_facts(scene);
-    const Plan unprobed = planned(device, facts, wish, std::nullopt);
-    const bool one_picture = !wish.animated && !wish.lights_change && !wish.camera_moves;
+    const SceneAnalysis analysis = scene_analysis(scene);
+    const Plan unprobed = planned(device, analysis, request, std::nullopt);
+    const bool one_picture = !request.animated && !request.lights_change && !request.camera_moves;
     const bool open = unprobed.on(Effect::first_bounce) || unprobed.on(Effect::direct_shadows);
     if (!one_picture || !open) return unprobed;
     // What reflects nothing looks the same however it is lit.
-    if (!(unprobed.facts.surfaces.largest_albedo > 0.0))
-        return planned(device, facts, wish, ProbeFacts{});
+    if (!(unprobed.analysis.surfaces.largest_albedo > 0.0))
+        return planned(device, analysis, request, ProbeResult{});
     const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device,
                                planned_scene(scene, unprobed));
-    return planned(device, facts, wish, probe(queue, programs, uploaded, camera, unprobed));
+    return planned(device, analysis, request, probe(queue, programs, uploaded, camera, unprobed));
 }
 
 }  // namespace clgi

@@ -11,7 +11,7 @@ namespace clgi {
 namespace {
 
 bool kept(const Light& light, const Plan& plan) {
-    if (light.intensity == glm::vec3(0.0f) && !plan.wish.lights_change) return false;
+    if (light.intensity == glm::vec3(0.0f) && !plan.request.lights_change) return false;
     switch (light.kind) {
         case Light::Kind::point:
             return plan.on(Effect::point_light);
@@ -114,7 +114,7 @@ void drop_motion(Scene& scene, const Plan& plan) {
     if (!plan.on(Effect::moving_geometry)) animation.ranges.clear();
     if (!plan.on(Effect::moving_lights)) animation.lights.clear();
     const bool moves = !animation.ranges.empty() || !animation.lights.empty() ||
-                       !animation.cameras.empty() || plan.wish.animated;
+                       !animation.cameras.empty() || plan.request.animated;
     if (!moves) scene.animation.reset();
 }
 

@@ -37,19 +37,19 @@ double reflected_flux(const cl::CommandQueue& queue, const SecondOrderSolver& so
 
 }  // namespace
 
-ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
-                 const Camera& camera, const Plan& plan) {
-    const PlanWish& wish = plan.wish;
+ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
+                  const Camera& camera, const Plan& plan) {
+    const PlanRequest& request = plan.request;
     SecondOrderOptions options;
     const double shrink =
-        std::min(1.0, static_cast<double>(longest_side) / std::max(wish.width, wish.height));
-    options.width = std::max(1, static_cast<int>(std::lround(wish.width * shrink)));
-    options.height = std::max(1, static_cast<int>(std::lround(wish.height * shrink)));
+        std::min(1.0, static_cast<double>(longest_side) / std::max(request.width, request.height));
+    options.width = std::max(1, static_cast<int>(std::lround(request.width * shrink)));
+    options.height = std::max(1, static_cast<int>(std::lround(request.height * shrink)));
     options.emitters.vpls = probe_vpls;
     make_fine(options.emitters, coarse);
     options.negative_vpls = 0;
     options.low_resolution_step = 1;
-    options.build = wish.build;
+    options.build = request.build;
     options.indirect = plan.on(Effect::first_bounce);
     SecondOrderSolver solver(programs, queue, scene, options);
     const auto start = timing::Clock::now();  // kernels are built
@@ -66,8 +66,8 @@ ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const 
 
     const SceneFrame& frame = scene.frame();
     const double lumen = flux * frame.exposure / (frame.scale * frame.scale);
-    const double radiance = lumen / (std::numbers::pi * plan.facts.surfaces.area);
-    ProbeFacts out;
+    const double radiance = lumen / (std::numbers::pi * plan.analysis.surfaces.area);
+    ProbeResult out;
     const double level = mean(lit);
     // A picture without light tells nothing about light that arrives over more bounces, and VPLs
     // without light nothing about what lights the picture.

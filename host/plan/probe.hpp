@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/effects.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/plan.hpp>
 #include <clgi/programs.hpp>
 
@@ -11,7 +11,7 @@ namespace clgi {
 
 // A picture with a bounce that nothing shadows, one with direct light alone, and one with finer
 // direct light. scene: the planned_scene() of the plan so far.
-ProbeFacts probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
-                 const Camera& camera, const Plan& plan);
+ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
+                  const Camera& camera, const Plan& plan);
 
 }  // namespace clgi

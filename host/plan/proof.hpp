@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/advanced/facts.hpp>
+#include <clgi/advanced/analysis.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <vector>

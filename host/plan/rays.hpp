@@ -1,5 +1,5 @@
 // Many rays against all triangles of a scene, on the host and without a tree: for the few thousand
-// rays that facts take.
+// rays that analysis take.
 // SPDX-License-Identifier: MIT
 #pragma once
 

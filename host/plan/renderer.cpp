@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/renderer.hpp>
-#include <clgi/advanced/tuning.hpp>
 #include <clgi/advanced/antiradiance_view.hpp>
 #include <clgi/advanced/light_atlas_view.hpp>
-#include <clgi/advanced/still_bake.hpp>
+#include <clgi/advanced/static_bake.hpp>
+#include <clgi/advanced/tuning.hpp>
+#include <clgi/renderer.hpp>
 
-#include "plan/still.hpp"
+#include "plan/static_part.hpp"
 
 namespace clgi {
 namespace {
@@ -17,9 +17,9 @@ struct Atlas {
           view(programs, queue, device, layout.atlas, plan.picture) {}
 
     // still: what stands still of the scene, on the device.
-    Atlas(const Programs& programs, const cl::CommandQueue& queue, const StillBake& bake,
-          std::unique_ptr<DeviceScene> still, const DeviceScene& device, const Plan& plan)
-        : apart(std::move(still)),
+    Atlas(const Programs& programs, const cl::CommandQueue& queue, const StaticBake& bake,
+          std::unique_ptr<DeviceScene> static_scene, const DeviceScene& device, const Plan& plan)
+        : apart(std::move(static_scene)),
           solver(programs, queue, *apart, bake.layout.vpls, bake.layout.atlas, plan.light_atlas,
                  points_of(bake.volume)),
           view(programs, queue, device, bake.whole, plan.picture, bake.volume) {}
@@ -36,14 +36,14 @@ struct Atlas {
 std::unique_ptr<Atlas> make_atlas_of(const Programs& programs, const cl::CommandQueue& queue,
                                      const Scene& scene, const DeviceScene& device,
                                      const Plan& plan) {
-    if (!bakes_still(plan))
+    if (!bakes_static_part(plan))
         return std::make_unique<Atlas>(
             programs, queue, make_bake_layout(scene, plan.vpls, plan.layout), device, plan);
-    const StillBake bake = make_still_bake(scene, plan.vpls, plan.layout);
+    const StaticBake bake = make_static_bake(scene, plan.vpls, plan.layout);
     return std::make_unique<Atlas>(
         programs, queue, bake,
         std::make_unique<DeviceScene>(queue.getInfo<CL_QUEUE_CONTEXT>(),
-                                      queue.getInfo<CL_QUEUE_DEVICE>(), bake.still.scene),
+                                      queue.getInfo<CL_QUEUE_DEVICE>(), bake.static_scene.scene),
         device, plan);
 }
 
@@ -119,11 +119,12 @@ bool PlannedRenderer::prepare(const Progress& progress) {
 bool PlannedRenderer::tune(const Camera& camera, const Progress& progress) {
     State& s = *state_;
     if (s.plan.method != Method::second_order || !s.plan.second_order.indirect ||
-        !s.plan.wish.seconds)
+        !s.plan.request.seconds)
         return !progress || progress(1.0);
-    TuningWish wish;
-    wish.frame_ms = 1e3 * *s.plan.wish.seconds;
-    const auto found = tune_second_order(s.queue, s.scene, *s.second_order, camera, wish, progress);
+    TuningTarget request;
+    request.frame_ms = 1e3 * *s.plan.request.seconds;
+    const auto found =
+        tune_second_order(s.queue, s.scene, *s.second_order, camera, request, progress);
     if (!found) return false;
     s.plan.second_order = s.second_order->options();
     s.plan.cost.frame_ms = found->frame_ms;

@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
+#include <clgi/device_scene.hpp>
 #include <vector>
 
 namespace clgi {

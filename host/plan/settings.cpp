@@ -12,7 +12,7 @@ namespace {
 
 // Brings the settings to the effects: what is off is switched off.
 void apply_effects(Plan& plan) {
-    const BuildOptions& build = plan.wish.build;
+    const BuildOptions& build = plan.request.build;
     const bool shadows =
         plan.on(Effect::direct_shadows) ||
         (has_sky_lights(plan.method) && has_sky(plan) && plan.on(Effect::environment_shadows));
@@ -38,7 +38,7 @@ void apply_effects(Plan& plan) {
     if (!plan.on(Effect::gloss)) plan.antiradiance.least_gloss = 1.0;
     const EffectChoice& occlusion =
         plan.effects[static_cast<std::size_t>(Effect::indirect_occlusion)];
-    plan.antiradiance.occlusion = occlusion.on && occlusion.ground == Ground::wished
+    plan.antiradiance.occlusion = occlusion.on && occlusion.evidence == Evidence::requested
                                       ? Occlusion::always
                                       : Occlusion::automatic;
     plan.antiradiance.build = build;
@@ -60,25 +60,25 @@ void change_emitters(Plan& plan, const Change& change) {
     plan.transfer_view.picture = plan.picture;
 }
 
-// The settings of a rung.
-void set_rung(Plan& plan, const Rung& rung) {
-    plan.picture.width = plan.second_order.width = plan.wish.width;
-    plan.picture.height = plan.second_order.height = plan.wish.height;
-    switch (rung.method) {
+// The settings of a preset.
+void use_preset(Plan& plan, const Preset& preset) {
+    plan.picture.width = plan.second_order.width = plan.request.width;
+    plan.picture.height = plan.second_order.height = plan.request.height;
+    switch (preset.method) {
         case Method::direct:
             plan.second_order.indirect = false;
             break;
         case Method::second_order:
-            plan.second_order.emitters.vpls = rung.places;
+            plan.second_order.emitters.vpls = preset.places;
             break;
         case Method::light_atlas:
-            plan.vpls.count = static_cast<std::uint32_t>(rung.places);
-            plan.layout.size = rung.directions;
+            plan.vpls.count = static_cast<std::uint32_t>(preset.places);
+            plan.layout.size = preset.directions;
             plan.layout.largest_size = 4096;
             break;
         case Method::antiradiance:
-            plan.antiradiance.bins = rung.directions;
-            plan.antiradiance.elements.wished = static_cast<std::size_t>(rung.places);
+            plan.antiradiance.bins = preset.directions;
+            plan.antiradiance.elements.requested = static_cast<std::size_t>(preset.places);
             break;
         case Method::dynamic_transfer:
             break;
@@ -87,16 +87,17 @@ void set_rung(Plan& plan, const Rung& rung) {
 
 }  // namespace
 
-void set(Plan& plan, const Rung& rung, int fineness) {
-    const PlanWish& wish = plan.wish;
-    plan.method = rung.method;
+void set(Plan& plan, const Preset& preset, int fineness) {
+    const PlanRequest& request = plan.request;
+    plan.method = preset.method;
     plan.picture = PictureOptions();
     change_emitters(plan, [&](EmitterOptions& options) {
-        options.shadow_size = wish.shadow_size.value_or(fineness * EmitterOptions().shadow_size);
-        options.face_size = wish.face_size.value_or(fineness * EmitterOptions().face_size);
-        options.area_samples = wish.area_samples.value_or(fineness * EmitterOptions().area_samples);
+        options.shadow_size = request.shadow_size.value_or(fineness * EmitterOptions().shadow_size);
+        options.face_size = request.face_size.value_or(fineness * EmitterOptions().face_size);
+        options.area_samples =
+            request.area_samples.value_or(fineness * EmitterOptions().area_samples);
     });
-    set_rung(plan, rung);
+    use_preset(plan, preset);
     apply_effects(plan);
 }
 

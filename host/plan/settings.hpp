@@ -1,17 +1,17 @@
-// From effects and a rung to the settings of a plan.
+// From effects and a preset to the settings of a plan.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/plan.hpp>
 
-#include "plan/rungs.hpp"
+#include "plan/presets.hpp"
 
 namespace clgi {
 
 // The plan's method and all settings. fineness: 1, or how many times as fine direct light is as
-// EmitterOptions has it, where the wish does not say: pixels of shadow maps along a side, and
+// EmitterOptions has it, where the request does not say: pixels of shadow maps along a side, and
 // points on emissive surfaces.
-void set(Plan& plan, const Rung& rung, int fineness);
+void set(Plan& plan, const Preset& preset, int fineness);
 
 // How fine direct light is for the lights that the plan has: the least of what set() makes finer.
 double fineness_of(const Plan& plan);

@@ -6,10 +6,10 @@
 
 namespace clgi {
 
-// Whether the plan renders the light of an environment. The effect alone may be on by wish in a
+// Whether the plan renders the light of an environment. The effect alone may be on by request in a
 // scene that has none.
 inline bool has_sky(const Plan& plan) {
-    return plan.on(Effect::environment_light) && plan.facts.lights.environment;
+    return plan.on(Effect::environment_light) && plan.analysis.lights.environment;
 }
 
 // Methods whose sky is a few directional lights, with shadow maps as others have.

@@ -146,9 +146,9 @@ Surroundings survey(const std::vector<Light>& lights, const SceneFrame& frame,
                     const std::vector<LocalTriangle>& triangles, const std::vector<double>& weights,
                     const std::vector<std::uint32_t>& emissive,
                     const SurroundingsOptions& options) {
-    const double wished =
+    const double requested =
         wished_tests / static_cast<double>(std::max<std::size_t>(triangles.size(), 1));
-    auto count = static_cast<std::size_t>(std::clamp(wished, fewest_points, most_points));
+    auto count = static_cast<std::size_t>(std::clamp(requested, fewest_points, most_points));
     if (!options.open) count = std::min(count, most_seekers);
     const std::vector<SurfacePoint> points = surface_points(triangles, weights, count);
     Surroundings out;
@@ -169,7 +169,8 @@ Surroundings survey(const std::vector<Light>& lights, const SceneFrame& frame,
     for (const SurfacePoint& point : surface_points(triangles, single, few))
         rays.add(point.position, -point.normal, infinity);
     const Run into{open.count, rays.count() - open.count};
-    const auto lights_each = std::clamp(4.0 * wished / static_cast<double>(few), 1.0, most_lights);
+    const auto lights_each =
+        std::clamp(4.0 * requested / static_cast<double>(few), 1.0, most_lights);
     const Lights sources(lights, frame, triangles, emissive, static_cast<std::size_t>(lights_each));
     std::vector<Run> to_lights;
     for (const SurfacePoint& point : surface_points(triangles, weights, few)) {

@@ -1,8 +1,8 @@
-// Tuning: from a wish to the point of a front that meets it, by models first and pictures then.
+// Tuning: from a request to the point of a front that meets it, by models first and pictures then.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/tuning.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 
 #include "core/opencl/timing.hpp"
@@ -105,27 +105,28 @@ void need(bool right, const char* what) {
     if (!right) throw Error(std::string("tuning: ") + what);
 }
 
-void check(const TuningWish& wish, const SecondOrderOptions& options) {
+void check(const TuningTarget& request, const SecondOrderOptions& options) {
     const auto positive = [](const std::optional<double>& value) {
         return !value || (*value > 0.0 && std::isfinite(*value));
     };
-    need(wish.frame_ms || wish.error, "neither a time nor an error is asked for");
-    need(positive(wish.frame_ms), "frame_ms is not above 0 or not finite");
-    need(positive(wish.error), "error is not above 0 or not finite");
+    need(request.frame_ms || request.error, "neither a time nor an error is asked for");
+    need(positive(request.frame_ms), "frame_ms is not above 0 or not finite");
+    need(positive(request.error), "error is not above 0 or not finite");
     need(options.indirect, "the solver renders no indirect light, so there is nothing to tune");
 }
 
 // Shares of the whole until each part ends.
 constexpr double timed_share = 0.2, sampled_share = 0.5, looked_share = 0.8;
 
-SecondOrderTuning find(TrialFrames& trial, const SecondOrderFront& front, const TuningWish& wish) {
+SecondOrderTuning find(TrialFrames& trial, const SecondOrderFront& front,
+                       const TuningTarget& request) {
     const int refinements = static_cast<int>(front.refinements.size());
     trial.next_part(timed_share, (1 + refinements) * (1 + most_timed));
     const FrameTimeModel time = trial.time_model();
     SecondOrderTuning out;
     FrontPoint point;
-    if (wish.error) {
-        const double wanted = *wish.error / safety;
+    if (request.error) {
+        const double wanted = *request.error / safety;
         trial.next_part(sampled_share, most_sampled);
         FrameErrorModel errors = error_model(trial, front, wanted);
         trial.next_part(looked_share, 2 * looks + 1 + most_timed);
@@ -135,16 +136,16 @@ SecondOrderTuning find(TrialFrames& trial, const SecondOrderFront& front, const 
         out.meets_error = found.met;
         out.frame_ms = trial.frame_ms(point);
     }
-    // With both wishes: only where the error costs more than the time.
-    if (wish.frame_ms && (!wish.error || out.frame_ms > *wish.frame_ms)) {
+    // With both requests: only where the error costs more than the time.
+    if (request.frame_ms && (!request.error || out.frame_ms > *request.frame_ms)) {
         trial.next_part(1.0, (1 + corrections) * (1 + most_timed));
-        const Timed found = meet_time(trial, front, time, *wish.frame_ms);
+        const Timed found = meet_time(trial, front, time, *request.frame_ms);
         point = found.point;
         out.frame_ms = found.ms;
-        out.meets_time = found.ms <= (1.0 + 2.0 * near_enough) * *wish.frame_ms;
-        if (wish.error) {
+        out.meets_time = found.ms <= (1.0 + 2.0 * near_enough) * *request.frame_ms;
+        if (request.error) {
             out.error = trial.error(point);
-            out.meets_error = safety * *out.error <= *wish.error;
+            out.meets_error = safety * *out.error <= *request.error;
         }
     }
     out.settings = trial.settings(point);
@@ -156,16 +157,16 @@ SecondOrderTuning find(TrialFrames& trial, const SecondOrderFront& front, const 
 std::optional<SecondOrderTuning> tune_second_order(const cl::CommandQueue& queue,
                                                    const DeviceScene& scene,
                                                    SecondOrderSolver& solver, const Camera& camera,
-                                                   const TuningWish& wish,
+                                                   const TuningTarget& request,
                                                    const Progress& progress) {
     const auto start = timing::Clock::now();
     const SecondOrderOptions before = solver.options();
-    check(wish, before);
+    check(request, before);
     const SecondOrderFront& front = second_order_front(main_light(scene));
     TrialFrames trial(queue, solver, camera, front, progress);
     SecondOrderTuning out;
     try {
-        out = find(trial, front, wish);
+        out = find(trial, front, request);
     } catch (const TrialFrames::Cancelled&) {
         solver.reconfigure(before);
         return std::nullopt;

@@ -33,27 +33,27 @@ void add_ask_flags(CLI::App& command, AskFlags& flags) {
         for (CLI::Option* asked : {error, time}) asked->excludes(command.get_option(setting));
 }
 
-TuningWish wish_of(const std::string& command, const AskFlags& flags) {
-    TuningWish wish;
+TuningTarget request_of(const std::string& command, const AskFlags& flags) {
+    TuningTarget request;
     if (!flags.target_error.empty())
-        wish.error = parse_percent(command, "--target-error", flags.target_error);
+        request.error = parse_percent(command, "--target-error", flags.target_error);
     if (!flags.time_budget.empty())
-        wish.frame_ms = parse_milliseconds(command, "--time-budget", flags.time_budget);
-    return wish;
+        request.frame_ms = parse_milliseconds(command, "--time-budget", flags.time_budget);
+    return request;
 }
 
 ordered_json ask_json(const AskRecord& record, double delivered_ms) {
     const SecondOrderTuning& found = record.tuning;
     ordered_json asked = ordered_json::object();
-    if (record.wish.error) asked["target_error"] = *record.wish.error;
-    if (record.wish.frame_ms) asked["time_budget_ms"] = *record.wish.frame_ms;
+    if (record.request.error) asked["target_error"] = *record.request.error;
+    if (record.request.frame_ms) asked["time_budget_ms"] = *record.request.frame_ms;
     const SecondOrderSettings& settings = found.settings;
     ordered_json out = {{"asked", asked}, {"delivered_ms", delivered_ms}};
     out["promised_ms"] = found.frame_ms;
-    if (record.wish.frame_ms) out["budget_met"] = found.meets_time;
-    if (record.wish.error) {
+    if (record.request.frame_ms) out["budget_met"] = found.meets_time;
+    if (record.request.error) {
         out["promised_error"] =
-            found.meets_error ? ordered_json(*record.wish.error) : ordered_json();
+            found.meets_error ? ordered_json(*record.request.error) : ordered_json();
         out["estimated_error"] = *found.error;
         out["target_met"] = found.meets_error;
     }
@@ -75,9 +75,10 @@ ordered_json ask_json(const AskRecord& record, double delivered_ms) {
 std::string ask_line(const AskRecord& record, double delivered_ms) {
     const SecondOrderTuning& found = record.tuning;
     std::string line = "asked for";
-    if (record.wish.error) line += fmt::format(" an error of {:.3g} %", 100.0 * *record.wish.error);
-    if (record.wish.error && record.wish.frame_ms) line += " and";
-    if (record.wish.frame_ms) line += fmt::format(" {:.4g} ms", *record.wish.frame_ms);
+    if (record.request.error)
+        line += fmt::format(" an error of {:.3g} %", 100.0 * *record.request.error);
+    if (record.request.error && record.request.frame_ms) line += " and";
+    if (record.request.frame_ms) line += fmt::format(" {:.4g} ms", *record.request.frame_ms);
     line += fmt::format(": promised {:.1f} ms, delivered {:.1f} ms", found.frame_ms, delivered_ms);
     if (found.error) line += fmt::format(", estimated error {:.3g} %", 100.0 * *found.error);
     const SecondOrderSettings& settings = found.settings;
@@ -94,12 +95,12 @@ std::string ask_line(const AskRecord& record, double delivered_ms) {
 std::string ask_warning(const AskRecord& record) {
     const SecondOrderTuning& found = record.tuning;
     std::string text;
-    if (record.wish.error && !found.meets_error)
+    if (record.request.error && !found.meets_error)
         text = fmt::format(
             "warning: the target error of {:.3g} % is not reached{}; the error is {:.3g} %",
-            100.0 * *record.wish.error, record.wish.frame_ms ? " within the time budget" : "",
+            100.0 * *record.request.error, record.request.frame_ms ? " within the time budget" : "",
             100.0 * *found.error);
-    if (!record.wish.frame_ms) return text;
+    if (!record.request.frame_ms) return text;
     const auto add = [&](const std::string& more) {
         text += text.empty() ? "warning: " + more : "; " + more;
     };
@@ -108,7 +109,7 @@ std::string ask_warning(const AskRecord& record) {
                         found.settings.vpls == SecondOrderTuning::fewest_vpls
                             ? "even the cheapest settings take"
                             : "times on this machine vary: the chosen settings took",
-                        found.frame_ms, *record.wish.frame_ms));
+                        found.frame_ms, *record.request.frame_ms));
     else if (found.settings.vpls == SecondOrderTuning::most_vpls)
         add(fmt::format("the largest number of lights, {}, does not use up the budget",
                         SecondOrderTuning::most_vpls));

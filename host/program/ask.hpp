@@ -16,11 +16,11 @@ struct AskFlags {
 void add_ask_flags(CLI::App& command, AskFlags& flags);
 
 // Throws Error for an invalid share or time.
-TuningWish wish_of(const std::string& command, const AskFlags& flags);
+TuningTarget request_of(const std::string& command, const AskFlags& flags);
 
 // The part "ask" of --stats.
 struct AskRecord {
-    TuningWish wish;
+    TuningTarget request;
     SecondOrderTuning tuning;
 };
 nlohmann::ordered_json ask_json(const AskRecord& record, double delivered_ms);

@@ -8,18 +8,18 @@
 #include <memory>
 #include <optional>
 
+#include "lab/bake_state.hpp"
+#include "lab/baked_atlas.hpp"
+#include "lab/reference_picture.hpp"
 #include "program/animation.hpp"
+#include "program/bake_common.hpp"
 #include "program/bake_gltf.hpp"
-#include "program/bake_room.hpp"
 #include "program/bake_stats.hpp"
 #include "program/commands.hpp"
 #include "program/percent.hpp"
 #include "program/picture.hpp"
 #include "program/session.hpp"
 #include "program/version.hpp"
-#include "lab/bake_state.hpp"
-#include "lab/baked_atlas.hpp"
-#include "lab/reference_picture.hpp"
 
 namespace clgi::program {
 namespace {
@@ -61,8 +61,8 @@ std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device&
                flags.vpls.samples_per_vpl, flags.vpls.gap_density, flags.atlas.size, flags.uvs,
                flags.atlas.padding, flags.atlas.texels_per_metre, flags.atlas.most_pages,
                bake.bounces, bake.threshold, bake.one_at_a_time, bake.exchange_samples,
-               bake.hemicube_size, flags.filling, bake.refine, bake.mesh, bake.kernel,
-               bake.direct, emitters.shadow_size, emitters.face_size, emitters.area_samples,
+               bake.hemicube_size, flags.filling, bake.refine, bake.mesh, bake.kernel, bake.direct,
+               emitters.shadow_size, emitters.face_size, emitters.area_samples,
                emitters.environment_lights) +
            build_flags(flags.device);
 }
@@ -119,7 +119,8 @@ void save_atlas(const BakeFlags& flags, const AtlasLayout& atlas,
 }
 
 // Quick bakes with fewer VPLs, each saved: something to look at early that becomes better. As each
-// has four times the VPLs of the one before, all of them take less than half of the last one's time.
+// has four times the VPLs of the one before, all of them take less than half of the last one's
+// time.
 void bake_drafts(const BakeFlags& flags, const Session& session, const Programs& programs,
                  const Scene& scene, const DeviceScene& device_scene, const BakeLayout& layout) {
     constexpr std::uint32_t fewest = 50;
@@ -152,7 +153,7 @@ void run_bake(BakeFlags flags) {
         open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
     pose_scene("bake", flags.animation, scene);
     const Session session = open_session(flags.device);
-    need_room("bake", session.device, flags.vpls);
+    check_capacity("bake", session.device, flags.vpls);
 
     const BakeLayout layout = lay_out(scene, flags.vpls, flags.atlas, flags.device.quiet);
     const Stopwatch build;
@@ -162,8 +163,7 @@ void run_bake(BakeFlags flags) {
                             flags.bake);
     const double build_seconds = build.seconds();
     catch_interrupts();
-    if (flags.progressive)
-        bake_drafts(flags, session, programs, scene, device_scene, layout);
+    if (flags.progressive) bake_drafts(flags, session, programs, scene, device_scene, layout);
     const Stopwatch bake;
     const std::string key = flags.resume.empty() ? "" : key_of(flags, scene, session.device);
     const std::uint32_t resumed_at = run_to_the_end(flags, key, solver);
@@ -203,18 +203,21 @@ void add_method_flags(CLI::App& command, BakeFlags& flags) {
                     "times as dense at most; 1: as elsewhere")
         ->type_name("X")
         ->check(CLI::Range(1.0, 1000.0));
-    add_count(command, "--exchange-samples", flags.bake.exchange_samples,
-              "Those of them that tell how much of a VPL another one sees; 0: 4 to 16, fewer for more "
-              "VPLs",
-              0, 4096);
+    add_count(
+        command, "--exchange-samples", flags.bake.exchange_samples,
+        "Those of them that tell how much of a VPL another one sees; 0: 4 to 16, fewer for more "
+        "VPLs",
+        0, 4096);
     add_bake_flags(command, "", flags.bake, flags.atlas);
     command
-        .add_option("--threshold", flags.threshold,
-                    "With --bounces 0: largest unshot power of a VPL, of the mean direct power of VPLs")
+        .add_option(
+            "--threshold", flags.threshold,
+            "With --bounces 0: largest unshot power of a VPL, of the mean direct power of VPLs")
         ->type_name("X")
         ->default_str("0.1%");
-    command.add_flag("--progressive", flags.progressive,
-                     "Save -o and --png with fewer VPLs first, then with four times as many, and so on");
+    command.add_flag(
+        "--progressive", flags.progressive,
+        "Save -o and --png with fewer VPLs first, then with four times as many, and so on");
     command.add_flag("--one-at-a-time", flags.bake.one_at_a_time,
                      "With --bounces 0: shoot the strongest VPL alone, as in the paper");
     command

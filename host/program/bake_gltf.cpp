@@ -6,8 +6,8 @@
 #include <clgi/io/gltf.hpp>
 #include <cmath>
 
-#include "program/bake_room.hpp"
 #include "lab/preview.hpp"
+#include "program/bake_common.hpp"
 
 namespace clgi::program {
 namespace {

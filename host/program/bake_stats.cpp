@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "program/version.hpp"
 #include "io/atomic_file.hpp"
 #include "lab/timing.hpp"
+#include "program/version.hpp"
 
 namespace clgi::program {
 namespace {

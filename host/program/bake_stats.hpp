@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "program/bake_common.hpp"
 #include "program/bake_gltf.hpp"
-#include "program/bake_room.hpp"
 
 namespace clgi::program {
 

@@ -11,14 +11,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "program/bench.hpp"
-#include "lab/scenes/rooms.hpp"
-#include "program/commands.hpp"
 #include "lab/bench.hpp"
 #include "lab/bench_animation.hpp"
 #include "lab/bench_layer.hpp"
 #include "lab/bench_schaerfig.hpp"
 #include "lab/bench_views.hpp"
+#include "lab/scenes/rooms.hpp"
+#include "program/bench.hpp"
+#include "program/commands.hpp"
 
 namespace clgi::program {
 namespace {
@@ -124,10 +124,11 @@ void run_views(const BenchFlags& flags, const Session& session) {
         return lab::bench_views(setup, scenes);
     });
     if (flags.json) {
-        nlohmann::ordered_json out = {{"table", "views"},
-                                      {"device", describe(session.device)},
-                                      {"copy_gigabytes_per_second", table.copy_gigabytes_per_second},
-                                      {"rows", nlohmann::ordered_json::array()}};
+        nlohmann::ordered_json out = {
+            {"table", "views"},
+            {"device", describe(session.device)},
+            {"copy_gigabytes_per_second", table.copy_gigabytes_per_second},
+            {"rows", nlohmann::ordered_json::array()}};
         for (const lab::ViewsRow& row : table.rows)
             out["rows"].push_back({{"scene", row.scene},
                                    {"form", row.form},
@@ -198,8 +199,8 @@ void run_schaerfig(const BenchFlags& flags, const Session& session) {
         fmt::print("{}\n", schaerfig_json(table).dump(2));
         return;
     }
-    fmt::print("schaerfig1 on {}\n{}x{} texels, five bounces, peak {:.0f} GFLOP/s\n\n", table.device,
-               setup.atlas_size, setup.atlas_size, table.peak_gflops);
+    fmt::print("schaerfig1 on {}\n{}x{} texels, five bounces, peak {:.0f} GFLOP/s\n\n",
+               table.device, setup.atlas_size, setup.atlas_size, table.peak_gflops);
     fmt::print("{:<24}{:<10}{:>10}{:>10}{:>9}{:>12}\n", "row", "filling", "paper s", "clgi s",
                "ratio", "of it host");
     for (const lab::SchaerfigRow& row : table.rows)
@@ -224,8 +225,7 @@ void run_bench(const BenchFlags& flags) {
     setup.build = build_of(flags.device);
     const lab::BenchTable table = measured(flags, [&](const Progress& progress) {
         setup.progress = progress;
-        return flags.table == "cochran1" ? lab::bench_cochran1(setup)
-                                         : lab::bench_cochran2(setup);
+        return flags.table == "cochran1" ? lab::bench_cochran1(setup) : lab::bench_cochran2(setup);
     });
     flags.json ? print_json(table) : print_text(table);
 }
@@ -255,7 +255,9 @@ void add_bench(CLI::App& app) {
     command->add_option("--mesh", flags->mesh, "Mesh in the box, such as the Stanford bunny")
         ->type_name("FILE")
         ->default_str("a generated solid");
-    command->add_option("--scene", flags->scenes, "schaerfig1, views, animation: one more scene; may be repeated")
+    command
+        ->add_option("--scene", flags->scenes,
+                     "schaerfig1, views, animation: one more scene; may be repeated")
         ->type_name("FILE")
         ->default_str("none");
     command

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "program/commands.hpp"
 #include "io/image_formats.hpp"
 #include "lab/difference.hpp"
 #include "lab/hdr_flip.hpp"
 #include "lab/mask.hpp"
 #include "lab/metrics.hpp"
+#include "program/commands.hpp"
 
 namespace clgi::program {
 namespace {
@@ -72,16 +72,15 @@ void print_text(const lab::Comparison& c) {
 }
 
 const std::map<std::string, lab::Shown>& shown_by_name() {
-    static const std::map<std::string, lab::Shown> names = {
-        {"difference", lab::Shown::difference},
-        {"size", lab::Shown::size},
-        {"flip", lab::Shown::flip}};
+    static const std::map<std::string, lab::Shown> names = {{"difference", lab::Shown::difference},
+                                                            {"size", lab::Shown::size},
+                                                            {"flip", lab::Shown::flip}};
     return names;
 }
 
 lab::Mask mask_from(const CompareFlags& flags, const io::Image& picture) {
     lab::Mask mask = flags.mask.empty() ? lab::whole_picture(picture.width, picture.height)
-                                           : lab::mask_of(io::read_image_or_png(flags.mask));
+                                        : lab::mask_of(io::read_image_or_png(flags.mask));
     lab::check_mask(mask, picture.width, picture.height);
     if (flags.region.empty()) return mask;
     const std::vector<int>& r = flags.region;

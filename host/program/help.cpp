@@ -49,15 +49,15 @@ public:
     }
 
     std::string make_option_desc(const CLI::Option* option) const override {
-        std::string facts;
+        std::string analysis;
         const auto add = [&](const std::string& before, const std::string& fact) {
-            if (!fact.empty()) facts += (facts.empty() ? "" : "; ") + before + fact;
+            if (!fact.empty()) analysis += (analysis.empty() ? "" : "; ") + before + fact;
         };
         add("", range_text(option->get_type_name()));
         add("needs ", names_of(option->get_needs()));
         add("not with ", names_of(option->get_excludes()));
         if (option->get_type_size() != 0) add("default: ", option->get_default_str());
-        return option->get_description() + (facts.empty() ? "" : " [" + facts + "]");
+        return option->get_description() + (analysis.empty() ? "" : " [" + analysis + "]");
     }
 };
 

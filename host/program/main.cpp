@@ -11,11 +11,11 @@
 #include <new>
 #include <string>
 
+#include "core/opencl/error_text.hpp"
 #include "program/commands.hpp"
 #include "program/help.hpp"
 #include "program/session.hpp"
 #include "program/version.hpp"
-#include "core/opencl/error_text.hpp"
 
 namespace {
 

@@ -42,11 +42,11 @@ void parse_size(const std::string& command, const std::string& text, int most, i
 void check_formats(const std::string& command, const PictureFlags& flags) {
     const std::filesystem::path exr = flags.exr, png = flags.png;
     if (exr.extension() == ".png" || exr.extension() == ".PNG")
-        throw Error(fmt::format("{}: -o is '{}', an EXR needed; --png writes PNG", command,
-                                flags.exr));
+        throw Error(
+            fmt::format("{}: -o is '{}', an EXR needed; --png writes PNG", command, flags.exr));
     if (png.extension() == ".exr" || png.extension() == ".EXR")
-        throw Error(fmt::format("{}: --png is '{}', a PNG needed; -o writes EXR", command,
-                                flags.png));
+        throw Error(
+            fmt::format("{}: --png is '{}', a PNG needed; -o writes EXR", command, flags.png));
 }
 
 void check_picture(const std::string& command, const PictureFlags& flags, int& width, int& height) {

@@ -12,8 +12,8 @@
 #include "program/duration.hpp"
 #include "program/percent.hpp"
 #include "program/picture.hpp"
+#include "program/plan_request.hpp"
 #include "program/plan_text.hpp"
-#include "program/plan_wish.hpp"
 #include "program/session.hpp"
 
 namespace clgi::program {
@@ -28,8 +28,8 @@ struct PlanCommand {
     bool animated = false, json = false;
 };
 
-PlanWish wish_of(const PlanCommand& flags) {
-    PlanWish out = wish_of("plan", flags.plan);
+PlanRequest request_of(const PlanCommand& flags) {
+    PlanRequest out = request_of("plan", flags.plan);
     parse_size("plan", flags.size, 16384, out.width, out.height);
     if (!flags.target_error.empty())
         out.error = parse_percent("plan", "--target-error", flags.target_error);
@@ -42,7 +42,7 @@ PlanWish wish_of(const PlanCommand& flags) {
 }
 
 void run_plan(const PlanCommand& flags) {
-    const PlanWish wish = wish_of(flags);
+    const PlanRequest request = request_of(flags);
     const Scene scene =
         open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
     check_camera("plan", flags.camera, scene);
@@ -51,7 +51,7 @@ void run_plan(const PlanCommand& flags) {
     const Session session = open_session(device);
     const Programs programs(session.context, session.device);
     const Plan plan = make_plan(session.queue, programs, scene,
-                                scene.cameras[static_cast<std::size_t>(flags.camera)], wish);
+                                scene.cameras[static_cast<std::size_t>(flags.camera)], request);
     if (flags.json)
         fmt::print("{}\n", plan_json(plan).dump(2));
     else
@@ -68,7 +68,7 @@ void add_plan(CLI::App& app) {
         ->type_name("SCENE");
     command->add_option("--size", flags->size, "Of the picture")
         ->type_name("WxH")
-        ->default_str(fmt::format("{}x{}", PlanWish().width, PlanWish().height));
+        ->default_str(fmt::format("{}x{}", PlanRequest().width, PlanRequest().height));
     add_place_options(*command, flags->scene_index, flags->camera);
     add_environment_flags(*command, flags->environment);
     command->add_option("--method", flags->method, "auto: the plan chooses")

@@ -37,7 +37,7 @@ std::string settings_text(const Plan& plan) {
             return fmt::format("{} VPLs, pages of {} texels", plan.vpls.count, plan.layout.size);
         case Method::antiradiance:
             return fmt::format("{} bins, {} leaves wished", plan.antiradiance.bins,
-                               plan.antiradiance.elements.wished);
+                               plan.antiradiance.elements.requested);
         case Method::dynamic_transfer:
             return fmt::format("{} bands, {} bounces", plan.transfer.masks.bands,
                                plan.transfer.bounces);
@@ -58,7 +58,7 @@ ordered_json settings_json(const Plan& plan) {
                     {"bounces", plan.light_atlas.bounces}};
         case Method::antiradiance:
             return {{"bins", plan.antiradiance.bins},
-                    {"elements", plan.antiradiance.elements.wished},
+                    {"elements", plan.antiradiance.elements.requested},
                     {"iterations", plan.antiradiance.steps},
                     {"occlusion", plan.antiradiance.occlusion == Occlusion::always},
                     {"gloss", plan.antiradiance.least_gloss < 1.0}};
@@ -86,7 +86,7 @@ ordered_json effects_json(const Plan& plan) {
     for (const EffectChoice& choice : plan.effects)
         out.push_back({{"name", name_of(choice.effect)},
                        {"on", choice.on},
-                       {"ground", name_of(choice.ground)},
+                       {"ground", name_of(choice.evidence)},
                        {"why", choice.why},
                        {"by", choice.by},
                        {"ms", choice.milliseconds},
@@ -95,13 +95,13 @@ ordered_json effects_json(const Plan& plan) {
     return out;
 }
 
-ordered_json facts_json(const SceneFacts& facts) {
-    const LightFacts& l = facts.lights;
-    const SurfaceFacts& s = facts.surfaces;
-    const OpennessProof& p = facts.proof;
+ordered_json analysis_json(const SceneAnalysis& analysis) {
+    const LightAnalysis& l = analysis.lights;
+    const SurfaceAnalysis& s = analysis.surfaces;
+    const OpennessProof& p = analysis.proof;
     return {{"triangles", s.triangles},
             {"area", s.area},
-            {"size", facts.size},
+            {"size", analysis.size},
             {"mean_albedo", {s.mean_albedo.r, s.mean_albedo.g, s.mean_albedo.b}},
             {"smallest_albedo", s.smallest_albedo},
             {"largest_albedo", s.largest_albedo},
@@ -123,23 +123,23 @@ ordered_json facts_json(const SceneFacts& facts) {
               {"environment", l.environment},
               {"environment_mean", l.environment_mean},
               {"moving", l.moving}}},
-            {"moving_triangles", facts.motion.moving_triangles},
-            {"moving_area", facts.motion.moving_area},
-            {"moving_emission", facts.motion.moving_emission},
-            {"travel", facts.motion.travel},
-            {"openness", facts.openness},
-            {"openness_error", facts.openness_error},
-            {"backs", facts.backs},
-            {"lit", facts.lit},
-            {"lit_twice", facts.lit_twice},
-            {"thin", facts.thin},
-            {"thinnest", facts.thinnest},
+            {"moving_triangles", analysis.motion.moving_triangles},
+            {"moving_area", analysis.motion.moving_area},
+            {"moving_emission", analysis.motion.moving_emission},
+            {"travel", analysis.motion.travel},
+            {"openness", analysis.openness},
+            {"openness_error", analysis.openness_error},
+            {"backs", analysis.backs},
+            {"lit", analysis.lit},
+            {"lit_twice", analysis.lit_twice},
+            {"thin", analysis.thin},
+            {"thinnest", analysis.thinnest},
             {"proven",
              {{"surfaces_open", p.surfaces_open},
               {"surfaces_apart", p.surfaces_apart},
               {"lights_open", p.lights_open},
               {"environment_open", p.environment_open}}},
-            {"ms", facts.milliseconds}};
+            {"ms", analysis.milliseconds}};
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ std::string plan_line(const Plan& plan) {
         name_of(plan.method), settings_text(plan), plan.why, plan.cost.once_ms, plan.cost.frame_ms,
         plan.cost.megabytes);
     if (plan.error)
-        out += fmt::format("; error about {:.2g} % ({})", 100.0 * *plan.error, plan.error_ground);
+        out += fmt::format("; error about {:.2g} % ({})", 100.0 * *plan.error, plan.error_evidence);
     return out;
 }
 
@@ -174,17 +174,17 @@ std::string plan_text(const Plan& plan) {
 }
 
 ordered_json plan_json(const Plan& plan) {
-    ordered_json wish = {{"width", plan.wish.width},
-                         {"height", plan.wish.height},
-                         {"tolerance", plan.wish.tolerance}};
-    if (plan.wish.seconds) wish["seconds"] = *plan.wish.seconds;
-    if (plan.wish.error) wish["error"] = *plan.wish.error;
-    if (plan.wish.method) wish["method"] = name_of(*plan.wish.method);
-    if (plan.wish.animated) wish["animated"] = true;
-    if (!plan.wish.with.empty()) wish["with"] = effect_names(plan.wish.with);
-    if (!plan.wish.without.empty()) wish["without"] = effect_names(plan.wish.without);
-    ordered_json out = {{"wish", wish},
-                        {"facts", facts_json(plan.facts)},
+    ordered_json request = {{"width", plan.request.width},
+                            {"height", plan.request.height},
+                            {"tolerance", plan.request.tolerance}};
+    if (plan.request.seconds) request["seconds"] = *plan.request.seconds;
+    if (plan.request.error) request["error"] = *plan.request.error;
+    if (plan.request.method) request["method"] = name_of(*plan.request.method);
+    if (plan.request.animated) request["animated"] = true;
+    if (!plan.request.with.empty()) request["with"] = effect_names(plan.request.with);
+    if (!plan.request.without.empty()) request["without"] = effect_names(plan.request.without);
+    ordered_json out = {{"wish", request},
+                        {"facts", analysis_json(plan.analysis)},
                         {"effects", effects_json(plan)},
                         {"bound", number(plan.bound)},
                         {"method", name_of(plan.method)},
@@ -198,7 +198,7 @@ ordered_json plan_json(const Plan& plan) {
                         {"meets_error", plan.meets_error}};
     if (plan.error) {
         out["error"] = *plan.error;
-        out["error_ground"] = plan.error_ground;
+        out["error_ground"] = plan.error_evidence;
     }
     if (!plan.unavoidable.empty()) out["unavoidable"] = effect_names(plan.unavoidable);
     if (plan.probe)

@@ -8,15 +8,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "io/atomic_file.hpp"
+#include "lab/reference_atlas.hpp"
+#include "lab/reference_picture.hpp"
 #include "program/animation.hpp"
 #include "program/commands.hpp"
 #include "program/percent.hpp"
 #include "program/picture.hpp"
 #include "program/session.hpp"
 #include "program/version.hpp"
-#include "io/atomic_file.hpp"
-#include "lab/reference_atlas.hpp"
-#include "lab/reference_picture.hpp"
 
 namespace clgi::program {
 namespace {

@@ -8,8 +8,10 @@
 #include <memory>
 #include <optional>
 
+#include "core/opencl/timing.hpp"
+#include "lab/preview.hpp"
 #include "program/ask.hpp"
-#include "program/bake_room.hpp"
+#include "program/bake_common.hpp"
 #include "program/commands.hpp"
 #include "program/effects.hpp"
 #include "program/gl_frames.hpp"
@@ -17,8 +19,6 @@
 #include "program/render_flags.hpp"
 #include "program/stats.hpp"
 #include "program/threshold.hpp"
-#include "core/opencl/timing.hpp"
-#include "lab/preview.hpp"
 
 namespace clgi::program {
 namespace {
@@ -46,8 +46,8 @@ std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderS
 void run_second_order(RenderFlags flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
     parse_low_res(flags.low_res, flags.options);
-    const TuningWish wish = wish_of("render", flags.ask);
-    const bool asked = wish.frame_ms || wish.error;
+    const TuningTarget request = request_of("render", flags.ask);
+    const bool asked = request.frame_ms || request.error;
     if (asked && flags.method == "direct")
         throw Error(
             "render: --method direct has no settings to find; it excludes --target-error and "
@@ -90,9 +90,9 @@ void run_second_order(RenderFlags flags) {
     const auto go_on = [](double) { return !interrupted(); };
     if (asked) {
         const auto found =
-            tune_second_order(session.queue, device_scene, solver, camera, wish, go_on);
+            tune_second_order(session.queue, device_scene, solver, camera, request, go_on);
         if (!found || !solver.run(camera, nullptr)) throw Interrupted();
-        record.ask = AskRecord{wish, *found};
+        record.ask = AskRecord{request, *found};
     }
     for (int frame = 0; frame < flags.frames; ++frame) {
         Camera at = camera;
@@ -118,8 +118,7 @@ void run_second_order(RenderFlags flags) {
     motion.report();
     record.status = solver.status();
     if (flags.replicates > 1) {
-        record.replicates =
-            lab::replicate(session.queue, solver, camera, flags.replicates, go_on);
+        record.replicates = lab::replicate(session.queue, solver, camera, flags.replicates, go_on);
         if (!record.replicates) throw Interrupted();
         save_picture(record.replicates->mean, flags.picture);
     } else if (!flags.fps) {

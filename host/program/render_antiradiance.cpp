@@ -5,15 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "lab/preview.hpp"
+#include "lab/sweep_antiradiance.hpp"
 #include "program/antiradiance_frames.hpp"
-#include "program/bake_room.hpp"
+#include "program/bake_common.hpp"
 #include "program/effects.hpp"
 #include "program/motion.hpp"
 #include "program/picture_record.hpp"
 #include "program/render_flags.hpp"
 #include "program/stats.hpp"
-#include "lab/preview.hpp"
-#include "lab/sweep_antiradiance.hpp"
 
 namespace clgi::program {
 namespace {
@@ -42,7 +42,7 @@ void run_antiradiance(RenderFlags flags) {
     AntiradianceOptions options = flags.antiradiance.solver;
     options.iteration = iterations.at(flags.antiradiance.iteration);
     options.links.spread = spreads.at(flags.antiradiance.spread);
-    options.elements.wished = static_cast<std::size_t>(flags.antiradiance.elements);
+    options.elements.requested = static_cast<std::size_t>(flags.antiradiance.elements);
     options.emitters = flags.options.emitters;
     options.build = build_of(flags.device);
     if (flags.fps)

@@ -6,14 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "program/bake_room.hpp"
+#include "lab/preview.hpp"
+#include "program/bake_common.hpp"
 #include "program/effects.hpp"
 #include "program/motion.hpp"
 #include "program/percent.hpp"
 #include "program/picture_record.hpp"
 #include "program/render_flags.hpp"
 #include "program/stats.hpp"
-#include "lab/preview.hpp"
 
 namespace clgi::program {
 namespace {
@@ -34,8 +34,8 @@ struct Bake {
             layout = lay_out(scene, atlas.vpls, atlas.layout, quiet);
             return;
         }
-        StillBake apart = lay_out_still(scene, atlas.vpls, atlas.layout, quiet);
-        still.emplace(session.context, session.device, apart.still.scene);
+        StaticBake apart = lay_out_static(scene, atlas.vpls, atlas.layout, quiet);
+        static_scene.emplace(session.context, session.device, apart.static_scene.scene);
         static_cast<clgi::BakeLayout&>(layout) = std::move(apart.layout);
         layout.seconds = apart.seconds;
         whole = std::move(apart.whole);
@@ -44,10 +44,11 @@ struct Bake {
     }
 
     const AtlasLayout& shown() const { return whole ? *whole : layout.atlas; }
-    std::size_t bytes() const { return still ? still->bytes() : 0; }
+    std::size_t bytes() const { return static_scene ? static_scene->bytes() : 0; }
 
     BakeLayout layout;
-    std::optional<DeviceScene> still;  // none: the scene itself is baked, and so for the others
+    std::optional<DeviceScene>
+        static_scene;  // none: the scene itself is baked, and so for the others
     std::optional<AtlasLayout> whole;
     std::optional<IrradianceVolume> volume;
     std::vector<BakePoint> points;
@@ -64,7 +65,7 @@ void run_atlas(RenderFlags flags) {
     check(flags, scene);
     prepare_motion(flags, scene);
     const Session session = session_of(flags);
-    need_room("render", session.device, atlas_flags.vpls);
+    check_capacity("render", session.device, atlas_flags.vpls);
 
     Bake baked(flags, scene, session);
     const AtlasLayout& atlas = baked.shown();
@@ -74,7 +75,8 @@ void run_atlas(RenderFlags flags) {
     DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
     atlas_flags.bake.build = build_of(flags.device);
-    LightAtlasSolver solver(programs, session.queue, baked.still ? *baked.still : device_scene,
+    LightAtlasSolver solver(programs, session.queue,
+                            baked.static_scene ? *baked.static_scene : device_scene,
                             baked.layout.vpls, baked.layout.atlas, atlas_flags.bake, baked.points);
     LightAtlasView view(programs, session.queue, device_scene, atlas, picture_options(flags),
                         baked.volume);
@@ -94,7 +96,7 @@ void run_atlas(RenderFlags flags) {
         const Stopwatch frame_watch;
         const Motion::Step step = motion.at(frame);
         if (step.lights) {  // the frame's time has the change of the bake in it
-            if (baked.still) baked.still->set_lights(device_scene.lights());
+            if (baked.static_scene) baked.static_scene->set_lights(device_scene.lights());
             solver.lights_changed();
             view.lights_changed();
             if (!solver.update(least_change, [](double) { return !interrupted(); }))

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "program/bake_room.hpp"
+#include "program/bake_common.hpp"
 #include "program/duration.hpp"
 #include "program/motion.hpp"
 #include "program/percent.hpp"
@@ -12,8 +12,8 @@
 namespace clgi::program {
 namespace {
 
-PlanWish wish_of(const RenderFlags& flags) {
-    PlanWish out = wish_of("render", flags.plan);
+PlanRequest request_of(const RenderFlags& flags) {
+    PlanRequest out = request_of("render", flags.plan);
     out.width = flags.options.width;
     out.height = flags.options.height;
     if (!flags.ask.target_error.empty())
@@ -63,7 +63,7 @@ void take_settings(RenderFlags& flags, const Plan& plan) {
             to.steps = plan.antiradiance.steps;
             to.least_gloss = plan.antiradiance.least_gloss;
             to.occlusion = plan.antiradiance.occlusion;
-            flags.antiradiance.elements = static_cast<int>(plan.antiradiance.elements.wished);
+            flags.antiradiance.elements = static_cast<int>(plan.antiradiance.elements.requested);
             break;
         }
         case Method::dynamic_transfer:
@@ -80,12 +80,12 @@ std::string unmet(const Plan& plan) {
         out = fmt::format(
             "the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of "
             "--time-budget",
-            plan.wish.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
-            1e3 * *plan.wish.seconds);
+            plan.request.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
+            1e3 * *plan.request.seconds);
     const auto add = [&](const std::string& more) { out += (out.empty() ? "" : "; ") + more; };
     if (!plan.meets_error && plan.error)
         add(fmt::format("no method is known to reach the error of {:.3g} % in such scenes",
-                        100.0 * *plan.wish.error));
+                        100.0 * *plan.request.error));
     else if (!plan.meets_error)
         add("the error of the method in such scenes is not known");
     for (const Effect effect : plan.unavoidable)
@@ -107,7 +107,7 @@ Session session_of(const RenderFlags& flags) {
 
 void plan_render(RenderFlags& flags) {
     check_picture("render", flags.picture, flags.options.width, flags.options.height);
-    const PlanWish wish = wish_of(flags);
+    const PlanRequest request = request_of(flags);
     flags.ask = AskFlags();
     const bool quiet = flags.device.quiet;
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet, true);
@@ -120,8 +120,8 @@ void plan_render(RenderFlags& flags) {
     planned.session = open_session(flags.device);
     planned.plan =
         make_plan(planned.session.queue, Programs(planned.session.context, planned.session.device),
-                  scene, scene.cameras[static_cast<std::size_t>(flags.camera)], wish);
-    planned.milliseconds = planned.plan.facts.milliseconds;
+                  scene, scene.cameras[static_cast<std::size_t>(flags.camera)], request);
+    planned.milliseconds = planned.plan.analysis.milliseconds;
     if (planned.plan.probe) planned.milliseconds += planned.plan.probe->milliseconds;
     planned.scene = planned_scene(scene, planned.plan);
     take_settings(flags, planned.plan);

@@ -12,7 +12,7 @@
 #include "program/ask.hpp"
 #include "program/environment.hpp"
 #include "program/picture.hpp"
-#include "program/plan_wish.hpp"
+#include "program/plan_request.hpp"
 #include "program/session.hpp"
 #include "program/vector_flags.hpp"
 
@@ -35,7 +35,7 @@ struct TransferFlags : VectorFlags {
 // How --method antiradiance cuts the scene and exchanges light.
 struct AntiradianceFlags {
     AntiradianceOptions solver;
-    int elements = static_cast<int>(ElementOptions().wished);
+    int elements = static_cast<int>(ElementOptions().requested);
     std::string iteration = "auto";
     std::string spread = "precise";
     int poses = 16;
@@ -46,7 +46,7 @@ struct Planned {
     Plan plan;
     Scene scene;  // planned_scene(), moved out by the method
     Session session;
-    double milliseconds = 0.0;  // that facts and probe took
+    double milliseconds = 0.0;  // that analysis and probe took
 };
 
 struct RenderFlags {

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <limits>
 
-#include "program/bake_room.hpp"
+#include "lab/preview.hpp"
+#include "program/bake_common.hpp"
 #include "program/effects.hpp"
 #include "program/motion.hpp"
 #include "program/picture_record.hpp"
 #include "program/render_flags.hpp"
 #include "program/stats.hpp"
 #include "program/threshold.hpp"
-#include "lab/preview.hpp"
 
 namespace clgi::program {
 namespace {

@@ -4,14 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include "lab/scenes/deforming.hpp"
 #include <clgi/error.hpp>
-#include "lab/scenes/interiors.hpp"
 #include <clgi/io/gltf.hpp>
 #include <clgi/procedural.hpp>
 #include <map>
 #include <memory>
 #include <optional>
+#include "lab/scenes/deforming.hpp"
+#include "lab/scenes/interiors.hpp"
 
 #include "lab/scenes/rooms.hpp"
 #include "program/commands.hpp"
@@ -63,7 +63,8 @@ void take_lamp(Options& options, const SceneFlags& flags) {
         }
         options.light = found->second;
     }
-    if (flags.cone && options.light != LightSource::spot) throw Error("scene: --cone needs --light spot");
+    if (flags.cone && options.light != LightSource::spot)
+        throw Error("scene: --cone needs --light spot");
     take_angle(options.cone_angle, flags.cone);
 }
 
@@ -144,7 +145,7 @@ const SceneKind& find_kind(const std::string& name) {
 // A flag that would be ignored is probably a mistake.
 void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
     static const std::vector<std::string> all = {"--mesh", "--light", "--albedo", "--subdivisions",
-                                                 "--cone", "--rooms", "--door", "--roughness"};
+                                                 "--cone", "--rooms", "--door",   "--roughness"};
     for (const std::string& flag : all) {
         const bool known =
             std::find(kind.flags.begin(), kind.flags.end(), flag) != kind.flags.end();
@@ -207,8 +208,8 @@ void add_scene(CLI::App& app) {
                      "hand-like, glossy-box, glossy-bust-like: of the object, 0.05 to 1; below 1 "
                      "it has gloss")
         ->type_name("X")
-        ->default_str(fmt::format("{}; glossy-...: {}", HandOptions().roughness,
-                                  GlossyOptions().roughness));
+        ->default_str(
+            fmt::format("{}; glossy-...: {}", HandOptions().roughness, GlossyOptions().roughness));
     add_quiet_flag(*command, flags->quiet);
     command->callback([command, flags] { run_scene(*command, *flags); });
 }

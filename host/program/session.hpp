@@ -3,8 +3,8 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <clgi/device.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/device.hpp>
 #include <clgi/scene.hpp>
 #include <functional>
 #include <initializer_list>

@@ -5,10 +5,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "io/atomic_file.hpp"
 #include "program/plan_text.hpp"
 #include "program/render_flags.hpp"
 #include "program/version.hpp"
-#include "io/atomic_file.hpp"
 
 namespace clgi::program {
 namespace {
@@ -31,9 +31,8 @@ ordered_json passes_json(const std::vector<std::vector<lab::PassTime>>& frames) 
         for (const auto& frame : frames)
             for (const lab::PassTime& other : frame)
                 if (other.name == pass.name) times.push_back(other.milliseconds);
-        out.push_back({{"name", pass.name},
-                       {"ms_median", lab::spread(times).median},
-                       {"items", pass.items}});
+        out.push_back(
+            {{"name", pass.name}, {"ms_median", lab::spread(times).median}, {"items", pass.items}});
     }
     return out;
 }
@@ -68,12 +67,10 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                              {"error", record.replicates->error},
                              {"single_error", record.replicates->single_error}};
     if (record.bake)
-        out["bake"] = {{"vpls", record.bake->vpls},
-                       {"texels", record.bake->texels},
-                       {"pages", record.bake->pages},
-                       {"atlas_size", record.bake->atlas_size},
-                       {"layout_ms", record.bake->layout_ms},
-                       {"bake_ms", record.bake->bake_ms}};
+        out["bake"] = {
+            {"vpls", record.bake->vpls},           {"texels", record.bake->texels},
+            {"pages", record.bake->pages},         {"atlas_size", record.bake->atlas_size},
+            {"layout_ms", record.bake->layout_ms}, {"bake_ms", record.bake->bake_ms}};
     if (record.transfer)
         out["transfer"] = {{"receivers", record.transfer->receivers},
                            {"triangles", record.transfer->triangles},

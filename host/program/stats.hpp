@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "program/ask.hpp"
 #include "lab/replicates.hpp"
 #include "lab/timing.hpp"
+#include "program/ask.hpp"
 
 namespace clgi::program {
 
@@ -62,8 +62,8 @@ struct RenderRecord {
     std::vector<std::string> effects;
     std::vector<double> frame_ms;
     std::vector<std::vector<lab::PassTime>> passes;  // of every frame
-    std::size_t bytes = 0;                              // of scene and solver
-    double build_ms = 0.0;                              // kernels and buffers
+    std::size_t bytes = 0;                           // of scene and solver
+    double build_ms = 0.0;                           // kernels and buffers
     RenderStatus status;
     std::string gbuffer = "cl";  // what drew the camera's view: cl or gl
     std::string gl_renderer;     // of gl: "surfaceless: llvmpipe ..."

@@ -11,6 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "lab/contact_sheet.hpp"
+#include "lab/sweep_atlas.hpp"
+#include "lab/sweep_files.hpp"
+#include "lab/sweep_pictures.hpp"
+#include "lab/sweep_summary.hpp"
+#include "lab/sweep_transfer.hpp"
 #include "program/animation.hpp"
 #include "program/commands.hpp"
 #include "program/duration.hpp"
@@ -18,12 +24,6 @@
 #include "program/session.hpp"
 #include "program/sweep_flags.hpp"
 #include "program/version.hpp"
-#include "lab/contact_sheet.hpp"
-#include "lab/sweep_atlas.hpp"
-#include "lab/sweep_files.hpp"
-#include "lab/sweep_pictures.hpp"
-#include "lab/sweep_summary.hpp"
-#include "lab/sweep_transfer.hpp"
 
 namespace clgi::program {
 namespace {
@@ -40,8 +40,8 @@ lab::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
     out.height = flags.quick ? 120 : 240;
     if (flags.method == "antiradiance") out.methods = {lab::antiradiance_method};
     if (of_all(flags))
-        out.methods = {lab::second_order_method, lab::antiradiance_method,
-                       lab::light_atlas_method, lab::dynamic_transfer_method};
+        out.methods = {lab::second_order_method, lab::antiradiance_method, lab::light_atlas_method,
+                       lab::dynamic_transfer_method};
     parse_size("sweep", flags.size, 4096, out.width, out.height);
     return out;
 }

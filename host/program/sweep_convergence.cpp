@@ -4,9 +4,9 @@
 
 #include <clgi/error.hpp>
 
+#include "lab/convergence.hpp"
 #include "program/sweep_flags.hpp"
 #include "program/version.hpp"
-#include "lab/convergence.hpp"
 
 namespace clgi::program {
 
@@ -16,9 +16,9 @@ void run_convergence(const SweepFlags& flags) {
     make_folder(flags.output);
     lab::ConvergenceSetup setup{session.queue, scene};
     setup.options.bins = flags.bins > 0 ? flags.bins : flags.quick ? 64 : 128;
-    setup.options.elements.wished = static_cast<std::size_t>(flags.elements > 0 ? flags.elements
-                                                             : flags.quick      ? 2000
-                                                                                : 8192);
+    setup.options.elements.requested = static_cast<std::size_t>(flags.elements > 0 ? flags.elements
+                                                                : flags.quick      ? 2000
+                                                                                   : 8192);
     setup.options.build = build_of(flags.device);
     setup.steps = flags.steps > 0 ? flags.steps : flags.quick ? 40 : 100;
     catch_interrupts();

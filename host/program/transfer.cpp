@@ -11,15 +11,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "io/atomic_file.hpp"
+#include "lab/timing.hpp"
+#include "lab/transfer_vectors.hpp"
 #include "program/animation.hpp"
-#include "program/bake_room.hpp"
+#include "program/bake_common.hpp"
 #include "program/commands.hpp"
 #include "program/session.hpp"
 #include "program/vector_flags.hpp"
 #include "program/version.hpp"
-#include "io/atomic_file.hpp"
-#include "lab/timing.hpp"
-#include "lab/transfer_vectors.hpp"
 
 namespace clgi::program {
 namespace {
@@ -111,8 +111,8 @@ Scene open_geometry(const ExportFlags& flags) {
     return scene;
 }
 
-void save_vectors(const ExportFlags& flags, const Scene& scene,
-                  const lab::TransferVectors& vectors, const DynamicTransferOptions& options) {
+void save_vectors(const ExportFlags& flags, const Scene& scene, const lab::TransferVectors& vectors,
+                  const DynamicTransferOptions& options) {
     const auto convention = lab::transfer_convention(vectors, options);
     if (!flags.exr.empty()) {
         io::Image image = lab::transfer_image(vectors);
@@ -153,8 +153,7 @@ void run_export(const ExportFlags& flags) {
     const Stopwatch watch;
     if (!solver.run(progress_bar("transfer", flags.device.quiet))) throw Interrupted();
     const double transfer_seconds = watch.seconds();
-    const lab::TransferVectors vectors =
-        lab::transfer_vectors(session.queue, solver, device_scene);
+    const lab::TransferVectors vectors = lab::transfer_vectors(session.queue, solver, device_scene);
     if (interrupted()) throw Interrupted();
 
     save_vectors(flags, scene, vectors, options);

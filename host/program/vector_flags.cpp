@@ -5,9 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "program/bake_room.hpp"
-#include "program/session.hpp"
 #include "lab/coarse_mesh.hpp"
+#include "program/bake_common.hpp"
+#include "program/session.hpp"
 
 namespace clgi::program {
 

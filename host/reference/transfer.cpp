@@ -6,8 +6,8 @@
 // SPDX-License-Identifier: MIT
 #include <tbb/parallel_for.h>
 
-#include <clgi/error.hpp>
 #include <clgi/advanced/sh.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 
 #include "reference/world.hpp"

@@ -9,8 +9,8 @@ namespace {
 
 constexpr float least_cosine = 0.1f;  // a wider cone is hardly ever seen from behind as a whole
 
-glm::vec4 cone_of(const std::vector<glm::uvec4>& triangles,
-                  const std::vector<glm::vec4>& positions, std::size_t first, std::size_t last) {
+glm::vec4 cone_of(const std::vector<glm::uvec4>& triangles, const std::vector<glm::vec4>& positions,
+                  std::size_t first, std::size_t last) {
     const auto normal = [&](std::size_t t) {
         const glm::vec3 a(positions[triangles[t].x]);
         return glm::cross(glm::vec3(positions[triangles[t].y]) - a,

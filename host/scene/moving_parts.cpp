@@ -89,9 +89,8 @@ std::vector<std::uint8_t> moving_vertices(const Scene& scene) {
 }
 
 bool follows(const SceneTriangle& triangle, const std::vector<std::uint8_t>& moving) {
-    return !moving.empty() &&
-           std::any_of(std::begin(triangle.vertex), std::end(triangle.vertex),
-                       [&](std::uint32_t v) { return moving[v] != 0; });
+    return !moving.empty() && std::any_of(std::begin(triangle.vertex), std::end(triangle.vertex),
+                                          [&](std::uint32_t v) { return moving[v] != 0; });
 }
 
 }  // namespace clgi

@@ -8,7 +8,8 @@
 
 namespace clgi {
 
-// [positions] the welded vertex of each, numbered as they first appear; rule in clgi/advanced/adjacency.hpp.
+// [positions] the welded vertex of each, numbered as they first appear; rule in
+// clgi/advanced/adjacency.hpp.
 std::vector<std::uint32_t> weld(const std::vector<glm::dvec3>& positions,
                                 const std::vector<SceneTriangle>& triangles);
 

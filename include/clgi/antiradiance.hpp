@@ -3,7 +3,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/elements.hpp>
 #include <clgi/advanced/emitters.hpp>
 #include <clgi/advanced/interval.hpp>
@@ -11,6 +10,7 @@
 #include <clgi/advanced/kit/recorder.hpp>
 #include <clgi/advanced/links.hpp>
 #include <clgi/advanced/moving_elements.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/antiradiance_gloss.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
@@ -39,8 +39,8 @@ struct AntiradianceOptions {
     ElementOptions elements;
     LinkOptions links;
     // What the scene's vertices do, if they move: links are made for all of these poses, and
-    // geometry_changed() brings them to where the vertices are. See clgi/advanced/moving_elements.hpp. The
-    // solver keeps no copy: options() has none.
+    // geometry_changed() brings them to where the vertices are. See
+    // clgi/advanced/moving_elements.hpp. The solver keeps no copy: options() has none.
     VertexPoses poses;
     // Shadow maps and samples of the lights; vpls and environment_lights are not used: the
     // environment arrives in bins.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <clgi/advanced/adjacency.hpp>
+#include <clgi/advanced/analysis.hpp>
 #include <clgi/advanced/antiradiance_view.hpp>
 #include <clgi/advanced/atlas_blocks.hpp>
 #include <clgi/advanced/atlas_layout.hpp>
@@ -15,14 +16,13 @@
 #include <clgi/advanced/effects.hpp>
 #include <clgi/advanced/elements.hpp>
 #include <clgi/advanced/emitters.hpp>
-#include <clgi/advanced/facts.hpp>
+#include <clgi/advanced/environment_light.hpp>
 #include <clgi/advanced/interval.hpp>
 #include <clgi/advanced/irradiance_volume.hpp>
 #include <clgi/advanced/kernel_source.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/emitters.hpp>
-#include <clgi/advanced/environment_light.hpp>
 #include <clgi/advanced/kit/picture.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
 #include <clgi/advanced/light_atlas_view.hpp>
@@ -32,8 +32,8 @@
 #include <clgi/advanced/patches.hpp>
 #include <clgi/advanced/sh.hpp>
 #include <clgi/advanced/slice.hpp>
-#include <clgi/advanced/still_bake.hpp>
-#include <clgi/advanced/still_scene.hpp>
+#include <clgi/advanced/static_bake.hpp>
+#include <clgi/advanced/static_scene.hpp>
 #include <clgi/advanced/tuning.hpp>
 #include <clgi/advanced/visible_sets.hpp>
 #include <clgi/advanced/vpl_layout.hpp>

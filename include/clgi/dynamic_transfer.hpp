@@ -5,16 +5,16 @@
 #pragma once
 
 #include <clgi/advanced/blocker_levels.hpp>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/interval.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
 #include <clgi/advanced/mask_weights.hpp>
+#include <clgi/advanced/visible_sets.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/masks.hpp>
 #include <clgi/passes/transfer.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/scene.hpp>
-#include <clgi/advanced/visible_sets.hpp>
 #include <memory>
 #include <vector>
 
@@ -34,8 +34,8 @@ struct DynamicTransferOptions {
     // 1: diffuse light that the scene reflects to itself once is part of the irradiance.
     int bounces = 0;
     // Far from a vertex these triangles block, near it those of the scene
-    // (clgi/advanced/blocker_levels.hpp): vertices of the scene, such as mesh::simplify makes. None: all of
-    // the scene block everywhere.
+    // (clgi/advanced/blocker_levels.hpp): vertices of the scene, such as mesh::simplify makes.
+    // None: all of the scene block everywhere.
     std::vector<glm::uvec3> coarse;
     int rings = 1;  // near a vertex: triangles with a corner at most so many edges away, 0 to 2
     // Bytes that the buffers may take together; 0: what the device has beside the scene.

@@ -4,16 +4,16 @@
 #pragma once
 
 #include <clgi/advanced/atlas_layout.hpp>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/emitters.hpp>
 #include <clgi/advanced/interval.hpp>
 #include <clgi/advanced/irradiance_volume.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
+#include <clgi/advanced/vpl_layout.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/atlas.hpp>
 #include <clgi/passes/vpl.hpp>
 #include <clgi/programs.hpp>
-#include <clgi/advanced/vpl_layout.hpp>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,8 +35,8 @@ inline EmitterOptions bake_emitters() {
 
 struct LightAtlasOptions {
     // Shadow maps and samples of the lights; emitters.vpls is not used. shadow_size 0: 2048 pixels,
-    // 1024 or 512 where more than 4 or 16 lights have such a map: directions, and spots of at most 60
-    // degrees from the axis.
+    // 1024 or 512 where more than 4 or 16 lights have such a map: directions, and spots of at most
+    // 60 degrees from the axis.
     EmitterOptions emitters = bake_emitters();
     // How often light is reflected at most before it reaches a texel, at least 1; 0: until the
     // largest unshot power is below the threshold.
@@ -45,10 +45,10 @@ struct LightAtlasOptions {
     // With bounces = 0: the strongest VPL shoots alone, then the next, as in the paper. Otherwise
     // all shoot at once, which converges to the same light in far less time.
     bool one_at_a_time = false;
-    // Sample points of a receiving VPL that are looked at when VPLs exchange light; 0: 25,600 divided
-    // by the number of VPLs, but 4 to 16, if the VPL has as many. So a shooter looks at 25,600 in all
-    // between 1,600 and 6,400 VPLs, at fewer below and at more above. All of them send light to the
-    // texels near by.
+    // Sample points of a receiving VPL that are looked at when VPLs exchange light; 0: 25,600
+    // divided by the number of VPLs, but 4 to 16, if the VPL has as many. So a shooter looks at
+    // 25,600 in all between 1,600 and 6,400 VPLs, at fewer below and at more above. All of them
+    // send light to the texels near by.
     std::uint32_t exchange_samples = 0;
     // false: nothing lies between two surfaces. VPLs and texels that face each other then see each
     // other, and no hemicube is drawn; hemicube_size and refine are not used, and Filling::project,
@@ -56,14 +56,14 @@ struct LightAtlasOptions {
     bool occlusion = true;
     int hemicube_size = 256;  // pixels of the face of a VPL's hemicube, even
     Filling filling = Filling::gather;
-    // For Filling::gather: texels between those that are looked up first, 1, 2 or 4. Blocks of 4 x 4
-    // texels take over whom their corners see where these agree [section 6.2]; 1: every texel looks
-    // up every VPL.
+    // For Filling::gather: texels between those that are looked up first, 1, 2 or 4. Blocks of 4 x
+    // 4 texels take over whom their corners see where these agree [section 6.2]; 1: every texel
+    // looks up every VPL.
     int refine = 2;
     int mesh = 512;  // triangles of M over a hemicube's face, for Filling::project: 2 n^2 with an
                      // even n of at most hemicube_size, 8 to 131072
     int kernel = 5;  // K, its soft shadows: pixels to each side, 0 (hard) to 64
-    bool direct = false;      // direct light in the texels too; points never have it
+    bool direct = false;  // direct light in the texels too; points never have it
     // Bytes that the solver's buffers may take together; 0: what the device has beside the scene.
     // The transport between all pairs of VPLs is kept if it fits, else computed anew each bounce;
     // then which texels each VPL sees, else the scene is drawn again to fill the atlas.
@@ -79,32 +79,32 @@ struct LightAtlasStatus {
     bool transport_kept = false;
     bool visibility_kept = false;  // which texels each VPL sees; without occlusion there is nothing
                                    // to keep
-    double power_direct = 0.0;    // that all VPLs reflect of direct light
-    double power_shot = 0.0;      // by all VPLs together
-    double power_received = 0.0;  // by all VPLs, of what was shot
-    double power_lost = 0.0;      // that left the scene or ended on backs of surfaces
-    double power_left = 0.0;      // not shot
+    double power_direct = 0.0;     // that all VPLs reflect of direct light
+    double power_shot = 0.0;       // by all VPLs together
+    double power_received = 0.0;   // by all VPLs, of what was shot
+    double power_lost = 0.0;       // that left the scene or ended on backs of surfaces
+    double power_left = 0.0;       // not shot
 };
 
-// A bake that was cancelled, as plain data: what was measured, or, where that is not kept, the light.
-// Light is exposed. It belongs to one scene, its layouts, its points and its options; the same
-// device carries it on to the same bits.
+// A bake that was cancelled, as plain data: what was measured, or, where that is not kept, the
+// light. Light is exposed. It belongs to one scene, its layouts, its points and its options; the
+// same device carries it on to the same bits.
 struct LightAtlasState {
     std::uint32_t vpls = 0;
-    std::uint32_t texels = 0;           // and points
-    std::uint32_t measured_vpls = 0;    // the first so many have their rows, seen and balance
-    std::uint32_t filled_vpls = 0;      // or: the first so many have lit the texels
-    std::uint32_t shots = 0;            // as in LightAtlasStatus
-    std::vector<std::uint16_t> rows;    // [measured_vpls][stride of VPLs] half
-    std::vector<std::uint8_t> seen;     // [seen_rows(measured_vpls)][stride of texels]
-    std::vector<float> balance;         // [BALANCE_PLANES][stride of VPLs]
-    std::vector<float> light;           // [SITE_LIGHT_PLANES][stride of VPLs]
-    std::vector<float> irradiance;      // [3][stride of texels]
-    std::vector<float> filled;          // [stride of texels] sums of form factors
+    std::uint32_t texels = 0;         // and points
+    std::uint32_t measured_vpls = 0;  // the first so many have their rows, seen and balance
+    std::uint32_t filled_vpls = 0;    // or: the first so many have lit the texels
+    std::uint32_t shots = 0;          // as in LightAtlasStatus
+    std::vector<std::uint16_t> rows;  // [measured_vpls][stride of VPLs] half
+    std::vector<std::uint8_t> seen;   // [seen_rows(measured_vpls)][stride of texels]
+    std::vector<float> balance;       // [BALANCE_PLANES][stride of VPLs]
+    std::vector<float> light;         // [SITE_LIGHT_PLANES][stride of VPLs]
+    std::vector<float> irradiance;    // [3][stride of texels]
+    std::vector<float> filled;        // [stride of texels] sums of form factors
 };
 
-// Bytes that a solver's buffers take at the least, beside those for the texels: what to check before
-// so many VPLs and sample points are placed.
+// Bytes that a solver's buffers take at the least, beside those for the texels: what to check
+// before so many VPLs and sample points are placed.
 CLGI_API std::size_t light_atlas_least_bytes(std::size_t vpls, std::size_t samples);
 
 // Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
@@ -132,11 +132,12 @@ public:
     // run again.
     bool run(const Progress& progress = nullptr);
 
-    // Bakes for lights that changed since the last run. Light is exchanged anew; then only VPLs whose
-    // sample points' powers changed by more than `least` together, in mean powers of direct light
-    // that VPLs reflect, send the difference to the texels [section 6.2]. What is not sent is not lost: it counts in
-    // the next update. Bakes as run() does where no run has ended before, or where what texels see
-    // would have to be drawn again. Throws Error for a `least` that is negative or no number.
+    // Bakes for lights that changed since the last run. Light is exchanged anew; then only VPLs
+    // whose sample points' powers changed by more than `least` together, in mean powers of direct
+    // light that VPLs reflect, send the difference to the texels [section 6.2]. What is not sent is
+    // not lost: it counts in the next update. Bakes as run() does where no run has ended before, or
+    // where what texels see would have to be drawn again. Throws Error for a `least` that is
+    // negative or no number.
     bool update(double least = 1e-3, const Progress& progress = nullptr);
 
     // What the last run left behind when it was cancelled; empty if it ended, or was cancelled

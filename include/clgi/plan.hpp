@@ -3,17 +3,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/advanced/analysis.hpp>
 #include <clgi/advanced/atlas_layout.hpp>
-#include <clgi/device_scene.hpp>
-#include <clgi/advanced/export.hpp>
-#include <clgi/advanced/effects.hpp>
-#include <clgi/advanced/facts.hpp>
-#include <clgi/antiradiance.hpp>
-#include <clgi/dynamic_transfer.hpp>
 #include <clgi/advanced/dynamic_transfer_view.hpp>
+#include <clgi/advanced/effects.hpp>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/vpl_layout.hpp>
+#include <clgi/antiradiance.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/dynamic_transfer.hpp>
 #include <clgi/light_atlas.hpp>
 #include <clgi/second_order.hpp>
-#include <clgi/advanced/vpl_layout.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +26,7 @@ CLGI_API const char* name_of(Method method);
 CLGI_API std::optional<Method> method_of(const std::string& name);
 
 // What is asked for.
-struct PlanWish {
+struct PlanRequest {
     int width = 640;  // pixels
     int height = 480;
     // Effects may be left out that change a picture by at most this together: root of the mean
@@ -59,22 +59,23 @@ struct PlanCost {
 };
 
 struct Plan {
-    PlanWish wish;
-    SceneFacts facts;  // of the scene without the lights and the gloss that the wish leaves out
-    std::optional<ProbeFacts> probe;
+    PlanRequest request;
+    SceneAnalysis
+        analysis;  // of the scene without the lights and the gloss that the request leaves out
+    std::optional<ProbeResult> probe;
     EffectChoices effects;
     double bound = 0.0;  // what all effects that are left out for the tolerance change at most
 
     Method method = Method::direct;
     std::string why;  // a sentence: the method
-    // Off by wish, but the method cannot do without: they are rendered all the same.
+    // Off by request, but the method cannot do without: they are rendered all the same.
     std::vector<Effect> unavoidable;
     PlanCost cost;
     // Error against all light that the method reaches with such settings on scenes of this kind, as
-    // measured, and where; none where nothing was measured, the probe saw no light, or the wish
+    // measured, and where; none where nothing was measured, the probe saw no light, or the request
     // leaves out what the scene calls for.
     std::optional<double> error;
-    std::string error_ground;
+    std::string error_evidence;
     // As predicted; true where nothing was asked for, meets_error false where the error is unknown.
     bool meets_time = true, meets_error = true;
 
@@ -91,13 +92,14 @@ struct Plan {
     bool on(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
 };
 
-// From facts alone. Throws Error for a wish out of range or one that excludes itself.
-CLGI_API Plan make_plan(const cl::Device& device, const SceneFacts& facts, const PlanWish& wish);
+// From analysis alone. Throws Error for a request out of range or one that excludes itself.
+CLGI_API Plan make_plan(const cl::Device& device, const SceneAnalysis& analysis,
+                        const PlanRequest& request);
 
-// Reads the facts and, where they leave open whether indirect light matters, uploads the scene and
-// draws two small pictures of it.
+// Reads the analysis and, where they leave open whether indirect light matters, uploads the scene
+// and draws two small pictures of it.
 CLGI_API Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
-                        const Camera& camera, const PlanWish& wish);
+                        const Camera& camera, const PlanRequest& request);
 
 // The scene with what the plan renders alone: without lights, emission, environment, gloss,
 // textures, alpha masks and animation whose effects are off. What is off because it changes nothing

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <clgi/advanced/export.hpp>
-#include <clgi/opencl.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/opencl.hpp>
 #include <memory>
 #include <string>
 #include <vector>

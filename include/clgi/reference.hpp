@@ -1,4 +1,4 @@
-// Ground truth: an independent path tracer on the host, through Embree. It shares no transport
+// Evidence truth: an independent path tracer on the host, through Embree. It shares no transport
 // code with the library; materials follow docs/materials.md, lights KHR_lights_punctual.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -101,10 +101,10 @@ public:
                           const Progress& progress = nullptr) const;
 
     // Transfer vectors of diffuse places [places][bands^2], sr: what of the light from everywhere
-    // arrives, cosine included, in spherical harmonics of the world's frame (clgi/advanced/sh.hpp). Rays in
-    // strata x strata directions, jittered in strata of equal cosine. Triangles that touch a place
-    // do not block: it sees them edge-on. Place::geometric is not read. Throws Error for bands and
-    // strata out of range.
+    // arrives, cosine included, in spherical harmonics of the world's frame (clgi/advanced/sh.hpp).
+    // Rays in strata x strata directions, jittered in strata of equal cosine. Triangles that touch
+    // a place do not block: it sees them edge-on. Place::geometric is not read. Throws Error for
+    // bands and strata out of range.
     std::vector<double> transfer(const std::vector<Place>& places, int bands, int strata = 64,
                                  std::uint64_t seed = 1) const;
 

@@ -9,11 +9,11 @@
 
 namespace clgi {
 
-// Pictures of geometry that stands still, and with PlanWish::animated of what moves on the device
-// (SceneAnimator), where the method needs nothing for it: direct, second order and the atlas, whose
-// bake is then of what stands still. For other methods what moves is for their own solvers, with
-// the settings of the plan. Owns its buffers, works on the given queue, never finishes it. The
-// device scene must outlive this object. One thread at a time.
+// Pictures of geometry that stands still, and with PlanRequest::animated of what moves on the
+// device (SceneAnimator), where the method needs nothing for it: direct, second order and the
+// atlas, whose bake is then of what stands still. For other methods what moves is for their own
+// solvers, with the settings of the plan. Owns its buffers, works on the given queue, never
+// finishes it. The device scene must outlive this object. One thread at a time.
 class CLGI_API PlannedRenderer {
 public:
     // Builds kernels and allocates, for what the plan has and nothing else. scene: planned_scene(),

@@ -5,8 +5,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/scene.hpp>
 #include <cstdint>
 #include <optional>

@@ -3,11 +3,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/emitters.hpp>
 #include <clgi/advanced/interval.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
 #include <clgi/passes/lights.hpp>
@@ -23,7 +23,7 @@ struct SecondOrderOptions {
     // emitters.vpls is N, the number of VPLs. They are placed through the views of emitters, so
     // indirect light needs emitters.shadows, unless there are no VPLs.
     EmitterOptions emitters;
-    int negative_vpls = 100;   // samples of the image that take light away; 0: none
+    int negative_vpls = 100;  // samples of the image that take light away; 0: none
     // The first of every n-th pixel of every n-th row is lit first, n = 2 or 4; the others are
     // interpolated where the surface is smooth. 1: every pixel is lit in full.
     int low_resolution_step = 4;
@@ -40,7 +40,7 @@ struct SecondOrderOptions {
 
 // What a render found out.
 struct RenderStatus {
-    std::uint32_t non_finite = 0;       // packets mended since the buffers were allocated
+    std::uint32_t non_finite = 0;       // packets sanitised since the buffers were allocated
     std::uint32_t refined_pixels = 0;   // lit in full by the discontinuity test
     double low_resolution_share = 0.0;  // of all pixels, [0,1]
 };
@@ -113,17 +113,17 @@ public:
 
     const SecondOrderOptions& options() const;
     const EmitterSet& emitters() const;
-    std::size_t bytes() const;      // allocated
-    std::uint32_t stride() const;   // floats between planes
+    std::size_t bytes() const;     // allocated
+    std::uint32_t stride() const;  // floats between planes
 
     // Results, valid when the render's event is complete. Planes are `stride` floats apart.
-    const cl::Buffer& radiance() const;         // [RADIANCE_PLANES][stride] cd/m^2
-    const cl::Buffer& irradiance() const;       // [IRRADIANCE_PLANES][stride], exposed
-    const cl::Buffer& planes() const;           // [GBUFFER_PLANES][stride]
-    const cl::Buffer& ids() const;              // [GBUFFER_ID_PLANES][stride]
-    const GBuffer& gbuffer() const;             // the solver's own, written by render(camera)
-    const cl::Buffer& vpls() const;             // [N] Vpl
-    const cl::Buffer& negative_vpls() const;    // [negative_vpls] Vpl
+    const cl::Buffer& radiance() const;       // [RADIANCE_PLANES][stride] cd/m^2
+    const cl::Buffer& irradiance() const;     // [IRRADIANCE_PLANES][stride], exposed
+    const cl::Buffer& planes() const;         // [GBUFFER_PLANES][stride]
+    const cl::Buffer& ids() const;            // [GBUFFER_ID_PLANES][stride]
+    const GBuffer& gbuffer() const;           // the solver's own, written by render(camera)
+    const cl::Buffer& vpls() const;           // [N] Vpl
+    const cl::Buffer& negative_vpls() const;  // [negative_vpls] Vpl
     const ImagePasses& image_passes() const;
 
 private:

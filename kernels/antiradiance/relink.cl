@@ -81,7 +81,7 @@ CLGI_INLINE uint choose_bin(Aim aim, uint nearest, float least_cosine,
     return best;
 }
 
-// Corners of a part as weights of the triangle's second and third corner.
+// Corners of a part as weights of the triangle's second and vertex patch corner.
 CLGI_INLINE void cut(float2* corners, uint quarter) {
     float2 m0 = 0.5f * (corners[0] + corners[1]), m1 = 0.5f * (corners[1] + corners[2]),
            m2 = 0.5f * (corners[2] + corners[0]);

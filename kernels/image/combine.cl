@@ -18,7 +18,7 @@
 #define LARGEST_FLOAT 3.40282347e38f
 
 // Not a number and not finite become 0 and the largest float; counted, so never in silence.
-static floatp mended(floatp value) {
+static floatp sanitised(floatp value) {
     uintp magnitude = packet_bits(value) & 0x7fffffffu;
     value = packet_select(value, packet_zero, magnitude > 0x7f800000u);
     return packet_min(value, packet_splat(LARGEST_FLOAT));
@@ -137,7 +137,7 @@ kernel void image_combine(
     intp bad = lanes & (as_intp(worst) >= NOT_FINITE);
     if (packet_any(bad)) {
         atomic_inc(non_finite);
-        for (int c = 0; c < 3; ++c) out[c] = mended(out[c]);
+        for (int c = 0; c < 3; ++c) out[c] = sanitised(out[c]);
     }
     #pragma unroll
     for (int c = 0; c < 3; ++c)

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <clgi/error.hpp>
-#include "lab/scenes/interiors.hpp"
 #include <clgi/procedural.hpp>
+#include "lab/scenes/interiors.hpp"
 
 #include "lab/scenes/rooms.hpp"
 #include "rooms.hpp"
@@ -103,7 +103,7 @@ TEST(AntiradianceEstimate, GrowsWithBinsStepsAndElements) {
     const Estimate finer = estimated(scene, options);
     EXPECT_GT(finer.milliseconds, 1.2 * twice.milliseconds);
     EXPECT_GT(finer.bytes, few.bytes);
-    options.elements.wished = 4000;
+    options.elements.requested = 4000;
     EXPECT_GT(estimated(scene, options).milliseconds, 2.0 * finer.milliseconds);
 }
 

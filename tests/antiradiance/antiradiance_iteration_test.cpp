@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include "lab/scenes/interiors.hpp"
 #include <cmath>
+#include "lab/scenes/interiors.hpp"
 
 #include "device.hpp"
 #include "math_modes.hpp"

@@ -23,7 +23,7 @@ CLGI_IN_BOTH_MATHS(MovingAntiradiance);
 AntiradianceOptions options_of(const test::Build& build, std::size_t leaves, int bins = 128) {
     AntiradianceOptions out;
     out.bins = bins;
-    out.elements.wished = leaves;
+    out.elements.requested = leaves;
     out.build = build;
     return out;
 }

@@ -226,7 +226,7 @@ TEST(AntiradianceSolver, RefusesWhatItCannotDo) {
     for (const double least : {-0.1, 1.1, std::nan("")})
         refused([&](AntiradianceOptions& o) { o.least_gloss = least; });
     refused([](AntiradianceOptions& o) { o.links.bin_share = 0.0; });
-    refused([](AntiradianceOptions& o) { o.elements.wished = 0; });
+    refused([](AntiradianceOptions& o) { o.elements.requested = 0; });
     AntiradianceOptions small = options_of(Math::strict, 32, 300);
     small.memory_budget = 1000;
     EXPECT_THROW(Solved(scene, small, false), DeviceError);

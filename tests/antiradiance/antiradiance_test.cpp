@@ -153,8 +153,8 @@ HandElements plates_of_two_sides(std::uint32_t plates, float reflectance) {
 
 // Three plates of albedo 0.66: reflecting and letting through at once diverges, with the eigenvalue
 // (rho + sqrt(5 rho^2 + 4 rho)) / 2 of (rho R - J) U [derived]. Three steps that let through for
-// every one that reflects converge to what lies between two plates, 1 / (1 - rho^2); the third sees
-// nothing.
+// every one that reflects converge to what lies between two plates, 1 / (1 - rho^2); the vertex
+// patch sees nothing.
 TEST_P(Antiradiance, BetweenThreePlatesNeedsTheAsymmetricIteration) {
     const float rho = 0.66f;
     const HandElements scene = plates_of_two_sides(3, rho);

@@ -66,7 +66,7 @@ struct Shown {
 AntiradianceOptions options_of(Math math, std::size_t leaves) {
     AntiradianceOptions out;
     out.bins = 128;
-    out.elements.wished = leaves;
+    out.elements.requested = leaves;
     out.build.math = math;
     return out;
 }

@@ -162,20 +162,20 @@ TEST(Elements, KeepAreaAndOrderWhateverTheTriangles) {
 
 TEST(Elements, AreAboutAsManyAsWished) {
     const Scene scene = random_triangles(500);
-    for (const std::size_t wished : {2000u, 8192u, 20000u}) {
-        const ElementTree tree = make_elements(scene, {.wished = wished, .backs = false});
+    for (const std::size_t requested : {2000u, 8192u, 20000u}) {
+        const ElementTree tree = make_elements(scene, {.requested = requested, .backs = false});
         const auto leaves = static_cast<double>(tree.leaves);
-        EXPECT_NEAR(leaves, static_cast<double>(wished), 0.1 * static_cast<double>(wished));
+        EXPECT_NEAR(leaves, static_cast<double>(requested), 0.1 * static_cast<double>(requested));
     }
     // Equal triangles are cut alike: 12 * 2^9 or 12 * 2^10, and the nearer one is taken.
-    EXPECT_EQ(make_elements(cube(), {.wished = 8192}).leaves, 6144u);
-    EXPECT_EQ(make_elements(cube(), {.wished = 9300}).leaves, 12288u);
+    EXPECT_EQ(make_elements(cube(), {.requested = 8192}).leaves, 6144u);
+    EXPECT_EQ(make_elements(cube(), {.requested = 9300}).leaves, 12288u);
 }
 
 TEST(Elements, CutLargeTrianglesHoweverManySmallOnesThereAre) {
     Scene scene = furnace({.subdivisions = 5, .radius = 0.1});  // 20,480 triangles
     test::add_box(scene, glm::dvec3(-1.0), glm::dvec3(1.0), -1);
-    const ElementTree tree = make_elements(scene, {.wished = 1000, .vertices = false});
+    const ElementTree tree = make_elements(scene, {.requested = 1000, .vertices = false});
     const double most = 4.0 * tree.areas[0] / 1000;
     EXPECT_GT(tree.leaves, 20480u + 250u);
     for (std::size_t i = 0; i < tree.count(); ++i)
@@ -185,7 +185,7 @@ TEST(Elements, CutLargeTrianglesHoweverManySmallOnesThereAre) {
 }
 
 TEST(Elements, AreNoSmallerThanTheLeastArea) {
-    const ElementTree tree = make_elements(cube(), {.min_area = 0.1, .wished = 100000});
+    const ElementTree tree = make_elements(cube(), {.min_area = 0.1, .requested = 100000});
     EXPECT_EQ(tree.leaves, 96u);
     EXPECT_EQ(tree.max_area, 0.1);
 }
@@ -333,7 +333,7 @@ TEST(Elements, RefuseWhatTheyCannotMake) {
     EXPECT_THROW(make_elements(scene, {.max_area = -1.0}), Error);
     EXPECT_THROW(make_elements(scene, {.max_area = nan}), Error);
     EXPECT_THROW(make_elements(scene, {.min_area = nan}), Error);
-    EXPECT_THROW(make_elements(scene, {.wished = 0}), Error);
+    EXPECT_THROW(make_elements(scene, {.requested = 0}), Error);
     EXPECT_THROW(make_elements(scene, {.max_area = 1e-9}), Error);    // too many
     EXPECT_THROW(make_elements(scene, {.max_area = 5e-324}), Error);  // infinitely many
     Scene wrong = scene;

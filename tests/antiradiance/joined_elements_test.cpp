@@ -7,25 +7,25 @@
 #include <limits>
 #include <vector>
 
+#include "links_checks.hpp"
 #include "methods/antiradiance/leaf_vertices.hpp"
 #include "methods/antiradiance/refine.hpp"
-#include "links_checks.hpp"
 #include "spheres.hpp"
 #include "vertex_leaves.hpp"
 
 namespace clgi {
 namespace {
 
-// Where vertices are more than leaves are wished: whole, small, round and facing one way.
+// Where vertices are more than leaves are requested: whole, small, round and facing one way.
 TEST(JoinedElements, AreAsManyAsWished) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {1, 2, 3}, 0.5, 5, 1);
-    for (const std::size_t wished : {100u, 700u, 5000u}) {
-        const ElementTree tree = make_elements(scene, {.wished = wished});
+    for (const std::size_t requested : {100u, 700u, 5000u}) {
+        const ElementTree tree = make_elements(scene, {.requested = requested});
         EXPECT_EQ(test::expect_consistent(tree, true), tree.leaves);
-        EXPECT_GT(tree.leaves, wished * 2 / 3);
-        EXPECT_LT(tree.leaves, wished * 3 / 2);
-        EXPECT_EQ(tree.thirds.size(), 3u * 20480u);
+        EXPECT_GT(tree.leaves, requested * 2 / 3);
+        EXPECT_LT(tree.leaves, requested * 3 / 2);
+        EXPECT_EQ(tree.vertex_patches.size(), 3u * 20480u);
         EXPECT_NEAR(tree.areas[0], test::area_of(scene), 1e-12 * tree.areas[0]);
         const double mean = tree.areas[0] / static_cast<double>(tree.leaves);
         for (std::size_t i = 0; i < tree.count(); ++i) {
@@ -43,18 +43,18 @@ TEST(JoinedElements, AreAsManyAsWished) {
 TEST(JoinedElements, ShareTheirLightWithThoseBeside) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {0, 0, 0}, 1.0, 5, 1);
-    const ElementTree tree = make_elements(scene, {.wished = 300});
+    const ElementTree tree = make_elements(scene, {.requested = 300});
     std::vector<std::uint32_t> rows;
     for (std::uint32_t i = 0; i < tree.count(); ++i)
         if (tree.is_leaf(i)) rows.push_back(i);
     const LeafVertices shared = leaf_vertices(tree, rows);
-    ASSERT_EQ(shared.of_thirds.size(), tree.thirds.size());
+    ASSERT_EQ(shared.of_vertex_patches.size(), tree.vertex_patches.size());
     EXPECT_EQ(shared.first.size(), 10242u + 1u);
     double mixed = 0.0, alone = 0.0;  // squares of differences from the height of the vertex
     for (std::uint32_t row = 0; row < rows.size(); ++row)
-        for (std::uint32_t k = tree.first_thirds[rows[row]]; k < tree.first_thirds[rows[row] + 1];
+        for (std::uint32_t k = tree.first_patches[rows[row]]; k < tree.first_patches[rows[row] + 1];
              ++k) {
-            const std::uint32_t v = shared.of_thirds[k];
+            const std::uint32_t v = shared.of_vertex_patches[k];
             double sum = 0.0, height = 0.0;
             bool own = false;
             for (std::uint32_t l = shared.first[v]; l < shared.first[v + 1]; ++l) {
@@ -66,7 +66,7 @@ TEST(JoinedElements, ShareTheirLightWithThoseBeside) {
             }
             EXPECT_TRUE(own);
             EXPECT_NEAR(sum, 1.0, 1e-6);
-            const double wanted = tree.thirds[k].corners[0].y;
+            const double wanted = tree.vertex_patches[k].corners[0].y;
             mixed += std::pow(height - wanted, 2);
             alone += std::pow(tree.positions[rows[row]].y - wanted, 2);
         }
@@ -94,22 +94,23 @@ TEST(JoinedElements, EndAtCreasesAndMaterials) {
     sheet({0, 0, 0}, x, y, 0);         // a wall on its edge
     sheet({1, 0, 0}, z, x, material);  // more floor
     sheet({0, 1e-2, 0}, z, x, 0);      // a board above it
-    const ElementTree tree = make_elements(scene, {.wished = 400});
+    const ElementTree tree = make_elements(scene, {.requested = 400});
     EXPECT_EQ(test::expect_consistent(tree, true), tree.leaves);
     EXPECT_LT(tree.leaves, 700u);
     for (std::size_t i = 0; i < tree.count(); ++i) {
         if (!tree.is_leaf(i)) continue;
-        const VertexThird& first = tree.thirds[tree.first_thirds[i]];
-        for (std::uint32_t t = tree.first_thirds[i]; t < tree.first_thirds[i + 1]; ++t)
-            EXPECT_EQ(tree.thirds[t].triangle / (2 * n * n), first.triangle / (2 * n * n)) << i;
+        const VertexPatch& first = tree.vertex_patches[tree.first_patches[i]];
+        for (std::uint32_t t = tree.first_patches[i]; t < tree.first_patches[i + 1]; ++t)
+            EXPECT_EQ(tree.vertex_patches[t].triangle / (2 * n * n), first.triangle / (2 * n * n))
+                << i;
     }
 }
 
-// Area of the thirds of a leaf, with the way that they face.
+// Area of the vertex patches of a leaf, with the way that they face.
 glm::dvec3 vector_area_of(const ElementTree& tree, std::size_t leaf) {
     glm::dvec3 out(0.0);
-    for (std::uint32_t t = tree.first_thirds[leaf]; t < tree.first_thirds[leaf + 1]; ++t) {
-        const auto& [a, b, c] = tree.thirds[t].corners;
+    for (std::uint32_t t = tree.first_patches[leaf]; t < tree.first_patches[leaf + 1]; ++t) {
+        const auto& [a, b, c] = tree.vertex_patches[t].corners;
         out += glm::cross(b - a, c - a) / 6.0;
     }
     return out;
@@ -119,7 +120,7 @@ glm::dvec3 vector_area_of(const ElementTree& tree, std::size_t leaf) {
 TEST(JoinedElements, FaceAboutOneWay) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {1, 2, 3}, 0.5, 4, 1);
-    const ElementTree tree = make_elements(scene, {.wished = 4});
+    const ElementTree tree = make_elements(scene, {.requested = 4});
     EXPECT_EQ(test::expect_consistent(tree, true), tree.leaves);
     EXPECT_GE(tree.leaves, 10u);  // a cap of a tenth of the sphere has 0.9 of its area
     EXPECT_LT(tree.leaves, 100u);
@@ -138,14 +139,14 @@ TEST(JoinedElements, AreRound) {
         test::add_quad(scene,
                        {glm::dvec3(k * size, 0, 0), glm::dvec3(k * size, 0, size),
                         glm::dvec3((k + 1) * size, 0, size), glm::dvec3((k + 1) * size, 0, 0)});
-    const ElementTree tree = make_elements(scene, {.wished = 8, .backs = false});
+    const ElementTree tree = make_elements(scene, {.requested = 8, .backs = false});
     EXPECT_EQ(test::expect_consistent(tree, true), tree.leaves);
     for (std::size_t i = 0; i < tree.count(); ++i) {
         if (!tree.is_leaf(i)) continue;
         double low = std::numeric_limits<double>::max(), high = -low;
-        for (std::uint32_t t = tree.first_thirds[i]; t < tree.first_thirds[i + 1]; ++t) {
-            low = std::min(low, tree.thirds[t].corners[0].x);
-            high = std::max(high, tree.thirds[t].corners[0].x);
+        for (std::uint32_t t = tree.first_patches[i]; t < tree.first_patches[i + 1]; ++t) {
+            low = std::min(low, tree.vertex_patches[t].corners[0].x);
+            high = std::max(high, tree.vertex_patches[t].corners[0].x);
         }
         EXPECT_GT(high, low);
         EXPECT_LE(high - low, std::sqrt(8.0 * tree.max_area));
@@ -157,7 +158,7 @@ TEST(JoinedElements, LieOnWhatTheyAreOf) {
     for (const int facing : {1, -1}) {
         Scene scene = test::plain_scene();
         test::add_sphere(scene, {1, 2, 3}, 0.5, 5, facing);
-        const ElementTree tree = make_elements(scene, {.wished = 100});
+        const ElementTree tree = make_elements(scene, {.requested = 100});
         ASSERT_EQ(test::expect_consistent(tree, true), tree.leaves);
         for (std::size_t i = 0; i < tree.count(); ++i) {
             if (!tree.is_leaf(i)) continue;
@@ -169,13 +170,14 @@ TEST(JoinedElements, LieOnWhatTheyAreOf) {
     }
 }
 
-// From far away a leaf is as large as its thirds, which turn away from each other, are together.
+// From far away a leaf is as large as its vertex patches, which turn away from each other, are
+// together.
 TEST(JoinedElements, AreFromAfarAsLargeAsTheirThirds) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {0, 0, 0}, 0.5, 4, 1);
     const auto plate = static_cast<std::uint32_t>(scene.triangles.size());
     test::add_triangle(scene, {2, -11, 1}, {2, -11, 1.001}, {2.001, -11, 1});
-    const ElementTree tree = make_elements(scene, {.wished = 16});
+    const ElementTree tree = make_elements(scene, {.requested = 16});
     const DirectionBins bins = direction_bins(4096);
     const Links links = make_links(tree, bins);
     const double mean_bin = 4.0 * 3.14159265358979323846 / bins.count();
@@ -190,7 +192,7 @@ TEST(JoinedElements, AreFromAfarAsLargeAsTheirThirds) {
                                  std::abs(test::bin_cosine(tree, bins, s, links.bins[k])) *
                                  bins.solid_angles[bin];
             const glm::dvec3 way = tree.positions[i] - tree.positions[s];
-            // Those that are larger than half a bin are cut into their thirds.
+            // Those that are larger than half a bin are cut into their vertex patches.
             if (tree.areas[s] > 0.5 * mean_bin * glm::dot(way, way)) continue;
             const double wanted =
                 std::abs(glm::dot(vector_area_of(tree, s), way)) / std::pow(glm::length(way), 3);
@@ -214,7 +216,7 @@ TEST(JoinedElements, SendFromWhatFacesTheReceiverAlone) {
         const glm::dvec3 v = glm::cross(out, u), at = 1.1 * out;
         test::add_triangle(scene, at, at + v, at + u);
     }
-    const ElementTree tree = make_elements(scene, {.wished = 60});
+    const ElementTree tree = make_elements(scene, {.requested = 60});
     const DirectionBins bins = direction_bins(4096);
     const Links links = make_links(tree, bins);
     std::size_t found = 0;
@@ -232,9 +234,9 @@ TEST(JoinedElements, AreHiddenWhereNoPartIsAboveThePlane) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {0, 0, 0}, 1.0, 4, 1);
     test::add_sphere(scene, {1.5, 0.4, 0.2}, 0.7, 4, 1);
-    const ElementTree tree = make_elements(scene, {.wished = 150});
+    const ElementTree tree = make_elements(scene, {.requested = 150});
     ASSERT_EQ(test::expect_consistent(tree, true), tree.leaves);
-    const ThirdGroups groups(tree);
+    const PatchGroups groups(tree);
     const Refine refine(tree, groups, 1.0);
     int hidden = 0, rises = 0;
     for (std::size_t sender = 0; sender < tree.count(); ++sender)
@@ -243,9 +245,9 @@ TEST(JoinedElements, AreHiddenWhereNoPartIsAboveThePlane) {
             const glm::dvec3 &n = tree.normals[receiver], &at = tree.positions[receiver];
             const glm::dvec3 way = tree.positions[sender] - at;
             double top = -std::numeric_limits<double>::infinity();
-            for (std::uint32_t t = tree.first_thirds[sender]; t < tree.first_thirds[sender + 1];
+            for (std::uint32_t t = tree.first_patches[sender]; t < tree.first_patches[sender + 1];
                  ++t) {
-                const auto& [a, b, c] = tree.thirds[t].corners;
+                const auto& [a, b, c] = tree.vertex_patches[t].corners;
                 for (const glm::dvec3& corner :
                      {a, 0.5 * (a + b), 0.5 * (a + c), (a + b + c) / 3.0})
                     top = std::max(top, glm::dot(n, corner - at));
@@ -259,32 +261,35 @@ TEST(JoinedElements, AreHiddenWhereNoPartIsAboveThePlane) {
     EXPECT_GT(rises, 100);
 }
 
-// Groups hold each third once, are as large as all of it and the same for any number of threads.
+// Groups hold each vertex patch once, are as large as all of it and the same for any number of
+// threads.
 TEST(JoinedElements, HaveTheSameGroupsForAnyThreads) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {0, 0, 0}, 1.0, 4, 1);
     test::add_sheet(scene, 12, [](double x, double z) { return 2.0 + 0.1 * std::sin(3 * x + z); });
-    for (const std::size_t wished : {10u, 200u, 2900u}) {
-        const ElementTree tree = make_elements(scene, {.wished = wished});
+    for (const std::size_t requested : {10u, 200u, 2900u}) {
+        const ElementTree tree = make_elements(scene, {.requested = requested});
         ASSERT_GT(test::expect_consistent(tree, true), 0u);
-        const ThirdGroups one(tree, 1);
-        std::vector<std::uint32_t> thirds = one.thirds();
-        std::sort(thirds.begin(), thirds.end());
-        for (std::size_t k = 0; k < tree.thirds.size(); ++k) ASSERT_EQ(thirds[k], k);
+        const PatchGroups one(tree, 1);
+        std::vector<std::uint32_t> vertex_patches = one.vertex_patches();
+        std::sort(vertex_patches.begin(), vertex_patches.end());
+        for (std::size_t k = 0; k < tree.vertex_patches.size(); ++k)
+            ASSERT_EQ(vertex_patches[k], k);
         const Links links = make_links(tree, direction_bins(64), {.threads = 1});
         for (const int threads : {2, 3, 7, 64}) {
-            const ThirdGroups other(tree, threads);
-            EXPECT_EQ(one.thirds(), other.thirds());
+            const PatchGroups other(tree, threads);
+            EXPECT_EQ(one.vertex_patches(), other.vertex_patches());
             for (std::size_t i = 0; i < tree.count(); ++i) {
                 ASSERT_EQ(one.of(i).size(), other.of(i).size()) << i;
                 EXPECT_EQ(one.flatness(i), other.flatness(i)) << i;
                 for (std::size_t g = 0; g < one.of(i).size(); ++g) {
-                    const ThirdGroup &a = one.of(i)[g], &b = other.of(i)[g];
+                    const PatchGroup &a = one.of(i)[g], &b = other.of(i)[g];
                     EXPECT_TRUE(a.middle == b.middle && a.vector_area == b.vector_area &&
                                 a.square_radius == b.square_radius && a.next == b.next &&
                                 a.first == b.first && a.end == b.end);
                     for (std::uint32_t k = a.first; k < a.end; ++k) {
-                        const auto& [p, q, r] = tree.thirds[one.thirds()[k]].corners;
+                        const auto& [p, q, r] =
+                            tree.vertex_patches[one.vertex_patches()[k]].corners;
                         EXPECT_LE(glm::length((p + q + r) / 3.0 - a.middle),
                                   std::sqrt(a.square_radius) * (1 + 1e-12));
                     }

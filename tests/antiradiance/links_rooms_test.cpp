@@ -40,7 +40,7 @@ void expect_equal(const Links& a, const Links& b) {
 }
 
 TEST(LinksOfRooms, AreSortedAndTheSameForAnyThreads) {
-    const ElementTree tree = make_elements(room(8), {.wished = 600});
+    const ElementTree tree = make_elements(room(8), {.requested = 600});
     const DirectionBins bins = direction_bins(128);
     const Links links = make_links(tree, bins, {.threads = 1});
     ASSERT_EQ(links.first.size(), tree.count() + 1);
@@ -57,7 +57,7 @@ TEST(LinksOfRooms, AreSortedAndTheSameForAnyThreads) {
 // Every ordered pair of leaves has one link of elements that hold them, or the receiver does not
 // see the sender's front or back: it looks away, or one of them is seen edge-on.
 TEST(LinksOfRooms, CoverEveryPairOfLeavesOnce) {
-    const ElementTree tree = make_elements(room(8), {.wished = 300});
+    const ElementTree tree = make_elements(room(8), {.requested = 300});
     const DirectionBins bins = direction_bins(128);
     const Links links = make_links(tree, bins, {.bin_share = 1.0});
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
@@ -92,7 +92,7 @@ TEST(LinksOfRooms, CoverEveryPairOfLeavesOnce) {
 
 // A closed convex room of radiance 1: 2 pi of solid angle and pi of irradiance at every leaf.
 TEST(LinksOfRooms, FillEveryHemisphereOfAClosedRoom) {
-    const ElementTree tree = make_elements(room(0), {.wished = 1500});
+    const ElementTree tree = make_elements(room(0), {.requested = 1500});
     const DirectionBins bins = direction_bins(512);
     const test::Arrived fine =
         test::send_one(tree, bins, make_links(tree, bins, {.bin_share = 0.2}));
@@ -108,7 +108,7 @@ TEST(LinksOfRooms, FillEveryHemisphereOfAClosedRoom) {
 
 // Curved, of clusters that are not flat.
 TEST(LinksOfRooms, FillEveryHemisphereOfASphere) {
-    const ElementTree tree = make_elements(furnace({.subdivisions = 3}), {.wished = 1280});
+    const ElementTree tree = make_elements(furnace({.subdivisions = 3}), {.requested = 1280});
     ASSERT_EQ(tree.leaves, 1280u);
     const DirectionBins bins = direction_bins(512);
     const test::Arrived arrived = test::send_one(tree, bins, make_links(tree, bins));
@@ -155,7 +155,7 @@ TEST(LinksOfRooms, EndForNestedSpheres) {
 
 // The size of the paper's office (table 1): 18,253 elements, 632,098 links, 128 bins; 8.7 s.
 TEST(LinksOfRooms, OfAnOfficeAreAsManyAsThePapers) {
-    const ElementTree tree = make_elements(room(12), {.wished = 13700});
+    const ElementTree tree = make_elements(room(12), {.requested = 13700});
     const auto start = std::chrono::steady_clock::now();
     const Links links = make_links(tree, direction_bins(128));
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;

@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/links.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 
-#include "methods/antiradiance/solid_angle.hpp"
 #include "links_checks.hpp"
+#include "methods/antiradiance/solid_angle.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -221,9 +221,9 @@ TEST(Links, SpreadALargeLeafOverItsBins) {
     constexpr int n = 400;
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < n - i; ++k)
-            for (const double third : {1.0 / 3.0, 2.0 / 3.0}) {
-                if (third > 0.5 && k == n - i - 1) continue;
-                const double u = (i + third) / n, v = (k + third) / n;
+            for (const double vertex_patch : {1.0 / 3.0, 2.0 / 3.0}) {
+                if (vertex_patch > 0.5 && k == n - i - 1) continue;
+                const double u = (i + vertex_patch) / n, v = (k + vertex_patch) / n;
                 const glm::dvec3 travel = eye - (a + u * (b - a) + v * (c - a));
                 const double d = glm::length(travel);
                 expected[bins.nearest(travel)] += 4.5 / (n * n) * travel.y / (d * d * d);

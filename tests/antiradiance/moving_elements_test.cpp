@@ -4,20 +4,20 @@
 
 #include <algorithm>
 #include <clgi/advanced/animation.hpp>
-#include "lab/scenes/deforming.hpp"
 #include <clgi/error.hpp>
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <limits>
+#include "lab/scenes/deforming.hpp"
 
 #include "moving_room.hpp"
 
 namespace clgi {
 namespace {
 
-ElementOptions leaves(std::size_t wished) {
+ElementOptions leaves(std::size_t requested) {
     ElementOptions out;
-    out.wished = wished;
+    out.requested = requested;
     return out;
 }
 

@@ -4,8 +4,8 @@
 
 #include <clgi/shared/moving_elements.h>
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/links.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 #include <map>
 #include <set>
@@ -26,7 +26,7 @@ struct Linked {
 
     Linked(const Scene& scene, const VertexPoses& at, std::size_t leaves) {
         ElementOptions elements;
-        elements.wished = leaves;
+        elements.requested = leaves;
         tree = make_elements(scene, elements, at);
         for (const auto& pose : at) poses.push_back(posed_elements(tree, scene, pose));
         links = make_links(tree, bins, options, poses);

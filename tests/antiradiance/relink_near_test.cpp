@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <clgi/scene_mover.hpp>
 #include <clgi/antiradiance.hpp>
+#include <clgi/scene_mover.hpp>
 #include <cmath>
 
 #include "device.hpp"

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <utility>
 
+#include "device.hpp"
+#include "math_modes.hpp"
 #include "methods/antiradiance/device_links.hpp"
 #include "methods/antiradiance/element_places.hpp"
 #include "methods/antiradiance/element_surface.hpp"
-#include "device.hpp"
-#include "math_modes.hpp"
 #include "moving_room.hpp"
 
 namespace clgi {
@@ -29,16 +29,16 @@ struct Posed {
     Links links;  // at that pose
     DeviceLinks on_device;
 
-    Posed(Math math, double time, int bins = 128, std::size_t wished = 1500)
+    Posed(Math math, double time, int bins = 128, std::size_t requested = 1500)
         : room(5),
           scene(test::on_device(room.scene)),
           solver(test::programs(), test::device().queue, room.scene, scene,
-                 options(math, bins, wished)),
+                 options(math, bins, requested)),
           mover(test::device().queue, scene) {
         room.move(mover, time);
         solver.geometry_changed();
         solver.run();
-        tree = make_elements(room.scene, options(math, bins, wished).elements, room.poses(9));
+        tree = make_elements(room.scene, options(math, bins, requested).elements, room.poses(9));
         at = posed_elements(tree, room.scene, room.at(time));
         std::vector<ElementTree> poses;
         for (const auto& pose : room.poses(9))
@@ -47,14 +47,14 @@ struct Posed {
         for (std::size_t i = 0; i < tree.count(); ++i)
             for (const ElementTree& pose : poses)
                 reach.radii[i] = std::max(reach.radii[i], pose.radii[i]);
-        links = make_links(reach, solver.bins(), options(math, bins, wished).links, poses);
+        links = make_links(reach, solver.bins(), options(math, bins, requested).links, poses);
         auto elements = make_element_surface(tree, solver.bins(), room.scene, scene).elements;
         on_device = device_links(tree, solver.bins(), links, scale(), {}, elements, false);
     }
-    AntiradianceOptions options(Math math, int bins, std::size_t wished) const {
+    AntiradianceOptions options(Math math, int bins, std::size_t requested) const {
         AntiradianceOptions out;
         out.bins = bins;
-        out.elements.wished = wished;
+        out.elements.requested = requested;
         out.poses = room.poses(9);
         out.build.math = math;
         out.steps = 1;
@@ -262,7 +262,7 @@ TEST(RelinkBits, AreTheSameAtEveryScale) {
         AntiradianceOptions options;
         options.bins = 64;
         options.steps = 1;
-        options.elements.wished = 300;
+        options.elements.requested = 300;
         options.poses = room.poses(4);
         Scene there = room.posed(0.37);
         for (auto* positions : {&file.positions, &there.positions, &options.poses[0],
@@ -297,7 +297,7 @@ TEST_P(Relink, StaysFiniteWhereSurfacesMeet) {
         return out;
     };
     AntiradianceOptions options;
-    options.elements.wished = 500;
+    options.elements.requested = 500;
     options.build.math = GetParam();
     options.poses = {at({0, 0, 0}, 1.0), at({-1, 0, 0}, 1.0), at({-2, 0, 0}, 1.0),
                      at({-2, 0, 0}, 0.0)};

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "links_checks.hpp"
 #include "methods/antiradiance/solid_angle.hpp"
 #include "methods/antiradiance/spread_table.hpp"
-#include "links_checks.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -105,7 +105,7 @@ TEST(SpreadTable, KeepsTheSolidAngleOfLeaves) {
 TEST(SpreadTable, IrradianceInAClosedBox) {
     Scene box = test::plain_scene();
     test::add_box(box, {0, 0, 0}, {1.0, 1.2, 0.8}, -1);
-    const ElementTree walls = make_elements(box, {.wished = 600});
+    const ElementTree walls = make_elements(box, {.requested = 600});
     const DirectionBins bins = direction_bins(512);
     const auto error = [&](Spread spread) {
         const Links links = make_links(walls, bins, {.spread = spread});

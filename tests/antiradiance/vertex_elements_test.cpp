@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "lab/scenes/rooms.hpp"
-#include "methods/antiradiance/solid_angle.hpp"
 #include "links_checks.hpp"
+#include "methods/antiradiance/solid_angle.hpp"
 #include "spheres.hpp"
 #include "vertex_leaves.hpp"
 
@@ -20,21 +20,22 @@ constexpr double pi = 3.14159265358979323846;
 TEST(VertexElements, OfASphereAreItsVertices) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {1, 2, 3}, 0.5, 3, 1);
-    const ElementTree tree = make_elements(scene, {.wished = 642});
+    const ElementTree tree = make_elements(scene, {.requested = 642});
     EXPECT_EQ(test::expect_consistent(tree), 642u);
     EXPECT_EQ(tree.leaves, 642u);
-    EXPECT_EQ(tree.thirds.size(), 3u * 1280u);
+    EXPECT_EQ(tree.vertex_patches.size(), 3u * 1280u);
     EXPECT_NEAR(tree.areas[0], test::area_of(scene), 1e-12 * tree.areas[0]);
     for (std::size_t i = 0; i < tree.count(); ++i) {
         if (!tree.is_leaf(i)) continue;
-        const glm::dvec3 out = tree.thirds[tree.first_thirds[i]].corners[0] - glm::dvec3(1, 2, 3);
+        const glm::dvec3 out =
+            tree.vertex_patches[tree.first_patches[i]].corners[0] - glm::dvec3(1, 2, 3);
         EXPECT_GT(glm::dot(glm::normalize(out), tree.normals[i]), 0.9999);
-        // The centroid of the thirds is a little below the vertex.
+        // The centroid of the vertex patches is a little below the vertex.
         EXPECT_LT(glm::length(tree.positions[i] - glm::dvec3(1, 2, 3) - out), 0.005);
         EXPECT_EQ(tree.backs[i], 0);
         EXPECT_LT(tree.triangles[i], 1280u);
     }
-    EXPECT_EQ(make_elements(scene, {.wished = 642, .vertices = false}).leaves, 1280u);
+    EXPECT_EQ(make_elements(scene, {.requested = 642, .vertices = false}).leaves, 1280u);
 }
 
 // No leaf is larger than it would be without them; pieces of coarser triangles are as they were.
@@ -54,9 +55,9 @@ TEST(VertexElements, AreNeverCoarserThanWished) {
     EXPECT_EQ(coarse.ends, never.ends);
     EXPECT_EQ(coarse.areas, never.areas);
     // 320 triangles, 162 vertices.
-    EXPECT_EQ(make_elements(scene, {.wished = 162}).leaves, 162u);
-    EXPECT_EQ(make_elements(scene, {.wished = 163}).leaves, 320u);
-    EXPECT_EQ(make_elements(scene, {.wished = 320}).leaves, 320u);
+    EXPECT_EQ(make_elements(scene, {.requested = 162}).leaves, 162u);
+    EXPECT_EQ(make_elements(scene, {.requested = 163}).leaves, 320u);
+    EXPECT_EQ(make_elements(scene, {.requested = 320}).leaves, 320u);
 }
 
 // A box of n x n squares on each side: its edges stay sharp. Few squares make no fewer leaves.
@@ -105,8 +106,8 @@ TEST(VertexElements, HaveOneMaterial) {
     const ElementTree tree = make_elements(scene, {.max_area = 1.0});
     EXPECT_GT(test::expect_consistent(tree), 642u);
     for (std::size_t i = 0; i < tree.count(); ++i)
-        for (std::uint32_t k = tree.first_thirds[i]; k < tree.first_thirds[i + 1]; ++k)
-            EXPECT_EQ(scene.triangles[tree.thirds[k].triangle].material,
+        for (std::uint32_t k = tree.first_patches[i]; k < tree.first_patches[i + 1]; ++k)
+            EXPECT_EQ(scene.triangles[tree.vertex_patches[k].triangle].material,
                       scene.triangles[tree.triangles[i]].material);
 }
 
@@ -150,8 +151,8 @@ TEST(VertexElements, LeaveAloneWhatIsNoSurface) {
     EXPECT_EQ(make_elements(needle, {.max_area = 100.0}).leaves, 128u);
 }
 
-// Beside a coarse sphere, the sender of each link to a small plate is as large as the thirds of its
-// triangles are, those that face the other way subtracted.
+// Beside a coarse sphere, the sender of each link to a small plate is as large as the vertex
+// patches of its triangles are, those that face the other way subtracted.
 TEST(VertexElements, CoverWhatTheirOutlineCovers) {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {0, 1, 0}, 0.6, 1, 1);
@@ -177,8 +178,8 @@ TEST(VertexElements, CoverWhatTheirOutlineCovers) {
             const glm::dvec3 eye = tree.positions[i];
             const double side = glm::dot(tree.normals[s], eye - tree.positions[s]) > 0 ? 1 : -1;
             double wanted = 0.0, away = 0.0;
-            for (std::uint32_t k = tree.first_thirds[s]; k < tree.first_thirds[s + 1]; ++k) {
-                const auto& [a, b, c] = tree.thirds[k].corners;
+            for (std::uint32_t k = tree.first_patches[s]; k < tree.first_patches[s + 1]; ++k) {
+                const auto& [a, b, c] = tree.vertex_patches[k].corners;
                 const glm::dvec3 middle = (a + b + c) / 3.0, b2 = (a + b) / 2.0, c2 = (a + c) / 2.0;
                 const double part =
                     solid_angle({a, b2, middle}, eye) + solid_angle({a, middle, c2}, eye);
@@ -202,10 +203,12 @@ TEST(VertexElements, SeeClosedRooms) {
     test::add_sphere(scene, {0, 0, 0}, 2.0, 4, -1);
     const DirectionBins bins = direction_bins(512);
     // At vertices, joined ones, and faces.
-    for (const auto& [wished, vertices] : {std::pair(2562u, true), {1000u, true}, {1000u, false}}) {
-        const ElementTree tree = make_elements(scene, {.wished = wished, .vertices = vertices});
+    for (const auto& [requested, vertices] :
+         {std::pair(2562u, true), {1000u, true}, {1000u, false}}) {
+        const ElementTree tree =
+            make_elements(scene, {.requested = requested, .vertices = vertices});
         EXPECT_EQ(test::expect_consistent(tree, true), vertices ? tree.leaves : 0u);
-        EXPECT_EQ(tree.leaves == 2562u, wished == 2562u);
+        EXPECT_EQ(tree.leaves == 2562u, requested == 2562u);
         const Links links = make_links(tree, bins);
         for (const float f : links.form_factors) ASSERT_TRUE(std::isfinite(f) && f > 0.0f);
         const test::Arrived all = test::send_one(tree, bins, links);

@@ -1,7 +1,7 @@
 // Light of leaves at vertices: what they receive, reflect, block and show, against closed forms.
 // SPDX-License-Identifier: MIT
-#include <clgi/error.hpp>
 #include <clgi/advanced/antiradiance_view.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 
 #include "frames.hpp"
@@ -159,9 +159,9 @@ TEST_P(VertexLight, IsShownLinearlyBetweenVertices) {
         if (!tree.is_vertex(i)) continue;
         EXPECT_EQ(firsts[v + 1], firsts[v] + 1);
         EXPECT_EQ(rows[firsts[v]].y, 0x3f800000u);  // all of it
-        light[v] = glm::vec4(
-            light_at(tree.thirds[tree.first_thirds[i]].corners[0], tree.backs[i] ? -1.0 : 1.0),
-            0.0f);
+        light[v] = glm::vec4(light_at(tree.vertex_patches[tree.first_patches[i]].corners[0],
+                                      tree.backs[i] ? -1.0 : 1.0),
+                             0.0f);
     }
     EXPECT_GT(surface.patch_count, tree.count());
     test::device().queue.enqueueWriteBuffer(surface.light, CL_TRUE, 0,

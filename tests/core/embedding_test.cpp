@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <clgi/procedural.hpp>
 
+#include "core/kit/ranges.hpp"
 #include "drawing.hpp"
 #include "frames.hpp"
 #include "math_modes.hpp"
 #include "opencl_calls.hpp"
-#include "core/kit/ranges.hpp"
 
 namespace clgi {
 namespace {

@@ -165,7 +165,7 @@ TEST_F(Failures, OfAnyCallLeaveNothingBehind) {
         [&] {
             AntiradianceOptions options;
             options.bins = 32;
-            options.elements.wished = 40;
+            options.elements.requested = 40;
             options.steps = 3;
             AntiradianceSolver(test::programs(), queue, scene, placed, options).run();
         }};

@@ -42,20 +42,20 @@ TEST(Passes, MakeAFrameTogether) {
     const PassChain chain = make_chain();
     std::set<std::string> passes;
     for (const PassStep& step : chain.steps) passes.insert(step.pass);
-    // All of them but those with tests of their own: other producers, and what a frame has no use for.
+    // All of them but those with tests of their own: other producers, and what a frame has no use
+    // for.
     std::set<std::string> rest;
     for (std::string name : kernel_names()) {
         name.replace(name.find('/'), 1, ".");
         const bool apart = name.rfind("parallel.", 0) == 0 || name.rfind("scene.", 0) == 0 ||
                            name.rfind("vpl.", 0) == 0 || name.rfind("atlas.", 0) == 0 ||
-                           name.rfind("transfer.", 0) == 0 ||
-                           name.rfind("antiradiance.", 0) == 0;
+                           name.rfind("transfer.", 0) == 0 || name.rfind("antiradiance.", 0) == 0;
         if (!passes.count(name) && !apart) rest.insert(name);
     }
-    EXPECT_EQ(rest, (std::set<std::string>{"gbuffer.cubes", "gbuffer.import_buffers",
-                                           "gbuffer.import_images", "gbuffer.raster_views",
-                                           "gbuffer.surface", "image.environment",
-                                           "lights.direct"}));
+    EXPECT_EQ(rest,
+              (std::set<std::string>{"gbuffer.cubes", "gbuffer.import_buffers",
+                                     "gbuffer.import_images", "gbuffer.raster_views",
+                                     "gbuffer.surface", "image.environment", "lights.direct"}));
     chain.enqueue(test::device().queue, {}).back().wait();
     const auto preview =
         test::download<cl_uint>(chain.buffers.at("preview"), PassChain::width * PassChain::height);

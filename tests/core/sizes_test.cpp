@@ -21,7 +21,7 @@ struct Plenty {
     RasterBuffers raster = test::raster_buffers(scene, pixels);
     EmitterSet set = make_emitters(scene, {.vpls = 4, .shadow_size = 8});
     EmitterBuffers emitters{test::upload(set.emitters), test::upload(set.views),
-                          test::empty<std::uint64_t>(64)};
+                            test::empty<std::uint64_t>(64)};
     cl::Buffer any = test::empty<float>(1 << 16);
 };
 
@@ -33,7 +33,7 @@ RasterBuffers with(RasterBuffers buffers, cl::Buffer RasterBuffers::*which,
 }
 
 EmitterBuffers with(EmitterBuffers buffers, cl::Buffer EmitterBuffers::*which,
-                   const cl::Buffer& other) {
+                    const cl::Buffer& other) {
     buffers.*which = other;
     return buffers;
 }
@@ -142,9 +142,9 @@ TEST(Sizes, OfGBufferPasses) {
     EXPECT_THROW(passes.raster(queue, two, test::upload(std::vector<View>(2, p.view)), p.scene,
                                stage, p.raster),
                  Error);
-    EXPECT_THROW(passes.raster_views(queue, two, views, p.scene, p.raster.pixels,
-                                     Pixels::visibility),
-                 Error);
+    EXPECT_THROW(
+        passes.raster_views(queue, two, views, p.scene, p.raster.pixels, Pixels::visibility),
+        Error);
     for (const CubeParams& wrong : {CubeParams{2, 4, 8, 1, 0, 16, 0.0f, 0.1f},
                                     {2, 5, 7, 1, 0, 16, 0.0f, 0.1f},
                                     {2, 5, 8, 1, 0, 16, 0.0f, 0.0f}})
@@ -153,7 +153,8 @@ TEST(Sizes, OfGBufferPasses) {
         passes.resolve(queue, p.view, p.scene, {15, 0, 0, 0}, p.raster.pixels, p.any, p.any),
         Error);
     EXPECT_THROW(
-        passes.downsample(queue, {width, height, stride, low - 1, 2, 0, 0, 0}, p.any, p.any), Error);
+        passes.downsample(queue, {width, height, stride, low - 1, 2, 0, 0, 0}, p.any, p.any),
+        Error);
     for (const std::uint32_t step : {0u, 1u, 3u, 8u})
         EXPECT_THROW(
             passes.downsample(queue, {width, height, stride, stride, step, 0, 0, 0}, p.any, p.any),
@@ -259,15 +260,25 @@ TEST(Sizes, OfImagePasses) {
         {"image.place", "irradiance", irradiance,
          [&](B b) { passes.place(queue, refine, z, z, z, b); }},
         {"image.combine", "planes", GBUFFER_PLANES * plane,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {b, z, stride}, z, a, a}); }},
+         [&](B b) {
+             passes.combine(queue, combine, p.view, p.scene, {p.emitters, {b, z, stride}, z, a, a});
+         }},
         {"image.combine", "ids", GBUFFER_ID_PLANES * plane,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, b, stride}, z, a, a}); }},
+         [&](B b) {
+             passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, b, stride}, z, a, a});
+         }},
         {"image.combine", "irradiance", irradiance,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, b, a, a}); }},
+         [&](B b) {
+             passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, b, a, a});
+         }},
         {"image.combine", "radiance", RADIANCE_PLANES * plane,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, z, b, a}); }},
+         [&](B b) {
+             passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, z, b, a});
+         }},
         {"image.combine", "non_finite", 4,
-         [&](B b) { passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, z, a, b}); }},
+         [&](B b) {
+             passes.combine(queue, combine, p.view, p.scene, {p.emitters, {z, z, stride}, z, a, b});
+         }},
         {"image.environment", "texels", 3 * sizeof(float),
          [&](B b) { passes.environment(queue, environment, p.view, b, z, a); }},
         {"image.environment", "planes", (GBUFFER_NORMAL + 3) * plane,
@@ -289,8 +300,8 @@ TEST(Sizes, OfImagePasses) {
     EXPECT_THROW(passes.gather(queue, gather, pixels, tiny, z, z, z, a), Error);
     EXPECT_THROW(passes.gather(queue, {15, 0, 0, 0}, pixels, z, z, z, z, a), Error);
     EXPECT_THROW(passes.place(queue, refine, tiny, z, z, a), Error);
-    EXPECT_THROW(
-        passes.environment(queue, {glm::vec4(1.0f), 0, 1, stride, 0.0f}, p.view, z, z, a), Error);
+    EXPECT_THROW(passes.environment(queue, {glm::vec4(1.0f), 0, 1, stride, 0.0f}, p.view, z, z, a),
+                 Error);
     EXPECT_THROW(passes.compact(queue, refine, z, tiny, z, a, a, a), Error);
 }
 

@@ -47,9 +47,9 @@ Numbers numbers(std::size_t count) {
                                         : static_cast<float>(i % 3 == 0 ? -a : b));
         if (!std::isfinite(out.narrow.back())) out.narrow.back() = 0.0f;
     }
-    for (const double special : {0.0, -0.0, 0x1p-1074, 0x1.fffffep127, 0x1.ffffffp127, 0x1p128,
-                                 0x1p-149, 0x1.8p-149, 0x1p-150, 0x1.8p-150, 0x1.fffffffp-127,
-                                 0x1.8p128})
+    for (const double special :
+         {0.0, -0.0, 0x1p-1074, 0x1.fffffep127, 0x1.ffffffp127, 0x1p128, 0x1p-149, 0x1.8p-149,
+          0x1p-150, 0x1.8p-150, 0x1.fffffffp-127, 0x1.8p128})
         for (const double other : {0.0, -0.0, 1.0, -special}) {
             out.first.push_back(special);
             out.second.push_back(other);

@@ -190,7 +190,7 @@ inline VertexPoses random_poses(Choices& choices, const Scene& scene) {
 inline void antiradiance(Choices& choices, const Input& input) {
     AntiradianceOptions options;
     options.bins = choices.option(choices.any_of({32, 64}), {0, 33, -4, 8192});
-    options.elements.wished = static_cast<std::size_t>(choices.integer(1, 120));
+    options.elements.requested = static_cast<std::size_t>(choices.integer(1, 120));
     options.elements.backs = !choices.one_in(4);
     options.elements.vertices = choices.coin();
     options.links.bin_share =

@@ -70,7 +70,7 @@ inline void add_triangles(Choices& choices, Scene& scene) {
             case 2:  // a needle
                 test::add_triangle(scene, a, b, a + 1e-7 * place(choices), material());
                 break;
-            case 3:  // a speck
+            case 3:  // a island
                 test::add_triangle(scene, a, a + 1e-6 * b, a + 1e-6 * place(choices), material());
                 break;
             default:

@@ -1,5 +1,5 @@
-// Zero copy, as far as it can be tried on devices that cannot share: the decision by its facts, and
-// all of the way by stand-ins for the driver's three entry points.
+// Zero copy, as far as it can be tried on devices that cannot share: the decision by its analysis,
+// and all of the way by stand-ins for the driver's three entry points.
 // SPDX-License-Identifier: MIT
 #include <CL/cl_gl.h>
 #include <gtest/gtest.h>
@@ -15,23 +15,23 @@
 namespace clgi {
 namespace {
 
-using gl::SharingFacts;
+using gl::SharingCapabilities;
 
 // All that has to be there, with an address for the OpenGL context.
-SharingFacts fine() {
+SharingCapabilities fine() {
     static int context = 0;
-    SharingFacts facts;
-    facts.extensions = "cl_khr_fp64 cl_khr_gl_sharing cl_khr_icd";
-    facts.images = true;
-    facts.current = &context;
-    facts.properties = {CL_CONTEXT_PLATFORM,
-                        77,
-                        CL_GL_CONTEXT_KHR,
-                        reinterpret_cast<cl_context_properties>(&context),
-                        CL_EGL_DISPLAY_KHR,
-                        5,
-                        0};
-    return facts;
+    SharingCapabilities analysis;
+    analysis.extensions = "cl_khr_fp64 cl_khr_gl_sharing cl_khr_icd";
+    analysis.images = true;
+    analysis.current = &context;
+    analysis.properties = {CL_CONTEXT_PLATFORM,
+                           77,
+                           CL_GL_CONTEXT_KHR,
+                           reinterpret_cast<cl_context_properties>(&context),
+                           CL_EGL_DISPLAY_KHR,
+                           5,
+                           0};
+    return analysis;
 }
 
 TEST(GlSharing, IsTakenWhereAllIsThere) {
@@ -39,35 +39,36 @@ TEST(GlSharing, IsTakenWhereAllIsThere) {
     EXPECT_TRUE(sharing.zero_copy);
     EXPECT_EQ(sharing.reason, "zero copy: cl_khr_gl_sharing");
     EXPECT_FALSE(sharing.implicit);
-    SharingFacts facts = fine();
-    facts.extensions += " cl_khr_gl_event";
-    EXPECT_TRUE(decide(facts).implicit);
+    SharingCapabilities analysis = fine();
+    analysis.extensions += " cl_khr_gl_event";
+    EXPECT_TRUE(decide(analysis).implicit);
 }
 
 TEST(GlSharing, SaysWhatIsMissing) {
-    const auto expect_copied = [](SharingFacts facts, const std::string& reason) {
-        const gl::Sharing sharing = decide(facts);
+    const auto expect_copied = [](SharingCapabilities analysis, const std::string& reason) {
+        const gl::Sharing sharing = decide(analysis);
         EXPECT_FALSE(sharing.zero_copy);
         EXPECT_EQ(sharing.reason, "copied: " + reason);
     };
-    SharingFacts facts = fine();
-    facts.extensions = "cl_khr_gl_sharing_of_something_else cl_khr_gl_event";
-    expect_copied(facts, "device does not list cl_khr_gl_sharing");
-    facts = fine();
-    facts.images = false;
-    expect_copied(facts, "device has no images");
+    SharingCapabilities analysis = fine();
+    analysis.extensions = "cl_khr_gl_sharing_of_something_else cl_khr_gl_event";
+    expect_copied(analysis, "device does not list cl_khr_gl_sharing");
+    analysis = fine();
+    analysis.images = false;
+    expect_copied(analysis, "device has no images");
     for (const std::vector<cl_context_properties>& properties :
          {std::vector<cl_context_properties>(), {0}, {CL_CONTEXT_PLATFORM, CL_GL_CONTEXT_KHR, 0}}) {
-        facts = fine();
-        facts.properties = properties;
-        expect_copied(facts, "OpenCL context was made without CL_GL_CONTEXT_KHR");
+        analysis = fine();
+        analysis.properties = properties;
+        expect_copied(analysis, "OpenCL context was made without CL_GL_CONTEXT_KHR");
     }
-    facts = fine();
-    facts.current = &facts;
-    expect_copied(facts, "OpenCL context was made for another OpenGL context than the current one");
-    facts = fine();
-    facts.missing = "clEnqueueAcquireGLObjects";
-    expect_copied(facts, "OpenCL platform lacks clEnqueueAcquireGLObjects");
+    analysis = fine();
+    analysis.current = &analysis;
+    expect_copied(analysis,
+                  "OpenCL context was made for another OpenGL context than the current one");
+    analysis = fine();
+    analysis.missing = "clEnqueueAcquireGLObjects";
+    expect_copied(analysis, "OpenCL platform lacks clEnqueueAcquireGLObjects");
 }
 
 using test::Driver;

@@ -93,7 +93,8 @@ TEST(AnimatedScenes, AreWhereTheFormulasSay) {
                 animator.animate(clip, time).done.wait();
                 // A dozen roundings of numbers as large as the radius; normals of thin triangles
                 // lose more, the thinner they are.
-                expect_true(test::read_back(scene, device), corners, 16 * 0x1p-24 * radius, 2e-4, where);
+                expect_true(test::read_back(scene, device), corners, 16 * 0x1p-24 * radius, 2e-4,
+                            where);
                 const MoveStatus status = animator.status();
                 EXPECT_EQ(status.not_finite, 0u) << where;
                 EXPECT_TRUE(status.fits) << where;

@@ -37,7 +37,7 @@ TEST(LeafDifference, IsRelativeAndWeightedByArea) {
 ConvergenceSetup setup_of(const Scene& scene, int steps) {
     ConvergenceSetup out{test::device().queue, scene};
     out.options.bins = 64;
-    out.options.elements.wished = 800;
+    out.options.elements.requested = 800;
     out.steps = steps;
     return out;
 }

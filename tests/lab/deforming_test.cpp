@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include "lab/scenes/deforming.hpp"
 #include <clgi/error.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <set>
+#include "lab/scenes/deforming.hpp"
 
 #include "geometry.hpp"
 #include "gltf_draft.hpp"

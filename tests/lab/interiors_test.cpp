@@ -5,10 +5,10 @@
 
 #include <clgi/advanced/adjacency.hpp>
 #include <clgi/error.hpp>
-#include "lab/scenes/interiors.hpp"
 #include <clgi/reference.hpp>
 #include <cmath>
 #include <limits>
+#include "lab/scenes/interiors.hpp"
 
 #include "geometry.hpp"
 

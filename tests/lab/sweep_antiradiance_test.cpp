@@ -40,7 +40,7 @@ TEST(AntiradianceSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
             EXPECT_TRUE(seen.insert(text).second) << text;
             EXPECT_EQ(one.method, antiradiance_method);
             EXPECT_EQ(one.knobs.at("bins"), std::to_string(one.options.bins));
-            EXPECT_EQ(one.knobs.at("elements"), std::to_string(one.options.elements.wished));
+            EXPECT_EQ(one.knobs.at("elements"), std::to_string(one.options.elements.requested));
             EXPECT_EQ(one.knobs.at("steps") == "converged", one.options.steps == 0);
             EXPECT_EQ(one.knobs.at("spread") == "none", one.options.links.spread == Spread::none);
             EXPECT_EQ(one.knobs.at("storage") == "half",

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/patches.hpp>
+#include <clgi/error.hpp>
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <fstream>

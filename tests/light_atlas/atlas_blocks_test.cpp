@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <array>
 #include <clgi/advanced/atlas_blocks.hpp>
-#include <clgi/error.hpp>
 #include <clgi/advanced/patches.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstring>

@@ -3,10 +3,10 @@
 #include <clgi/error.hpp>
 #include <clgi/procedural.hpp>
 
+#include "atlas_checks.hpp"
 #include "lab/scenes/rooms.hpp"
 #include "methods/light_atlas/flatten.hpp"
 #include "methods/light_atlas/overlap.hpp"
-#include "atlas_checks.hpp"
 
 namespace clgi {
 namespace {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <clgi/procedural.hpp>
 #include <clgi/light_atlas.hpp>
+#include <clgi/procedural.hpp>
 
 #include "device.hpp"
 

@@ -126,14 +126,13 @@ TEST(AtlasSeams, OfNumbersThatAreNotFiniteAreNoNumber) {
     EXPECT_FALSE(std::isfinite(atlas_seams(scene, atlas, light).difference));
 }
 
-// A jump of a quarter nearly vanishes; texels that are not read at the edge stay what they were, and
-// the two sides give way alike.
+// A jump of a quarter nearly vanishes; texels that are not read at the edge stay what they were,
+// and the two sides give way alike.
 TEST(StitchedSeams, AgreeWhereTheSurfaceIsSmooth) {
     const Scene scene = hinge(0.1);
     const AtlasLayout atlas = charts_of(scene, 64);
-    const auto light = light_of(atlas, [](const AtlasTexel& texel) {
-        return texel.triangle < 2 ? 3.0 : 4.0;
-    });
+    const auto light =
+        light_of(atlas, [](const AtlasTexel& texel) { return texel.triangle < 2 ? 3.0 : 4.0; });
     const Vectors stitched = stitched_seams(scene, atlas, light);
     const AtlasSeams before = atlas_seams(scene, atlas, light),
                      after = atlas_seams(scene, atlas, stitched);
@@ -174,9 +173,8 @@ TEST(StitchedSeams, LeaveShadowsAndHardEdgesAsTheyAre) {
 TEST(StitchedSeams, KeepWhatIsNotFiniteWhereItIs) {
     const Scene scene = hinge(0.0);
     const AtlasLayout atlas = charts_of(scene, 32);
-    Vectors light = light_of(atlas, [](const AtlasTexel& texel) {
-        return texel.triangle < 2 ? 3.0 : 4.0;
-    });
+    Vectors light =
+        light_of(atlas, [](const AtlasTexel& texel) { return texel.triangle < 2 ? 3.0 : 4.0; });
     // At the edge, half way along it.
     std::size_t bad = 0;
     double nearest = 1e9;

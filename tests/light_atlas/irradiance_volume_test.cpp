@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <clgi/error.hpp>
 #include <clgi/advanced/irradiance_volume.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 #include <limits>
 

@@ -43,8 +43,8 @@ void expect_same(const Baked& found, const Baked& wanted, const std::string& wha
     EXPECT_EQ(found.status.power_lost, wanted.status.power_lost) << what;
 }
 
-// Buffers for the transport of one batch, but not of all VPLs; visibility: for that of all VPLs, but
-// not for what all texels see.
+// Buffers for the transport of one batch, but not of all VPLs; visibility: for that of all VPLs,
+// but not for what all texels see.
 std::size_t too_little_to_keep(const Bakery& bakery, LightAtlasOptions options,
                                bool visibility = false) {
     const auto bytes = [&](bool seen) {
@@ -64,7 +64,8 @@ const Bakery& small_room() {
 
 // The kinds of work: kept and all VPLs at a time, and what departs from it.
 std::vector<LightAtlasOptions> ways() {
-    LightAtlasOptions all = test::bake_options(), alone = all, poor = all, direct = all, drawn = all;
+    LightAtlasOptions all = test::bake_options(), alone = all, poor = all, direct = all,
+                      drawn = all;
     all.bounces = 3;
     alone.bounces = 0;
     alone.threshold = 0.01f;

@@ -2,8 +2,8 @@
 // hemicubes, and what is saved.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
-#include <clgi/error.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/error.hpp>
 #include <clgi/procedural.hpp>
 #include <cmath>
 

@@ -126,9 +126,8 @@ TEST_P(LightAtlas, OfAWhiteRoomEnds) {
     LightAtlasOptions options = test::bake_options(GetParam());
     options.bounces = 0;
     options.threshold = 0.01f;
-    const Baked baked =
-        test::bake_from(bakery, options,
-                        std::vector<glm::vec3>(bakery.vpls.vpls.size(), glm::vec3(1.0f)));
+    const Baked baked = test::bake_from(
+        bakery, options, std::vector<glm::vec3>(bakery.vpls.vpls.size(), glm::vec3(1.0f)));
     expect_all(test::over_texels(bakery, baked.texels), glm::dvec3(1023.0 * 0.99), 0.011, "white");
     EXPECT_GT(baked.status.power_left, 0.0);
     EXPECT_LT(baked.status.power_left, 0.011 * baked.status.power_direct);

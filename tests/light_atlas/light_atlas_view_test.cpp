@@ -52,7 +52,8 @@ struct Baked {
         LightAtlasView view(test::programs(), test::device().queue, on_device, layout, options);
         view.render(camera, solver->irradiance_planes(), solver->stride()).wait();
         EXPECT_EQ(view.picture().non_finite(), 0u);
-        return test::vectors(test::device().queue, view.picture().radiance(), view.picture().stride(),
+        return test::vectors(test::device().queue, view.picture().radiance(),
+                             view.picture().stride(),
                              std::size_t(options.width) * std::size_t(options.height));
     }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <clgi/advanced/adjacency.hpp>
-#include <clgi/error.hpp>
 #include <clgi/advanced/patches.hpp>
+#include <clgi/error.hpp>
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <cstring>

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <set>
 
+#include "methods/light_atlas/clusters_of_islands.hpp"
 #include "scenes.hpp"
-#include "methods/light_atlas/clusters_of_specks.hpp"
 #include "walls.hpp"
 
 namespace clgi {
@@ -125,16 +125,16 @@ TEST(Regions, ExceedTheCountByDirectionsOnly) {
     EXPECT_EQ(vpls_of(make_regions(patches, 80)), 80);
 }
 
-TEST(Specks, AreCutAcrossTheirLongestSide) {
-    std::vector<Speck> specks;
+TEST(Islands, AreCutAcrossTheirLongestSide) {
+    std::vector<Island> islands;
     for (int axis = 0; axis < 3; ++axis) {
-        specks.clear();
+        islands.clear();
         for (std::uint32_t i = 0; i < 64; ++i) {
             glm::dvec3 at(0.1 * (i % 2), 0.1 * (i / 2 % 2), 0.1 * (i % 2));
             at[axis] = i;
-            specks.push_back({i, 1.0, at, {0, 0, 1}, false});
+            islands.push_back({i, 1.0, at, {0, 0, 1}, false});
         }
-        const auto clusters = cluster_specks(specks, 8);
+        const auto clusters = cluster_islands(islands, 8);
         ASSERT_EQ(clusters.size(), 8u);
         for (const auto& cluster : clusters) {
             ASSERT_EQ(cluster.size(), 8u);
@@ -144,23 +144,23 @@ TEST(Specks, AreCutAcrossTheirLongestSide) {
     }
 }
 
-TEST(Specks, OfOneClusterFaceOneWayAndHaveOneKind) {
-    std::vector<Speck> specks;
+TEST(Islands, OfOneClusterFaceOneWayAndHaveOneKind) {
+    std::vector<Island> islands;
     for (std::uint32_t i = 0; i < 48; ++i) {
         glm::dvec3 normal(0.3, -0.2, 0.1);
         normal[i % 3] = i % 2 == 0 ? 1.0 : -1.0;
-        specks.push_back({i, 1.0 + i, glm::dvec3(i * i % 17, i % 5, i), normal, i % 4 >= 2});
+        islands.push_back({i, 1.0 + i, glm::dvec3(i * i % 17, i % 5, i), normal, i % 4 >= 2});
     }
     for (const std::int64_t room : {0, 1, 30}) {
         std::int64_t sites = 0;
         std::set<std::uint32_t> seen;
-        for (const auto& cluster : cluster_specks(specks, room)) {
-            sites += specks[cluster[0]].double_sided ? 2 : 1;
+        for (const auto& cluster : cluster_islands(islands, room)) {
+            sites += islands[cluster[0]].double_sided ? 2 : 1;
             for (const std::uint32_t i : cluster) {
                 seen.insert(i);
                 EXPECT_EQ(i % 3, cluster[0] % 3);
                 EXPECT_EQ(i % 2, cluster[0] % 2);
-                EXPECT_EQ(specks[i].double_sided, specks[cluster[0]].double_sided);
+                EXPECT_EQ(islands[i].double_sided, islands[cluster[0]].double_sided);
             }
         }
         EXPECT_EQ(seen.size(), 48u);

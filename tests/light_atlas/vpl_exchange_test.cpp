@@ -11,10 +11,10 @@
 namespace clgi {
 namespace {
 
+using test::half_rounding;
 using test::Hemicubes;
 using test::SitePlace;
 using test::Sites;
-using test::half_rounding;
 
 CLGI_IN_BOTH_MATHS(Exchange);
 

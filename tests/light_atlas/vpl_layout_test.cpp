@@ -231,7 +231,7 @@ TEST(VplLayout, ClustersSpecks) {
         EXPECT_LT(on_floor, n);
     }
     EXPECT_LE(place_vpls(scene, patches, {.count = 1, .samples_per_vpl = 10}).vpls.size(), 6u);
-    // Nothing but specks.
+    // Nothing but islands.
     scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + 2);
     const Patches alone = make_patches(scene);
     const VplLayout layout = place_vpls(scene, alone, {.count = 200, .samples_per_vpl = 10});

@@ -106,7 +106,7 @@ float reach(const Scene& world, const glm::vec3& normal = glm::vec3(0, 0, 1),
 }
 
 // Two triangles far below the horizon give the scene its size.
-Scene specks() {
+Scene islands() {
     Scene world = test::plain_scene();
     for (const double s : {-4.0, 4.0})
         test::add_triangle(world, {s, s, -4}, {s, 0.999 * s, -4}, {0.999 * s, s, -4});
@@ -130,7 +130,7 @@ TEST_P(OpenReach, OfAClosedRoomIsAll) {
         EXPECT_NEAR(reach(world, glm::vec3(1, 0, 0), at, 2e-5f, GetParam()), 1.0f, 1e-5f);
 }
 
-TEST(OpenReach, OfNothingIsNothing) { EXPECT_EQ(reach(specks()), 0.0f); }
+TEST(OpenReach, OfNothingIsNothing) { EXPECT_EQ(reach(islands()), 0.0f); }
 
 // A rectangle with a corner straight over the point, at height h: the closed form of Lambert.
 double corner_factor(double a, double b, double h) {
@@ -140,7 +140,7 @@ double corner_factor(double a, double b, double h) {
 
 TEST_P(OpenReach, OfARectangleIsItsFormFactor) {
     for (const auto& [a, b, h] : {std::tuple{1.0, 1.0, 1.0}, {3.0, 0.2, 0.5}, {0.05, 2.0, 2.0}}) {
-        Scene world = specks();
+        Scene world = islands();
         test::add_quad(world, {glm::dvec3(0, 0, h), {0, b, h}, {a, b, h}, {a, 0, h}});
         for (const bool others_see_its_back : {false, true})
             EXPECT_NEAR(
@@ -170,7 +170,7 @@ TEST_P(OpenReach, LooksFromAbove) {
 // To infinity, beside the point: half of what there is to see, whichever way it is turned.
 TEST_P(OpenReach, OfHalfTheSkyIsAHalf) {
     for (const double side : {-1.0, 1.0}) {
-        Scene world = specks();
+        Scene world = islands();
         test::add_quad(world, {glm::dvec3(1e-3 * side, -4 * side, -3),
                                {1e-3 * side, -4 * side, 4},
                                {1e-3 * side, 4 * side, 4},
@@ -184,7 +184,7 @@ TEST(OpenReach, CountsFrontsAndBothSidesOfTheDoubleSided) {
     Material both;
     both.double_sided = true;
     for (const bool away : {false, true}) {
-        Scene one = specks(), two = specks();
+        Scene one = islands(), two = islands();
         const std::uint32_t material = test::add_material(two, both);
         std::array<glm::dvec3, 4> corners = {glm::dvec3(0, 0, 1), {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
         if (away) std::swap(corners[1], corners[3]);

@@ -280,8 +280,8 @@ TEST(Balance, OfShootersBringsTheirSumToTheirReach) {
                 clamped.count(found, sum == 0.0);
                 EXPECT_EQ(after[BALANCE_RECEIVER * e.stride + i], e.factor(BALANCE_RECEIVER, i));
                 const bool bound = found <= 0.5f || found >= 2.0f || sum == 0.0;
-                const double reach = bound ? found * sum * e.per_row_scale
-                                           : double{e.factor(BALANCE_REACH, i)};
+                const double reach =
+                    bound ? found * sum * e.per_row_scale : double{e.factor(BALANCE_REACH, i)};
                 EXPECT_NEAR(after[BALANCE_REACH * e.stride + i], reach, 1e-5 * reach) << i;
             }
             clamped.expect_all();

@@ -338,8 +338,7 @@ TEST(Sizes, OfAtlasPasses) {
         [&](B b) { open(e.buffers, b, out, out); });
     add(all, "atlas.gather_open", "gathered", 3 * texel_plane,
         [&](B b) { open(e.buffers, z, b, out); });
-    add(all, "atlas.gather_open", "filled", texel_plane,
-        [&](B b) { open(e.buffers, z, out, b); });
+    add(all, "atlas.gather_open", "filled", texel_plane, [&](B b) { open(e.buffers, z, out, b); });
 
     const auto nearest = [&](const S& b, B places, B reach) {
         passes.nearest(queue, params, b, places, reach);

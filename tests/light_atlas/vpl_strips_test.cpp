@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <clgi/procedural.hpp>
 #include <clgi/advanced/vpl_layout.hpp>
+#include <clgi/procedural.hpp>
 #include <cmath>
 
 #include "scenes.hpp"

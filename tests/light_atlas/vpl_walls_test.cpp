@@ -4,8 +4,8 @@
 #include <clgi/advanced/vpl_layout.hpp>
 #include <cmath>
 
-#include "scenes.hpp"
 #include "methods/light_atlas/walls.hpp"
+#include "scenes.hpp"
 #include "walls.hpp"
 
 namespace clgi {

@@ -21,7 +21,7 @@ const cl::CommandQueue& queue() { return test::device().queue; }
 // Pictures of other methods, and the direct light that those start from.
 struct Baked {
     test::Cost solver, view;
-    EmitterRoom room;
+    EmitterCapacity room;
     std::vector<glm::vec3> radiance;
 };
 
@@ -30,7 +30,7 @@ Baked antiradiance(const Scene& scene, bool shadows, bool direct = true) {
     const DeviceScene device = test::on_device(scene);
     AntiradianceOptions options;
     options.bins = 32;
-    options.elements.wished = 40;
+    options.elements.requested = 40;
     options.emitters = test::small_maps(shadows);
     AntiradianceSolver solver(own, queue(), scene, device, options);
     EXPECT_TRUE(solver.run());
@@ -49,7 +49,7 @@ Baked antiradiance(const Scene& scene, bool shadows, bool direct = true) {
     out.view.kernels = of_view.built_kernels();
     out.view.add(view.picture().events());
     out.view.bytes = view.bytes();
-    out.room = view.picture().emitters().room;
+    out.capacity = view.picture().emitters().capacity;
     out.radiance =
         test::vectors(queue(), view.picture().radiance(), view.picture().stride(), pixels);
     return out;
@@ -67,7 +67,7 @@ TEST(WithoutShadows, AntiradianceAndItsPicturesDrawNoMap) {
     EXPECT_GT(on.view.built("CLGI_DEPTH_ONLY"), 0u);
     EXPECT_EQ(off.view.enqueued("gbuffer.raster_large"), 1u);
     const std::size_t maps =
-        on.room.views * sizeof(View) + on.room.pixels * sizeof(std::uint32_t) - 32;
+        on.capacity.views * sizeof(View) + on.capacity.pixels * sizeof(std::uint32_t) - 32;
     EXPECT_EQ(on.view.bytes - off.view.bytes, maps);
     EXPECT_GT(on.solver.bytes - off.solver.bytes, maps);  // lists of large triangles as well
 }
@@ -78,7 +78,7 @@ TEST(WithoutDirectLight, PicturesHaveNoShadowMaps) {
                 off = antiradiance(test::convex_room(), true, false);
     EXPECT_EQ(off.view.built("CLGI_DEPTH_ONLY"), 0u);
     EXPECT_EQ(off.view.enqueued("gbuffer.raster_large"), 1u);
-    EXPECT_EQ(off.room.pixels, 0u);
+    EXPECT_EQ(off.capacity.pixels, 0u);
     EXPECT_LT(off.view.bytes, on.view.bytes);
 }
 
@@ -95,7 +95,7 @@ TEST(WithoutShadows, ALightAtlasHasTheSameDirectLight) {
     LightAtlasSolver without = bakery.solver(options);
     ASSERT_TRUE(with.run() && without.run());
     test::expect_no_less(with.irradiance(), without.irradiance(), 0.05);
-    const EmitterRoom room = make_emitters(bakery.on_device, test::small_maps(true)).room;
+    const EmitterCapacity room = make_emitters(bakery.on_device, test::small_maps(true)).capacity;
     // And lists of large triangles.
     EXPECT_GT(with.bytes() - without.bytes(),
               room.views * sizeof(View) + room.pixels * sizeof(std::uint32_t) - 32);
@@ -215,7 +215,7 @@ Exchanged exchange(const Scene& scene, const AntiradianceOptions& options) {
 AntiradianceOptions few_elements() {
     AntiradianceOptions out;
     out.bins = 64;
-    out.elements.wished = 100;
+    out.elements.requested = 100;
     out.emitters.shadow_size = out.emitters.face_size = 64;
     out.emitters.area_samples = 4;
     return out;

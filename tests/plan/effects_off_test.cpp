@@ -2,9 +2,9 @@
 // passes not enqueued, buffers not allocated; and the picture is the same where an effect is
 // nothing.
 // SPDX-License-Identifier: MIT
-#include <clgi/error.hpp>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/emitters.hpp>
+#include <clgi/error.hpp>
 #include <set>
 
 #include "effect_cost.hpp"
@@ -42,7 +42,7 @@ glm::dvec3 open_floor(const Scene& scene, const glm::dvec3& at) {
 
 struct Direct {
     test::Cost cost;
-    EmitterRoom room;
+    EmitterCapacity room;
     std::vector<glm::vec3> radiance;
     std::vector<glm::dvec3> places;
 };
@@ -68,7 +68,7 @@ Direct second_order(const Scene& scene, const SecondOrderOptions& options) {
     out.cost.add(solver.events());
     out.cost.bytes = solver.bytes();
     EXPECT_EQ(estimate(test::device().device, device, options).bytes, solver.bytes());
-    out.room = solver.emitters().room;
+    out.capacity = solver.emitters().capacity;
     out.radiance = frame.radiance;
     for (std::size_t i = 0; i < pixels && frame.launches > 0; ++i)
         out.places.push_back(frame.world(i));
@@ -91,9 +91,9 @@ TEST(WithoutShadows, AConvexRoomLooksTheSameAndDrawsNoMap) {
             EXPECT_NEAR(on.radiance[i][c], off.radiance[i][c], 1e-6f * off.radiance[i][c]) << i;
     }
     EXPECT_GT(compared, 1000);
-    EXPECT_EQ(off.room.views + off.room.pixels, 0u);
-    EXPECT_EQ(on.room.views, 6u + 1u + 6u + 1u + 6u * 5u);
-    EXPECT_EQ(on.room.emitters, off.room.emitters);
+    EXPECT_EQ(off.capacity.views + off.capacity.pixels, 0u);
+    EXPECT_EQ(on.capacity.views, 6u + 1u + 6u + 1u + 6u * 5u);
+    EXPECT_EQ(on.capacity.emitters, off.capacity.emitters);
     // The camera's view alone is left.
     EXPECT_EQ(off.cost.enqueued("gbuffer.raster_large"), 1u);
     EXPECT_GT(on.cost.passes.size(), off.cost.passes.size());
@@ -101,7 +101,7 @@ TEST(WithoutShadows, AConvexRoomLooksTheSameAndDrawsNoMap) {
     EXPECT_EQ(on.cost.built("raster_views"), 1u);
     // No buffer has less than 16 bytes.
     EXPECT_EQ(on.cost.bytes - off.cost.bytes,
-              on.room.views * sizeof(View) + on.room.pixels * sizeof(std::uint64_t) - 32);
+              on.capacity.views * sizeof(View) + on.capacity.pixels * sizeof(std::uint64_t) - 32);
 }
 
 TEST(WithoutShadows, WhatLiesUnderAPlateIsLit) {

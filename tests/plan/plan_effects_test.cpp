@@ -1,4 +1,4 @@
-// Which effects facts call for, and the scene that is left of a plan. No device.
+// Which effects analysis call for, and the scene that is left of a plan. No device.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <clgi/error.hpp>
@@ -11,8 +11,8 @@ namespace clgi {
 namespace {
 
 // A closed room with every effect in it.
-SceneFacts everything() {
-    SceneFacts out;
+SceneAnalysis everything() {
+    SceneAnalysis out;
     out.lights.points = out.lights.spots = out.lights.directional = 1;
     out.lights.emission = true;
     out.lights.emissive_power = 3.0;
@@ -32,10 +32,10 @@ const EffectChoice& of(const EffectChoices& choices, Effect effect) {
     return choices[static_cast<std::size_t>(effect)];
 }
 
-void expect_choice(const EffectChoices& choices, Effect effect, bool on, Ground ground) {
+void expect_choice(const EffectChoices& choices, Effect effect, bool on, Evidence evidence) {
     EXPECT_EQ(of(choices, effect).on, on) << name_of(effect);
-    EXPECT_EQ(of(choices, effect).ground, ground) << name_of(effect);
-    if (!on && ground != Ground::measured) {
+    EXPECT_EQ(of(choices, effect).evidence, evidence) << name_of(effect);
+    if (!on && evidence != Evidence::measured) {
         EXPECT_EQ(of(choices, effect).bound, 0.0) << name_of(effect);
     }
 }
@@ -54,122 +54,128 @@ TEST(Effects, HaveNamesThatLeadBack) {
 TEST(Effects, AreOnWhereAllOfThemAre) {
     for (const EffectChoice& choice : choose_effects(everything(), 0.01)) {
         EXPECT_TRUE(choice.on) << name_of(choice.effect);
-        EXPECT_EQ(choice.ground, Ground::needed);
+        EXPECT_EQ(choice.evidence, Evidence::needed);
         EXPECT_TRUE(std::isinf(choice.bound));
         EXPECT_FALSE(choice.why.empty());
     }
 }
 
 TEST(Effects, AreOffWhereTheSceneHasNothingOfThem) {
-    using Change = void (*)(SceneFacts&);
+    using Change = void (*)(SceneAnalysis&);
     const std::pair<Effect, Change> cases[] = {
-        {Effect::point_light, [](SceneFacts& f) { f.lights.points = 0; }},
-        {Effect::spot_light, [](SceneFacts& f) { f.lights.spots = 0; }},
-        {Effect::directional_light, [](SceneFacts& f) { f.lights.directional = 0; }},
-        {Effect::area_light, [](SceneFacts& f) { f.lights.emission = false; }},
-        {Effect::gloss, [](SceneFacts& f) { f.surfaces.glossy_area = 0.0; }},
-        {Effect::textures, [](SceneFacts& f) { f.surfaces.textures = false; }},
-        {Effect::cutouts, [](SceneFacts& f) { f.surfaces.cutouts = false; }},
-        {Effect::moving_geometry, [](SceneFacts& f) { f.motion.geometry = false; }},
-        {Effect::moving_lights, [](SceneFacts& f) { f.lights.moving = false; }},
+        {Effect::point_light, [](SceneAnalysis& f) { f.lights.points = 0; }},
+        {Effect::spot_light, [](SceneAnalysis& f) { f.lights.spots = 0; }},
+        {Effect::directional_light, [](SceneAnalysis& f) { f.lights.directional = 0; }},
+        {Effect::area_light, [](SceneAnalysis& f) { f.lights.emission = false; }},
+        {Effect::gloss, [](SceneAnalysis& f) { f.surfaces.glossy_area = 0.0; }},
+        {Effect::textures, [](SceneAnalysis& f) { f.surfaces.textures = false; }},
+        {Effect::cutouts, [](SceneAnalysis& f) { f.surfaces.cutouts = false; }},
+        {Effect::moving_geometry, [](SceneAnalysis& f) { f.motion.geometry = false; }},
+        {Effect::moving_lights, [](SceneAnalysis& f) { f.lights.moving = false; }},
     };
     for (const auto& [effect, change] : cases) {
-        SceneFacts facts = everything();
-        change(facts);
-        const EffectChoices choices = choose_effects(facts, 0.01);
+        SceneAnalysis analysis = everything();
+        change(analysis);
+        const EffectChoices choices = choose_effects(analysis, 0.01);
         for (const EffectChoice& choice : choices)
             expect_choice(choices, choice.effect, choice.effect != effect,
-                          choice.effect == effect ? Ground::absent : Ground::needed);
+                          choice.effect == effect ? Evidence::absent : Evidence::needed);
     }
-    SceneFacts dark = everything();
+    SceneAnalysis dark = everything();
     dark.lights.environment = false;
     EffectChoices choices = choose_effects(dark, 0.01);
-    expect_choice(choices, Effect::environment_light, false, Ground::absent);
-    expect_choice(choices, Effect::environment_shadows, false, Ground::absent);
-    expect_choice(choices, Effect::direct_shadows, true, Ground::needed);
-    SceneFacts sky = everything();
-    sky.lights = LightFacts();
+    expect_choice(choices, Effect::environment_light, false, Evidence::absent);
+    expect_choice(choices, Effect::environment_shadows, false, Evidence::absent);
+    expect_choice(choices, Effect::direct_shadows, true, Evidence::needed);
+    SceneAnalysis sky = everything();
+    sky.lights = LightAnalysis();
     sky.lights.environment = true;
     choices = choose_effects(sky, 0.01);
-    expect_choice(choices, Effect::direct_shadows, false, Ground::absent);
-    expect_choice(choices, Effect::environment_shadows, true, Ground::needed);
-    expect_choice(choices, Effect::first_bounce, true, Ground::needed);
-    sky.lights = LightFacts();
+    expect_choice(choices, Effect::direct_shadows, false, Evidence::absent);
+    expect_choice(choices, Effect::environment_shadows, true, Evidence::needed);
+    expect_choice(choices, Effect::first_bounce, true, Evidence::needed);
+    sky.lights = LightAnalysis();
     choices = choose_effects(sky, 0.01);
     for (const Effect effect :
          {Effect::first_bounce, Effect::further_bounces, Effect::indirect_occlusion})
-        expect_choice(choices, effect, false, Ground::absent);
+        expect_choice(choices, effect, false, Evidence::absent);
 }
 
 TEST(Effects, AreOffWhereProofsSayThatTheyChangeNothing) {
-    SceneFacts facts = everything();
-    facts.proof.lights_open = true;
-    expect_choice(choose_effects(facts, 0.01), Effect::direct_shadows, false, Ground::proven);
-    expect_choice(choose_effects(facts, 0.01), Effect::environment_shadows, true, Ground::needed);
-    expect_choice(choose_effects(facts, 0.01), Effect::indirect_occlusion, true, Ground::needed);
-    facts = everything();
-    facts.proof.environment_open = true;
-    expect_choice(choose_effects(facts, 0.01), Effect::environment_shadows, false, Ground::proven);
-    expect_choice(choose_effects(facts, 0.01), Effect::direct_shadows, true, Ground::needed);
-    facts = everything();
-    facts.proof.surfaces_open = true;
-    expect_choice(choose_effects(facts, 0.01), Effect::indirect_occlusion, false, Ground::proven);
-    expect_choice(choose_effects(facts, 0.01), Effect::first_bounce, true, Ground::needed);
+    SceneAnalysis analysis = everything();
+    analysis.proof.lights_open = true;
+    expect_choice(choose_effects(analysis, 0.01), Effect::direct_shadows, false, Evidence::proven);
+    expect_choice(choose_effects(analysis, 0.01), Effect::environment_shadows, true,
+                  Evidence::needed);
+    expect_choice(choose_effects(analysis, 0.01), Effect::indirect_occlusion, true,
+                  Evidence::needed);
+    analysis = everything();
+    analysis.proof.environment_open = true;
+    expect_choice(choose_effects(analysis, 0.01), Effect::environment_shadows, false,
+                  Evidence::proven);
+    expect_choice(choose_effects(analysis, 0.01), Effect::direct_shadows, true, Evidence::needed);
+    analysis = everything();
+    analysis.proof.surfaces_open = true;
+    expect_choice(choose_effects(analysis, 0.01), Effect::indirect_occlusion, false,
+                  Evidence::proven);
+    expect_choice(choose_effects(analysis, 0.01), Effect::first_bounce, true, Evidence::needed);
     for (const bool black : {false, true}) {
-        facts = everything();
+        analysis = everything();
         if (black)
-            facts.surfaces.largest_albedo = 0.0;
+            analysis.surfaces.largest_albedo = 0.0;
         else
-            facts.proof.surfaces_apart = true;
+            analysis.proof.surfaces_apart = true;
         for (const Effect effect :
              {Effect::first_bounce, Effect::further_bounces, Effect::indirect_occlusion})
-            expect_choice(choose_effects(facts, 0.01), effect, false, Ground::proven);
+            expect_choice(choose_effects(analysis, 0.01), effect, false, Evidence::proven);
     }
 }
 
 // Surfaces reflect q = 0.1 at most. All bounces together are 1 / (1 - q) of the first one, the
 // further ones q / (1 - q), and the margin is two.
 TEST(Effects, AreLeftOutWhereAProbeBoundsThem) {
-    SceneFacts facts = everything();
-    facts.surfaces.largest_albedo = 0.1;
-    facts.surfaces.gloss = facts.surfaces.glossy_area = 0.0;
-    ProbeFacts probe;
+    SceneAnalysis analysis = everything();
+    analysis.surfaces.largest_albedo = 0.1;
+    analysis.surfaces.gloss = analysis.surfaces.glossy_area = 0.0;
+    ProbeResult probe;
     probe.first_bounce = 0.018;
-    EffectChoices choices = choose_effects(facts, 0.01, probe);
+    EffectChoices choices = choose_effects(analysis, 0.01, probe);
     EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.04, 1e-12);
-    expect_choice(choices, Effect::first_bounce, true, Ground::needed);
+    expect_choice(choices, Effect::first_bounce, true, Evidence::needed);
     EXPECT_NEAR(of(choices, Effect::further_bounces).bound, 0.004, 1e-12);
-    expect_choice(choices, Effect::further_bounces, false, Ground::measured);
-    expect_choice(choices, Effect::indirect_occlusion, true, Ground::needed);
-    expect_choice(choose_effects(facts, 0.0039, probe), Effect::further_bounces, true,
-                  Ground::needed);
+    expect_choice(choices, Effect::further_bounces, false, Evidence::measured);
+    expect_choice(choices, Effect::indirect_occlusion, true, Evidence::needed);
+    expect_choice(choose_effects(analysis, 0.0039, probe), Effect::further_bounces, true,
+                  Evidence::needed);
 
-    choices = choose_effects(facts, 0.05, probe);
-    expect_choice(choices, Effect::first_bounce, false, Ground::measured);
-    expect_choice(choices, Effect::further_bounces, false, Ground::measured);
-    expect_choice(choices, Effect::indirect_occlusion, false, Ground::measured);
+    choices = choose_effects(analysis, 0.05, probe);
+    expect_choice(choices, Effect::first_bounce, false, Evidence::measured);
+    expect_choice(choices, Effect::further_bounces, false, Evidence::measured);
+    expect_choice(choices, Effect::indirect_occlusion, false, Evidence::measured);
     EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.04, 1e-12);
 
-    facts.surfaces.largest_albedo = 0.2;
-    choices = choose_effects(facts, 0.05, probe);
+    analysis.surfaces.largest_albedo = 0.2;
+    choices = choose_effects(analysis, 0.05, probe);
     EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.045, 1e-12);
     // The scene reflects ten times as much as the picture shows: what goes on may come later.
     probe.reflected = 1.0;  // 2 0.2 0.2 / 0.8
-    choices = choose_effects(facts, 0.05, probe);
+    choices = choose_effects(analysis, 0.05, probe);
     EXPECT_NEAR(of(choices, Effect::further_bounces).bound, 0.1, 1e-12);
     EXPECT_NEAR(of(choices, Effect::first_bounce).bound, 0.136, 1e-12);
-    expect_choice(choices, Effect::first_bounce, true, Ground::needed);
+    expect_choice(choices, Effect::first_bounce, true, Evidence::needed);
     probe.reflected = 0.0;
     // Nor do pictures without gloss bound what is glossy, or bright surfaces.
-    facts.surfaces.glossy_area = 0.1;
-    expect_choice(choose_effects(facts, 0.05, probe), Effect::first_bounce, true, Ground::needed);
-    facts.surfaces.glossy_area = 0.0;
-    facts.surfaces.largest_albedo = 0.31;
-    EXPECT_TRUE(std::isinf(of(choose_effects(facts, 0.05, probe), Effect::first_bounce).bound));
-    facts.surfaces.largest_albedo = 0.2;
+    analysis.surfaces.glossy_area = 0.1;
+    expect_choice(choose_effects(analysis, 0.05, probe), Effect::first_bounce, true,
+                  Evidence::needed);
+    analysis.surfaces.glossy_area = 0.0;
+    analysis.surfaces.largest_albedo = 0.31;
+    EXPECT_TRUE(std::isinf(of(choose_effects(analysis, 0.05, probe), Effect::first_bounce).bound));
+    analysis.surfaces.largest_albedo = 0.2;
     // A camera that sees nothing lit says nothing.
     probe.first_bounce = INFINITY;
-    expect_choice(choose_effects(facts, 0.05, probe), Effect::first_bounce, true, Ground::needed);
+    expect_choice(choose_effects(analysis, 0.05, probe), Effect::first_bounce, true,
+                  Evidence::needed);
 }
 
 // ---- what is left of a scene -------------------------------------------------------------------
@@ -229,11 +235,11 @@ TEST(PlannedScene, LosesWhatIsOff) {
 
 TEST(PlannedScene, KeepsDarkLightsThatMayChange) {
     Plan plan = plan_without(Effect::point_light);
-    plan.wish.lights_change = true;
+    plan.request.lights_change = true;
     Scene scene = full_scene();
     EXPECT_EQ(planned_scene(scene, plan).lights.size(), 2u);  // the dark one is a point light
     plan = plan_without(Effect::spot_light);
-    plan.wish.lights_change = true;
+    plan.request.lights_change = true;
     EXPECT_EQ(planned_scene(scene, plan).lights.size(), 3u);
 }
 

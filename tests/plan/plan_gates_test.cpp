@@ -64,9 +64,9 @@ Given given(unsigned seed) {
 }
 
 // Nothing where the method refuses the scene; `refused` then says why.
-std::optional<Pixels> picture(const Given& of, const PlanWish& wish, std::string& refused) {
+std::optional<Pixels> picture(const Given& of, const PlanRequest& request, std::string& refused) {
     try {
-        const Plan plan = test::plan_of(of.scene, of.camera, wish);
+        const Plan plan = test::plan_of(of.scene, of.camera, request);
         const Scene left = planned_scene(of.scene, plan);
         const DeviceScene uploaded = test::on_device(left);
         PlannedRenderer renderer(test::programs(), test::device().queue, left, uploaded, plan);
@@ -113,14 +113,14 @@ TEST(Gates, OfRandomScenesGiveFiniteLightOrRefuseInOneLine) {
         SCOPED_TRACE("scene " + std::to_string(seed));
         const Given of = given(static_cast<unsigned>(seed));
         std::string why;
-        PlanWish wish = test::quick();
-        wish.seconds = 0.03;
-        // Without a wish the plan takes a method that can do it.
-        const auto own = picture(of, wish, why);
+        PlanRequest request = test::quick();
+        request.seconds = 0.03;
+        // Without a request the plan takes a method that can do it.
+        const auto own = picture(of, request, why);
         if (own) expect_light(*own);
         EXPECT_TRUE(own || of.scene.triangles.empty()) << why;
-        wish.method = methods[seed % 5];
-        const auto other = picture(of, wish, why);
+        request.method = methods[seed % 5];
+        const auto other = picture(of, request, why);
         if (other) expect_light(*other);
         ++(other ? taken : refused);
     }
@@ -136,23 +136,23 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
         SCOPED_TRACE("scene " + std::to_string(seed));
         const Given of = given(static_cast<unsigned>(seed));
         std::string why;
-        PlanWish tolerant = test::quick();
+        PlanRequest tolerant = test::quick();
         tolerant.tolerance = 0.1;
         const Plan plan = test::plan_of(of.scene, of.camera, tolerant);
-        const auto off = [&](Effect effect, Ground ground) {
+        const auto off = [&](Effect effect, Evidence evidence) {
             const EffectChoice& choice = plan.effects[static_cast<std::size_t>(effect)];
-            return !choice.on && choice.ground == ground;
+            return !choice.on && choice.evidence == evidence;
         };
         reference::Effects direct;
         direct.last_bounce = 0;
-        const LightFacts& lights = plan.facts.lights;
+        const LightAnalysis& lights = plan.analysis.lights;
         // Those with an extent are sampled, and their noise would hide what differs.
         if (lights.environment || lights.emissive_triangles > 0) continue;
-        if (off(Effect::direct_shadows, Ground::proven)) {
-            PlanWish wish = test::quick({}, {Effect::first_bounce});
-            wish.method = Method::direct;
+        if (off(Effect::direct_shadows, Evidence::proven)) {
+            PlanRequest request = test::quick({}, {Effect::first_bounce});
+            request.method = Method::direct;
             const Given plain = untextured(of);
-            const auto lean = picture(plain, wish, why);
+            const auto lean = picture(plain, request, why);
             const Pixels truth = test::traced(plain.scene, plain.camera, 1, direct);
             ASSERT_TRUE(lean) << why;
             // Single pixels at the edges of surfaces and cones.
@@ -161,15 +161,15 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
             if (mean(truth) > 0.0) worst = std::max(worst, apart / mean(truth));
             ++shadows;
         }
-        const bool proven = off(Effect::first_bounce, Ground::proven);
-        if (proven || off(Effect::first_bounce, Ground::measured)) {
+        const bool proven = off(Effect::first_bounce, Evidence::proven);
+        if (proven || off(Effect::first_bounce, Evidence::measured)) {
             const Pixels all = test::traced(of.scene, of.camera, 64);
             const Pixels once = test::traced(of.scene, of.camera, 64, direct);
             EXPECT_LE(distance(all, once), (plan.bound + 1e-6) * mean(all))
                 << (proven ? "proven" : "measured") << ", bound " << plan.bound << ", of the mean "
                 << distance(all, once) / mean(all) << ", pixels " << unlike(all, once)
                 << ", lights " << lights.points << " " << lights.spots << " " << lights.directional
-                << ", largest albedo " << plan.facts.surfaces.largest_albedo;
+                << ", largest albedo " << plan.analysis.surfaces.largest_albedo;
             ++(proven ? bounces : measured);
         }
     }

@@ -11,134 +11,135 @@
 namespace clgi {
 namespace {
 
-bool stands_on(const std::string& ground, const std::string& scenes) {
-    return ground.find("indirect light as measured in " + scenes) == 0;
+bool stands_on(const std::string& evidence, const std::string& scenes) {
+    return evidence.find("indirect light as measured in " + scenes) == 0;
 }
 
 // Of every kind of scene: the methods that it is given, and those that it is not.
 TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
     const cl::Device& device = test::device().device;
-    const SceneFacts room = scene_facts(test::furnished_room(3));
-    const auto method = [&](const std::function<void(SceneFacts&, PlanWish&)>& change) {
-        SceneFacts facts = room;
-        PlanWish wish;
-        wish.seconds = 0.1;
-        change(facts, wish);
-        return make_plan(device, facts, wish).method;
+    const SceneAnalysis room = scene_analysis(test::furnished_room(3));
+    const auto method = [&](const std::function<void(SceneAnalysis&, PlanRequest&)>& change) {
+        SceneAnalysis analysis = room;
+        PlanRequest request;
+        request.seconds = 0.1;
+        change(analysis, request);
+        return make_plan(device, analysis, request).method;
     };
-    EXPECT_EQ(method([](SceneFacts&, PlanWish&) {}), Method::antiradiance);
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([](SceneAnalysis&, PlanRequest&) {}), Method::antiradiance);
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
                   f.surfaces.cutouts = true;
                   w.seconds = 1.0;
               }),
               Method::light_atlas);
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
                   f.surfaces.double_sided_area = 1.0;
                   w.seconds = 1.0;
               }),
               Method::antiradiance);
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish&) { f.surfaces.triangles = 500000; }),
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest&) { f.surfaces.triangles = 500000; }),
               Method::second_order);
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
                   f.surfaces.gloss = f.surfaces.glossy_area = 0.5;
                   w.seconds = 10.0;
               }),
               Method::antiradiance);
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
                   f.surfaces.triangles = 500000;
                   w.animated = true;
                   w.without = {Effect::direct_shadows};  // which second order cannot do without
               }),
               Method::second_order);
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish& w) {
-                  f.lights = LightFacts();
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
+                  f.lights = LightAnalysis();
                   f.lights.environment = true;
                   f.openness = 0.9;
                   w.animated = true;
               }),
               Method::dynamic_transfer);
     // Little moves, of many triangles: what stands still is baked.
-    const auto walks = [](SceneFacts& f, PlanWish& w) {
+    const auto walks = [](SceneAnalysis& f, PlanRequest& w) {
         f.surfaces.triangles = 500000;
         f.motion = {true, 2000, 0.02, false, 0.1};
         w.animated = true;
     };
     EXPECT_EQ(method(walks), Method::light_atlas);
-    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([&](SceneAnalysis& f, PlanRequest& w) {
                   walks(f, w);
                   f.surfaces.triangles = 12000;
                   w.seconds = 0.02;  // links that follow take longer
               }),
               Method::light_atlas);
-    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([&](SceneAnalysis& f, PlanRequest& w) {
                   walks(f, w);
                   f.motion.moving_area = 0.3;
               }),
               Method::second_order);
-    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([&](SceneAnalysis& f, PlanRequest& w) {
                   walks(f, w);
                   f.motion.moving_emission = true;
               }),
               Method::second_order);
-    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([&](SceneAnalysis& f, PlanRequest& w) {
                   walks(f, w);
                   f.surfaces.triangles = 31000;  // maps that a bake would draw take little
                   f.lights.moving = true;
               }),
               Method::second_order);
-    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([&](SceneAnalysis& f, PlanRequest& w) {
                   walks(f, w);
                   w.lights_change = true;
               }),
               Method::second_order);
-    EXPECT_EQ(method([&](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([&](SceneAnalysis& f, PlanRequest& w) {
                   walks(f, w);
                   f.surfaces.double_sided_area = 0.5;  // an atlas has one light for both sides
               }),
               Method::second_order);
-    EXPECT_NE(method([](SceneFacts& f, PlanWish& w) {
+    EXPECT_NE(method([](SceneAnalysis& f, PlanRequest& w) {
                   f.lights.environment = true;  // beside the lamp
                   f.openness = 0.9;
                   w.animated = true;
               }),
               Method::dynamic_transfer);
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish& w) {
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
                   f.surfaces.cutouts = true;
                   w.seconds = 1e-3;
                   w.without = {Effect::direct_shadows};
               }),
               Method::light_atlas);  // the only one, however slow
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish&) { f.surfaces.triangles = 0; }), Method::direct);
-    EXPECT_EQ(method([](SceneFacts& f, PlanWish&) {
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest&) { f.surfaces.triangles = 0; }),
+              Method::direct);
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest&) {
                   f.surfaces.degenerate = f.surfaces.triangles;  // none has area
               }),
               Method::direct);
-    EXPECT_EQ(method([](SceneFacts&, PlanWish& w) {
+    EXPECT_EQ(method([](SceneAnalysis&, PlanRequest& w) {
                   w.without = {Effect::indirect_occlusion};
                   w.seconds = 1.0;
               }),
               Method::light_atlas);
-    EXPECT_NE(method([](SceneFacts&, PlanWish& w) { w.without = {Effect::further_bounces}; }),
+    EXPECT_NE(method([](SceneAnalysis&, PlanRequest& w) { w.without = {Effect::further_bounces}; }),
               Method::antiradiance);
-    for (const Method wished : {Method::direct, Method::second_order, Method::light_atlas,
-                                Method::antiradiance, Method::dynamic_transfer})
-        EXPECT_EQ(method([&](SceneFacts&, PlanWish& w) { w.method = wished; }), wished);
+    for (const Method requested : {Method::direct, Method::second_order, Method::light_atlas,
+                                   Method::antiradiance, Method::dynamic_transfer})
+        EXPECT_EQ(method([&](SceneAnalysis&, PlanRequest& w) { w.method = requested; }), requested);
 }
 
-// Whether by proof or by wish, a light atlas draws no hemicubes then, and costs less.
+// Whether by proof or by request, a light atlas draws no hemicubes then, and costs less.
 TEST(Plan, SwitchesTheOcclusionOfLightAtlasesOff) {
     const cl::Device& device = test::device().device;
-    SceneFacts facts = scene_facts(test::furnished_room(3));
-    PlanWish wish;
-    wish.method = Method::light_atlas;
-    const Plan hidden = make_plan(device, facts, wish);
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    PlanRequest request;
+    request.method = Method::light_atlas;
+    const Plan hidden = make_plan(device, analysis, request);
     EXPECT_TRUE(hidden.light_atlas.occlusion);
-    wish.without = {Effect::indirect_occlusion};
-    EXPECT_FALSE(make_plan(device, facts, wish).light_atlas.occlusion);
-    wish.without = {};
-    facts.proof.surfaces_open = true;
-    wish.error = 0.034;  // the settings of which both kinds of scene are known
-    const Plan open = make_plan(device, facts, wish);
+    request.without = {Effect::indirect_occlusion};
+    EXPECT_FALSE(make_plan(device, analysis, request).light_atlas.occlusion);
+    request.without = {};
+    analysis.proof.surfaces_open = true;
+    request.error = 0.034;  // the settings of which both kinds of scene are known
+    const Plan open = make_plan(device, analysis, request);
     EXPECT_FALSE(open.light_atlas.occlusion);
     EXPECT_GT(hidden.effects[static_cast<std::size_t>(Effect::indirect_occlusion)].milliseconds,
               0.0);
@@ -146,13 +147,13 @@ TEST(Plan, SwitchesTheOcclusionOfLightAtlasesOff) {
 
 // Predicted, not measured.
 TEST(Plan, TakesTheBestWithinATimeAndTheCheapestWithinAnError) {
-    const SceneFacts facts = scene_facts(test::furnished_room(3));
+    const SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
     const cl::Device& device = test::device().device;
     double last_ms = 0.0, last_error = 1e9;
     for (const double seconds : {0.1, 1.0, 10.0, 100.0}) {
-        PlanWish wish;
-        wish.seconds = seconds;
-        const Plan plan = make_plan(device, facts, wish);
+        PlanRequest request;
+        request.seconds = seconds;
+        const Plan plan = make_plan(device, analysis, request);
         EXPECT_EQ(plan.meets_time, plan.cost.total_ms() <= 1e3 * seconds);
         if (seconds >= 1.0) {
             EXPECT_TRUE(plan.meets_time) << seconds;  // of the accurate ones some take longer
@@ -163,39 +164,39 @@ TEST(Plan, TakesTheBestWithinATimeAndTheCheapestWithinAnError) {
         last_ms = plan.cost.total_ms();
         last_error = *plan.error;
 
-        PlanWish right;
+        PlanRequest right;
         right.error = *plan.error;
-        const Plan cheap = make_plan(device, facts, right);
+        const Plan cheap = make_plan(device, analysis, right);
         EXPECT_TRUE(cheap.meets_error);
         EXPECT_LE(cheap.cost.total_ms(), plan.cost.total_ms());
         EXPECT_LE(*cheap.error, *plan.error);
     }
-    PlanWish wish;
-    wish.error = 1e-6;
-    EXPECT_FALSE(make_plan(device, facts, wish).meets_error);
-    wish.error.reset();
-    wish.seconds = 1e-6;
-    EXPECT_FALSE(make_plan(device, facts, wish).meets_time);
+    PlanRequest request;
+    request.error = 1e-6;
+    EXPECT_FALSE(make_plan(device, analysis, request).meets_error);
+    request.error.reset();
+    request.seconds = 1e-6;
+    EXPECT_FALSE(make_plan(device, analysis, request).meets_time);
 }
 
 // What is off is off in the settings of the method, and what is on is priced.
 TEST(Plan, BringsItsSettingsToTheEffects) {
     const cl::Device& device = test::device().device;
-    const SceneFacts facts = scene_facts(test::furnished_room(3));
+    const SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
     const auto plan = [&](Method method, std::vector<Effect> without, bool animated = false) {
-        PlanWish wish;
-        wish.method = method;
-        wish.without = std::move(without);
-        wish.animated = animated;
-        return make_plan(device, facts, wish);
+        PlanRequest request;
+        request.method = method;
+        request.without = std::move(without);
+        request.animated = animated;
+        return make_plan(device, analysis, request);
     };
     const Plan second = plan(Method::second_order, {});
     EXPECT_GT(second.second_order.negative_vpls, 0);
-    EXPECT_TRUE(stands_on(second.error_ground, "furnished scenes"));
+    EXPECT_TRUE(stands_on(second.error_evidence, "furnished scenes"));
     const Plan convex = plan(Method::second_order, {Effect::indirect_occlusion});
     EXPECT_EQ(convex.second_order.negative_vpls, 0);
     EXPECT_FALSE(convex.error);    // something lies between, and its light is wrong
-    EXPECT_EQ(convex.bound, 0.0);  // a wish is not for the tolerance
+    EXPECT_EQ(convex.bound, 0.0);  // a request is not for the tolerance
     // VPLs are placed through shadow maps, whatever is done with shadows.
     const Plan unshadowed = plan(Method::second_order, {Effect::direct_shadows});
     EXPECT_TRUE(unshadowed.second_order.emitters.shadows);
@@ -206,29 +207,29 @@ TEST(Plan, BringsItsSettingsToTheEffects) {
     EXPECT_EQ(plan(Method::light_atlas, {Effect::further_bounces}).light_atlas.bounces, 1u);
     EXPECT_EQ(plan(Method::antiradiance, {Effect::gloss}).antiradiance.least_gloss, 1.0);
 
-    SceneFacts shining = facts;
-    shining.lights = LightFacts();
+    SceneAnalysis shining = analysis;
+    shining.lights = LightAnalysis();
     shining.lights.environment = true;
     shining.surfaces.glossy_area = shining.surfaces.gloss = 0.5;
-    PlanWish wish;
-    wish.method = Method::dynamic_transfer;
-    const Plan sky = make_plan(device, shining, wish);
+    PlanRequest request;
+    request.method = Method::dynamic_transfer;
+    const Plan sky = make_plan(device, shining, request);
     EXPECT_TRUE(sky.transfer.shadowed);
     EXPECT_TRUE(sky.transfer.gloss);
     EXPECT_EQ(sky.transfer.bounces, 1);
-    wish.without = {Effect::environment_shadows};
-    EXPECT_FALSE(make_plan(device, shining, wish).transfer.shadowed);
-    wish.method = Method::antiradiance;
-    wish.without = {};
-    EXPECT_LT(make_plan(device, shining, wish).antiradiance.least_gloss, 1.0);
+    request.without = {Effect::environment_shadows};
+    EXPECT_FALSE(make_plan(device, shining, request).transfer.shadowed);
+    request.method = Method::antiradiance;
+    request.without = {};
+    EXPECT_LT(make_plan(device, shining, request).antiradiance.least_gloss, 1.0);
 }
 
 TEST(Plan, PricesWhatIsOn) {
     const cl::Device& device = test::device().device;
-    SceneFacts facts = scene_facts(test::furnished_room(3));
-    PlanWish wish;
-    wish.method = Method::antiradiance;
-    const Plan still = make_plan(device, facts, wish);
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    PlanRequest request;
+    request.method = Method::antiradiance;
+    const Plan still = make_plan(device, analysis, request);
     for (const Effect effect :
          {Effect::point_light, Effect::direct_shadows, Effect::indirect_occlusion}) {
         const EffectChoice& choice = still.effects[static_cast<std::size_t>(effect)];
@@ -236,52 +237,52 @@ TEST(Plan, PricesWhatIsOn) {
         EXPECT_LT(choice.milliseconds, still.cost.total_ms()) << name_of(effect);
     }
     // In an animation the exchange is a part of each picture.
-    wish.animated = true;
-    const Plan moving = make_plan(device, facts, wish);
+    request.animated = true;
+    const Plan moving = make_plan(device, analysis, request);
     EXPECT_GT(moving.cost.frame_ms, still.cost.frame_ms);
     // Six views or one.
-    wish.method = Method::direct;
-    wish.seconds = 1e-6;
-    facts.lights = LightFacts();
-    facts.lights.points = 1;
-    const double point = make_plan(device, facts, wish).cost.frame_ms;
-    facts.lights.points = 0;
-    facts.lights.spots = 1;
-    EXPECT_GT(point, make_plan(device, facts, wish).cost.frame_ms);
+    request.method = Method::direct;
+    request.seconds = 1e-6;
+    analysis.lights = LightAnalysis();
+    analysis.lights.points = 1;
+    const double point = make_plan(device, analysis, request).cost.frame_ms;
+    analysis.lights.points = 0;
+    analysis.lights.spots = 1;
+    EXPECT_GT(point, make_plan(device, analysis, request).cost.frame_ms);
 
     // Nothing is proven of lights that change.
-    facts.proof.lights_open = true;
-    EXPECT_FALSE(make_plan(device, facts, wish).on(Effect::direct_shadows));
-    wish.lights_change = true;
-    EXPECT_TRUE(make_plan(device, facts, wish).on(Effect::direct_shadows));
+    analysis.proof.lights_open = true;
+    EXPECT_FALSE(make_plan(device, analysis, request).on(Effect::direct_shadows));
+    request.lights_change = true;
+    EXPECT_TRUE(make_plan(device, analysis, request).on(Effect::direct_shadows));
 }
 
 TEST(Plan, KnowsTheKindOfAScene) {
-    SceneFacts facts = scene_facts(test::furnished_room(3));
-    const auto ground = [&] {
-        PlanWish wish;
-        wish.method = Method::second_order;
-        return make_plan(test::device().device, facts, wish).error_ground;
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    const auto evidence = [&] {
+        PlanRequest request;
+        request.method = Method::second_order;
+        return make_plan(test::device().device, analysis, request).error_evidence;
     };
-    facts.openness = 0.2;
-    EXPECT_TRUE(stands_on(ground(), "furnished scenes"));
-    facts.surfaces.triangles = 30000;
-    EXPECT_TRUE(stands_on(ground(), "finely modelled scenes"));
-    facts.openness = 0.4;
-    EXPECT_TRUE(stands_on(ground(), "open scenes"));
-    facts.proof.surfaces_open = true;
-    EXPECT_TRUE(stands_on(ground(), "convex scenes"));
+    analysis.openness = 0.2;
+    EXPECT_TRUE(stands_on(evidence(), "furnished scenes"));
+    analysis.surfaces.triangles = 30000;
+    EXPECT_TRUE(stands_on(evidence(), "finely modelled scenes"));
+    analysis.openness = 0.4;
+    EXPECT_TRUE(stands_on(evidence(), "open scenes"));
+    analysis.proof.surfaces_open = true;
+    EXPECT_TRUE(stands_on(evidence(), "convex scenes"));
 }
 
 // The bake is before the first picture, whatever moves, and nobody waits for it for long.
 TEST(Plan, ComposesABakeOfWhatStandsStill) {
     const cl::Device& device = test::device().device;
-    SceneFacts facts = scene_facts(test::furnished_room(3));
-    facts.surfaces.triangles = 300000;
-    facts.motion = {true, 2000, 0.02, false, 0.1};
-    PlanWish wish;
-    wish.animated = true;
-    const Plan plan = make_plan(device, facts, wish);
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    analysis.surfaces.triangles = 300000;
+    analysis.motion = {true, 2000, 0.02, false, 0.1};
+    PlanRequest request;
+    request.animated = true;
+    const Plan plan = make_plan(device, analysis, request);
     ASSERT_EQ(plan.method, Method::light_atlas);
     EXPECT_EQ(plan.why, "little moves through light that is baked");
     const auto by = [&](Effect effect) {
@@ -294,20 +295,21 @@ TEST(Plan, ComposesABakeOfWhatStandsStill) {
     EXPECT_LT(plan.cost.frame_ms, 100.0);
     ASSERT_TRUE(plan.error);
     EXPECT_GT(*plan.error, 0.05);
-    EXPECT_NE(plan.error_ground.find("of what moves as in an office"), std::string::npos);
+    EXPECT_NE(plan.error_evidence.find("of what moves as in an office"), std::string::npos);
 
     // The same bake of a scene that stands still is cheaper by the points, and errs less.
-    SceneFacts still = facts;
-    still.motion = MotionFacts();
-    wish.method = Method::light_atlas;
-    const Plan moving = make_plan(device, facts, wish), standing = make_plan(device, still, wish);
+    SceneAnalysis still = analysis;
+    still.motion = MotionAnalysis();
+    request.method = Method::light_atlas;
+    const Plan moving = make_plan(device, analysis, request),
+               standing = make_plan(device, still, request);
     ASSERT_EQ(moving.vpls.count, standing.vpls.count);
     const double maps = standing.cost.frame_ms - moving.cost.frame_ms;
     EXPECT_GT(moving.cost.once_ms, standing.cost.once_ms + maps + 1.0);
     EXPECT_GT(moving.cost.megabytes, standing.cost.megabytes);
     EXPECT_LT(moving.cost.frame_ms, standing.cost.frame_ms);  // its shadow maps are drawn once
     EXPECT_NEAR(std::hypot(*standing.error, 0.05), *moving.error, 1e-9);
-    EXPECT_EQ(standing.error_ground.find("of what moves"), std::string::npos);
+    EXPECT_EQ(standing.error_evidence.find("of what moves"), std::string::npos);
     EXPECT_EQ(standing.effects[static_cast<std::size_t>(Effect::first_bounce)].by, "baked VPLs");
 }
 

@@ -73,8 +73,8 @@ Scene moving_light() {
     return scene;
 }
 
-PlanWish moving(std::vector<Effect> without = {}) {
-    PlanWish out = test::quick({}, std::move(without));
+PlanRequest moving(std::vector<Effect> without = {}) {
+    PlanRequest out = test::quick({}, std::move(without));
     out.animated = true;
     out.build = test::usual_build();
     out.method = Method::second_order;  // which draws what is there in every picture

@@ -48,19 +48,19 @@ TEST(Plan, LeavesOutShadowsInAConvexRoom) {
     const Plan plan = plan_of(scene, camera, quick());
     for (const Effect effect : {Effect::direct_shadows, Effect::indirect_occlusion}) {
         EXPECT_FALSE(plan.on(effect)) << name_of(effect);
-        EXPECT_EQ(plan.effects[static_cast<std::size_t>(effect)].ground, Ground::proven);
+        EXPECT_EQ(plan.effects[static_cast<std::size_t>(effect)].evidence, Evidence::proven);
     }
     EXPECT_TRUE(plan.on(Effect::further_bounces));
-    PlanWish wish = quick(all_effects());
-    wish.method = plan.method;
-    const Plan everything = plan_of(scene, camera, wish);
+    PlanRequest request = quick(all_effects());
+    request.method = plan.method;
+    const Plan everything = plan_of(scene, camera, request);
     EXPECT_TRUE(everything.on(Effect::direct_shadows));
 
     const Rendered lean = render(scene, camera, plan), full = render(scene, camera, everything);
     // Antiradiance, of which there is none here, errs by its bins where it is asked for.
     EXPECT_LT(distance(lean.pixels, full.pixels), 1e-2 * mean(full.pixels));
-    wish.with = {Effect::direct_shadows};
-    const Plan shadowed = plan_of(scene, camera, wish);
+    request.with = {Effect::direct_shadows};
+    const Plan shadowed = plan_of(scene, camera, request);
     EXPECT_TRUE(shadowed.on(Effect::direct_shadows));
     EXPECT_EQ(render(scene, camera, shadowed).pixels, lean.pixels);
     EXPECT_LT(lean.bytes, full.bytes);
@@ -118,9 +118,9 @@ TEST(Plan, BoundsLightThatComesLate) {
     test::add_quad(scene, {glm::dvec3(-2, 1, -2), {2, 1, -2}, {2, 1, 2}, {-2, 1, 2}},
                    test::add_material(scene, lamp));
     const Camera camera = test::camera_at({0.1, 0.8, 0.1}, {0, 0, 0}, 0.6f);
-    PlanWish wish = quick();
-    wish.tolerance = 1.0;
-    const Plan plan = plan_of(scene, camera, wish);
+    PlanRequest request = quick();
+    request.tolerance = 1.0;
+    const Plan plan = plan_of(scene, camera, request);
     ASSERT_TRUE(plan.probe);
     EXPECT_FALSE(plan.on(Effect::first_bounce));
     reference::Effects direct_light;
@@ -137,9 +137,9 @@ TEST(Plan, ProbesIndirectLightOfDarkScenes) {
     Scene scene = slanted_room();
     scene.materials[0].base_color = {0.1f, 0.07f, 0.05f, 1.0f};
     const Camera camera = test::camera_at({0.6, 1.0, 0.6}, {-0.5, 0.6, -0.7});
-    PlanWish wish = quick();
-    wish.tolerance = 0.5;
-    const Plan plan = plan_of(scene, camera, wish);
+    PlanRequest request = quick();
+    request.tolerance = 0.5;
+    const Plan plan = plan_of(scene, camera, request);
     ASSERT_TRUE(plan.probe);
     reference::Effects effects;
     effects.last_bounce = 1;
@@ -161,12 +161,12 @@ TEST(Plan, FollowsLightsThatChange) {
     const Camera camera = test::camera_at({0.6, 1.0, 0.6}, {-0.5, 0.6, -0.7});
     for (const Method method : {Method::light_atlas, Method::antiradiance}) {
         SCOPED_TRACE(name_of(method));
-        PlanWish wish = quick();
-        wish.method = method;
-        wish.lights_change = true;
+        PlanRequest request = quick();
+        request.method = method;
+        request.lights_change = true;
         Scene changed = scene;
         changed.lights[0].position = {-0.4, 0.4, 0.3};
-        const Plan plan = plan_of(scene, camera, wish);
+        const Plan plan = plan_of(scene, camera, request);
         DeviceScene uploaded = test::on_device(scene);
         PlannedRenderer renderer(test::programs(), test::device().queue, scene, uploaded, plan);
         EXPECT_TRUE(renderer.prepare());
@@ -334,11 +334,11 @@ TEST(Plan, KeepsWhatIsTheWholePicture) {
         const Plan plan = plan_of(whole.scene, whole.camera, quick());
         EXPECT_TRUE(plan.on(whole.effect));
         const Pixels kept = render(whole.scene, whole.camera, plan).pixels;
-        PlanWish wish = quick({}, {whole.effect});
+        PlanRequest request = quick({}, {whole.effect});
         // Further bounces and what lies between surfaces are what second order lacks.
         if (whole.effect == Effect::further_bounces || whole.effect == Effect::indirect_occlusion)
-            wish.method = Method::second_order;
-        const Plan less = plan_of(whole.scene, whole.camera, wish);
+            request.method = Method::second_order;
+        const Plan less = plan_of(whole.scene, whole.camera, request);
         EXPECT_FALSE(less.on(whole.effect));
         const Pixels left = render(whole.scene, whole.camera, less).pixels;
         const Pixels truth = test::traced(whole.scene, whole.camera, 256);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <clgi/advanced/facts.hpp>
+#include <clgi/advanced/analysis.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -16,24 +16,25 @@ constexpr double facing_squares = 0.1998248957;  // form factor of unit squares 
                                                  // of a face of a cube and the one across
 
 void expect_open(const Scene& scene, double open, double backs, const std::string& name) {
-    const SceneFacts facts = scene_facts(scene);
-    EXPECT_NEAR(facts.openness, open, 3.0 * facts.openness_error) << name;
-    EXPECT_NEAR(facts.backs, backs, 3.0 * facts.openness_error) << name;
+    const SceneAnalysis analysis = scene_analysis(scene);
+    EXPECT_NEAR(analysis.openness, open, 3.0 * analysis.openness_error) << name;
+    EXPECT_NEAR(analysis.backs, backs, 3.0 * analysis.openness_error) << name;
     // Of 1024 rays, a half open: 1/64.
-    EXPECT_LE(facts.openness_error, 0.016) << name;
-    EXPECT_GE(facts.openness_error, 0.0009) << name;
+    EXPECT_LE(analysis.openness_error, 0.016) << name;
+    EXPECT_GE(analysis.openness_error, 0.0009) << name;
 }
 
 TEST(Openness, IsThatOfViewFactors) {
     using test::tiles;
-    const SceneFacts floor = scene_facts(tiles({{0, 0}}));
+    const SceneAnalysis floor = scene_analysis(tiles({{0, 0}}));
     EXPECT_EQ(floor.openness, 1.0);
     EXPECT_EQ(floor.openness_error, 0.0);
-    EXPECT_EQ(scene_facts(test::both_sided(tiles({{0, 0}}))).openness, 1.0);
-    EXPECT_EQ(scene_facts(test::unit_box(1)).openness, 1.0);
-    EXPECT_EQ(scene_facts(Scene()).openness, 1.0);
-    EXPECT_EQ(scene_facts(test::unit_box(-1)).openness, 0.0);
-    EXPECT_EQ(scene_facts(test::carried_off(test::unit_box(-1), 3.0, {1e5, 0, 0})).openness, 0.0);
+    EXPECT_EQ(scene_analysis(test::both_sided(tiles({{0, 0}}))).openness, 1.0);
+    EXPECT_EQ(scene_analysis(test::unit_box(1)).openness, 1.0);
+    EXPECT_EQ(scene_analysis(Scene()).openness, 1.0);
+    EXPECT_EQ(scene_analysis(test::unit_box(-1)).openness, 0.0);
+    EXPECT_EQ(scene_analysis(test::carried_off(test::unit_box(-1), 3.0, {1e5, 0, 0})).openness,
+              0.0);
     expect_open(test::unit_box(-1), 0.0, 0.0, "room");
     // Five unit faces see an opening of 1 as often as it sees them.
     expect_open(test::open_box(), 0.2, 0.0, "open box");
@@ -55,9 +56,9 @@ TEST(Openness, IsThatOfViewFactors) {
     std::swap(corner.materials[0], corner.materials[1]);
     expect_open(corner, 1.0 - 0.1164263014, 0.0, "black");
     corner.materials[0] = corner.materials[1];
-    EXPECT_GT(scene_facts(corner).openness, 0.5);
+    EXPECT_GT(scene_analysis(corner).openness, 0.5);
     for (Material& material : corner.materials) material.base_color = glm::vec4(0, 0, 0, 1);
-    const SceneFacts black = scene_facts(corner);
+    const SceneAnalysis black = scene_analysis(corner);
     EXPECT_EQ(black.openness, 0.0);
     EXPECT_EQ(black.openness_error, 0.0);
 }
@@ -78,9 +79,10 @@ constexpr double few_points = 0.05;  // of 256, more even than independent ones
 
 void expect_lit(const Scene& scene, double lit, double twice, const std::string& name) {
     for (const Scene& same : {scene, test::carried_off(scene, 3.0, {100, 20, -50})}) {
-        const SceneFacts facts = scene_facts(same);
-        EXPECT_NEAR(facts.lit, lit, lit > 0.0 && lit < 1.0 ? few_points : 0.0) << name;
-        EXPECT_NEAR(facts.lit_twice, twice, twice > 0.0 && twice < 1.0 ? few_points : 0.0) << name;
+        const SceneAnalysis analysis = scene_analysis(same);
+        EXPECT_NEAR(analysis.lit, lit, lit > 0.0 && lit < 1.0 ? few_points : 0.0) << name;
+        EXPECT_NEAR(analysis.lit_twice, twice, twice > 0.0 && twice < 1.0 ? few_points : 0.0)
+            << name;
     }
 }
 
@@ -122,13 +124,13 @@ TEST(LitParts, AreThoseOfEmissiveSurfaces) {
             {glm::dvec3(0, 2, 0), {1, 2, 0}, {1, 2, 1}, {0, 2, 1}}};  // seen from below
         if (up) std::swap(corners[1], corners[3]);
         test::add_quad(scene, corners, test::add_material(scene, lamp));
-        const SceneFacts facts = scene_facts(scene);
+        const SceneAnalysis analysis = scene_analysis(scene);
         // Below a lamp a plate at half the height, as large: no point under it is lit; to its side
         // up to twice its width is half in the shadow.
-        EXPECT_NEAR(facts.lit, up ? 0.0 : (0.5 + 2.0) / 4.0, up ? 0.0 : few_points);
-        EXPECT_EQ(facts.lit_twice, 0.0);
+        EXPECT_NEAR(analysis.lit, up ? 0.0 : (0.5 + 2.0) / 4.0, up ? 0.0 : few_points);
+        EXPECT_EQ(analysis.lit_twice, 0.0);
         scene.lights = {test::directional_light({0, -1, 0})};
-        EXPECT_EQ(scene_facts(scene).lit_twice > 0.5, !up);
+        EXPECT_EQ(scene_analysis(scene).lit_twice > 0.5, !up);
     }
 }
 
@@ -137,7 +139,7 @@ TEST(LitParts, OfManyLightsAreEstimates) {
     Scene scene = floor_below_plate();
     scene.lights.assign(40, test::directional_light({0, 1, 0}));
     scene.lights[17].direction = {0, -1, 0};
-    EXPECT_NEAR(scene_facts(scene).lit, 0.75 * 16.0 / 40.0, few_points);
+    EXPECT_NEAR(scene_analysis(scene).lit, 0.75 * 16.0 / 40.0, few_points);
     scene.lights.assign(40, scene.lights[17]);
     expect_lit(scene, 0.75, 1.0, "all");
     // The last eighth of very many from above: each point looks for two of it.
@@ -159,8 +161,8 @@ TEST(LitParts, AreNotWhatLightGrazes) {
     for (int turn = 0; turn < 20; ++turn) {
         wall = test::carried_off(wall, 1.0, {0.1 * turn, 0.3, 0.2});
         lamp = test::carried_off(lamp, 1.0, {0.1 * turn, 0.3, 0.2});
-        EXPECT_EQ(scene_facts(wall).lit, 0.0) << turn;
-        EXPECT_EQ(scene_facts(lamp).lit, 0.0) << turn;
+        EXPECT_EQ(scene_analysis(wall).lit, 0.0) << turn;
+        EXPECT_EQ(scene_analysis(lamp).lit, 0.0) << turn;
     }
 }
 
@@ -172,13 +174,14 @@ TEST(Walls, AreAsThickAsTheyAre) {
         return scene;
     };
     // A hundredth of the diagonal of 7 x 2 x 4 m are 0.083 m.
-    const SceneFacts facts = scene_facts(slab(0.02));
-    EXPECT_NEAR(facts.thin, 32.0 / (32.0 + 4 * 0.08 + 24.0), few_points);
-    EXPECT_NEAR(facts.thinnest, 0.02, 1e-6);
-    const SceneFacts carried = scene_facts(test::carried_off(slab(0.02), 3.0, {100, 20, -50}));
-    EXPECT_NEAR(carried.thin, facts.thin, few_points);
+    const SceneAnalysis analysis = scene_analysis(slab(0.02));
+    EXPECT_NEAR(analysis.thin, 32.0 / (32.0 + 4 * 0.08 + 24.0), few_points);
+    EXPECT_NEAR(analysis.thinnest, 0.02, 1e-6);
+    const SceneAnalysis carried =
+        scene_analysis(test::carried_off(slab(0.02), 3.0, {100, 20, -50}));
+    EXPECT_NEAR(carried.thin, analysis.thin, few_points);
     EXPECT_NEAR(carried.thinnest, 0.06, 1e-5);
-    const SceneFacts thicker = scene_facts(slab(0.1));
+    const SceneAnalysis thicker = scene_analysis(slab(0.1));
     EXPECT_EQ(thicker.thin, 0.0);
     EXPECT_NEAR(thicker.thinnest, 0.1, 1e-6);
 }
@@ -187,11 +190,11 @@ TEST(Walls, EndAtBacksAlone) {
     for (const Scene& scene :
          {test::unit_box(-1), test::tiles({{0, 0}, {0, 1e-3}}),  // sheets that face one way
           test::both_sided(test::tiles({{0, 0}, {0, 1e-3, -1}}))}) {
-        EXPECT_EQ(scene_facts(scene).thin, 0.0);
-        EXPECT_EQ(scene_facts(scene).thinnest, 0.0);
+        EXPECT_EQ(scene_analysis(scene).thin, 0.0);
+        EXPECT_EQ(scene_analysis(scene).thinnest, 0.0);
     }
-    EXPECT_EQ(scene_facts(test::tiles({{0, 1e-3}, {0, 0, -1}})).thin, 1.0);
-    EXPECT_NEAR(scene_facts(test::unit_box(1)).thinnest, 1.0, 1e-6);  // the proof needs no rays
+    EXPECT_EQ(scene_analysis(test::tiles({{0, 1e-3}, {0, 0, -1}})).thin, 1.0);
+    EXPECT_NEAR(scene_analysis(test::unit_box(1)).thinnest, 1.0, 1e-6);  // the proof needs no rays
 }
 
 }  // namespace

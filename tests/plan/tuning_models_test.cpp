@@ -5,10 +5,10 @@
 #include <clgi/procedural.hpp>
 #include <cmath>
 
-#include "program/duration.hpp"
-#include "program/percent.hpp"
 #include "device.hpp"
 #include "plan/tuning_models.hpp"
+#include "program/duration.hpp"
+#include "program/percent.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -93,7 +93,7 @@ TEST(WithinTime, FollowsTheOrderOfTimes) {
 TEST(WithinError, TakesTheCheapestThatMeetsIt) {
     const FrameTimeModel time{1.0, {0.01, 0.1}};
     const FrameErrorModel errors{{{100, 0.1}, {400, 0.05}, {1600, 0.025}}, {0.0016, 0.0}};
-    // 0.1^2 + 0.04^2 and the like at the first rung, sampling alone at the second.
+    // 0.1^2 + 0.04^2 and the like at the first preset, sampling alone at the second.
     const auto few = within_error(time, errors, 0.11);
     ASSERT_TRUE(few);
     EXPECT_EQ(few->refinement, 0u);

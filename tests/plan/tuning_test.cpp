@@ -57,9 +57,9 @@ SecondOrderOptions small_picture() {
 }
 
 std::optional<SecondOrderTuning> tuned(const DeviceScene& device, SecondOrderSolver& solver,
-                                       const Camera& camera, const TuningWish& wish,
+                                       const Camera& camera, const TuningTarget& request,
                                        const Progress& progress = nullptr) {
-    return tune_second_order(test::device().queue, device, solver, camera, wish, progress);
+    return tune_second_order(test::device().queue, device, solver, camera, request, progress);
 }
 
 void expect_settings(const SecondOrderOptions& options, const SecondOrderSettings& settings) {
@@ -76,16 +76,16 @@ TEST_P(TuneFor, AnErrorThatIsNotExceeded) {
     const DeviceScene device = test::on_device(scene);
     const Camera& camera = scene.cameras[0];
     SecondOrderSolver solver(test::programs(), test::device().queue, device, small_picture());
-    constexpr double wished = 0.1;
-    const auto found = tuned(device, solver, camera, {.error = wished});
+    constexpr double requested = 0.1;
+    const auto found = tuned(device, solver, camera, {.error = requested});
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->meets_error);
     ASSERT_TRUE(found->error);
-    EXPECT_LE(*found->error, wished);
+    EXPECT_LE(*found->error, requested);
     expect_settings(solver.options(), found->settings);
     EXPECT_EQ(solver.options().emitters.replicate, 0u);
     EXPECT_EQ(solver.options().width, 64);
-    EXPECT_LE(true_error(solver, camera), wished) << "estimated " << *found->error;
+    EXPECT_LE(true_error(solver, camera), requested) << "estimated " << *found->error;
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, TuneFor,
@@ -164,9 +164,10 @@ TEST_F(Tune, LeavesTheSolverAsItWasWhenCancelled) {
 }
 
 TEST_F(Tune, RefusesWishesOutOfRange) {
-    for (const TuningWish& wish : {TuningWish{}, TuningWish{0.0, {}}, TuningWish{{}, -0.1},
-                                   TuningWish{NAN, 0.1}, TuningWish{10.0, INFINITY}})
-        EXPECT_THROW(tuned(device_, *solver_, camera_, wish), Error);
+    for (const TuningTarget& request :
+         {TuningTarget{}, TuningTarget{0.0, {}}, TuningTarget{{}, -0.1}, TuningTarget{NAN, 0.1},
+          TuningTarget{10.0, INFINITY}})
+        EXPECT_THROW(tuned(device_, *solver_, camera_, request), Error);
     SecondOrderOptions direct = small_picture();
     direct.indirect = false;
     solver_->reconfigure(direct);
@@ -174,12 +175,12 @@ TEST_F(Tune, RefusesWishesOutOfRange) {
 }
 
 TEST_F(Tune, GivesAPlanWhatItsTimeBuys) {
-    PlanWish wish;
-    wish.width = 64;
-    wish.height = 48;
-    wish.seconds = 1e-6;
-    wish.method = Method::second_order;
-    const Plan plan = make_plan(test::device().device, scene_facts(scene_), wish);
+    PlanRequest request;
+    request.width = 64;
+    request.height = 48;
+    request.seconds = 1e-6;
+    request.method = Method::second_order;
+    const Plan plan = make_plan(test::device().device, scene_analysis(scene_), request);
     PlannedRenderer renderer(test::programs(), test::device().queue, scene_, device_, plan);
     ASSERT_TRUE(renderer.tune(camera_));
     const Plan& after = renderer.plan();

@@ -86,8 +86,10 @@ TEST_F(AtlasProgram, BakesAFileThatShowsTheLight) {
                   file("lit.glb").string())
                   .code,
               0);
-    ASSERT_EQ(run("render " + scene + options + "--method atlas --no-direct --size 64x48 --full "
-                  "--quiet" + out("atlas.exr"))
+    ASSERT_EQ(run("render " + scene + options +
+                  "--method atlas --no-direct --size 64x48 --full "
+                  "--quiet" +
+                  out("atlas.exr"))
                   .code,
               0);
     ASSERT_EQ(run("render " + file("lit.glb").string() +
@@ -134,13 +136,14 @@ TEST_F(AtlasProgram, BadInputEndsWithOneLineAndNoFile) {
     for (const char* command : {"bake ", "render ", "reference "})
         for (const char* wrong : {" --quiet -o wrong.png", " --quiet --png wrong.exr"})
             expect_one_error_line(run(command + scene + wrong), 1);
-    expect_one_error_line(run("bake " + scene + " --quiet --progressive --unwrapped " +
-                              file("y.glb").string()), 1);
+    expect_one_error_line(
+        run("bake " + scene + " --quiet --progressive --unwrapped " + file("y.glb").string()), 1);
     for (const char* flags :
          {"--vpls 0", "--bounces -1", "--atlas-size 9000", "--atlas-size 0", "--hemicube-size 33",
-          "--hemicube-size 2048", "--refine 3", "--threshold none", "--uvs 2", "--pages 0", "--padding 0",
-          "--samples-per-vpl 0", "--texels-per-metre -1", "--size 64x64", "--gltf-lights",
-          "--gltf-detail 2", "--direct --gltf-lights --gltf y.glb", "--gltf-detail 0 --gltf y.glb"})
+          "--hemicube-size 2048", "--refine 3", "--threshold none", "--uvs 2", "--pages 0",
+          "--padding 0", "--samples-per-vpl 0", "--texels-per-metre -1", "--size 64x64",
+          "--gltf-lights", "--gltf-detail 2", "--direct --gltf-lights --gltf y.glb",
+          "--gltf-detail 0 --gltf y.glb"})
         refused(scene + " " + flags, 1);
     refused(file("absent.glb").string(), 2);
     refused(scene + " --uvs 1", 2);                  // there is none

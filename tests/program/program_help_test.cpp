@@ -125,7 +125,8 @@ TEST_F(Program, HelpShowsTheDefaultOfEveryOption) {
 }
 
 TEST_F(Program, EveryPositionalIsRequired) {
-    for (const char* command : {"scene", "plan", "render", "bake", "reference", "compare", "sweep", "bench"}) {
+    for (const char* command :
+         {"scene", "plan", "render", "bake", "reference", "compare", "sweep", "bench"}) {
         const auto positionals = entries(run(std::string(command) + " --help").out, "Positionals:");
         EXPECT_FALSE(positionals.empty()) << command;
         for (const std::string& entry : positionals)

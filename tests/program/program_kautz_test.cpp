@@ -1,12 +1,12 @@
 // bench kautz1 and kautz2, and the vectors by cast rays that errors are measured against.
 // SPDX-License-Identifier: MIT
-#include <clgi/reference.hpp>
 #include <clgi/advanced/sh.hpp>
+#include <clgi/reference.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "program.hpp"
 #include "lab/transfer_truth.hpp"
+#include "program.hpp"
 
 namespace {
 

@@ -1,10 +1,10 @@
 // clgi render --method antiradiance --fps: what moves is lit where it is.
 // SPDX-License-Identifier: MIT
-#include "lab/scenes/deforming.hpp"
 #include <clgi/io/gltf.hpp>
 #include <clgi/io/image.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include "lab/scenes/deforming.hpp"
 
 #include "program.hpp"
 

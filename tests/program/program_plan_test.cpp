@@ -74,7 +74,7 @@ TEST_F(Program, OverrulesAPlan) {
     ASSERT_EQ(run(render + " --with all --quiet").code, 0);
     for (const auto& effect : nlohmann::json::parse(read("s.json")).at("plan").at("effects"))
         EXPECT_EQ(effect.at("on"), true) << effect;
-    // A wish that nothing meets is met as nearly as can be, and a warning says so.
+    // A request that nothing meets is met as nearly as can be, and a warning says so.
     const Outcome never = run(render + " --target-error 0.01% --quiet");
     EXPECT_EQ(never.code, 0);
     EXPECT_NE(never.err.find("no method is known to reach"), std::string::npos) << never.err;

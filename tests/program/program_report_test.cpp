@@ -48,8 +48,8 @@ TEST_F(Program, RefusesReferencesOfNothing) {
 TEST_F(Program, SweepsASceneIntoAFolder) {
     const std::string scene = make("cornell --light spot");
     const fs::path folder = file("sweep");
-    const Outcome outcome =
-        run("sweep " + scene + " -o " + folder.string() + " --quick --size 40x30 --spp 16 --sheet-time 0.2s");
+    const Outcome outcome = run("sweep " + scene + " -o " + folder.string() +
+                                " --quick --size 40x30 --spp 16 --sheet-time 0.2s");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     for (const char* name :
          {"index.html", "sweep.csv", "sweep.json", "reference-full.exr", "methods.png"})
@@ -63,8 +63,8 @@ TEST_F(Program, SweepsASceneIntoAFolder) {
     expect_one_error_line(run("sweep " + scene + " -o " + folder.string() + " --method vpl"), 1);
     for (const char* flags : {"--method antiradiance --sheet-time 1s", "--sheet-time 5",
                               "--method atlas --sheet-time 1s", "--convergence --sheet-time 1s"})
-        expect_one_error_line(run("sweep " + scene + " --quiet -o " + folder.string() + " " + flags),
-                              1);
+        expect_one_error_line(
+            run("sweep " + scene + " --quiet -o " + folder.string() + " " + flags), 1);
     expect_one_error_line(run("sweep " + scene), 1);
     std::ofstream(file("taken")) << "a file";
     expect_one_error_line(run("sweep " + scene + " --quiet -o " + file("taken").string()), 2);
@@ -89,9 +89,9 @@ TEST_F(Program, SweepsALightAtlas) {
              "--method atlas --size 32x32", "--method atlas --camera 0", "--atlas-size 32",
              "--reference " + reference, "--method atlas --atlas-size 0"})
         expect_one_error_line(run(sweep + " --quiet " + flags), 1);
-    for (const std::string& flags : std::vector<std::string>{
-             "--atlas-size 33 --reference " + reference,
-             "--reference " + file("absent.exr").string(), "--atlas-size 1"})
+    for (const std::string& flags :
+         std::vector<std::string>{"--atlas-size 33 --reference " + reference,
+                                  "--reference " + file("absent.exr").string(), "--atlas-size 1"})
         expect_one_error_line(run(sweep + " --quiet --method atlas " + flags), 2);
 }
 

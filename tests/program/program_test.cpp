@@ -31,9 +31,9 @@ TEST_F(Program, RendersEveryProceduralSceneToAFinitePicture) {
           "maze", "office", "character", "oriental-like", "glossy-box", "glossy-bust-like"}) {
         const std::string scene = make(name);
         const fs::path exr = file(name + ".exr");
-        const Outcome outcome = run("render " + scene + " -o " + exr.string() + " --png " +
-                                    file(name + ".png").string() +
-                                    " --time-budget 0.1s --size 64x48 --quiet");
+        const Outcome outcome =
+            run("render " + scene + " -o " + exr.string() + " --png " +
+                file(name + ".png").string() + " --time-budget 0.1s --size 64x48 --quiet");
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         clgi::io::LoadReport report;
         const clgi::io::Image image = clgi::io::load_image(exr, &report);
@@ -58,7 +58,8 @@ TEST_F(Program, TwoRunsGiveTheSameBytes) {
 TEST_F(Program, StatsSayWhatWasDone) {
     const std::string scene = make("cornell --light spot");
     ASSERT_EQ(run("render " + scene + " --png " + file("p.png").string() +
-                  " --method second-order --size 64x48 --frames 3 --orbit --stats " + file("s.json").string())
+                  " --method second-order --size 64x48 --frames 3 --orbit --stats " +
+                  file("s.json").string())
                   .code,
               0);
     const auto stats = nlohmann::json::parse(read("s.json"));
@@ -119,9 +120,9 @@ TEST_F(Program, WrongUseEndsWithOne) {
 TEST_F(Program, ATimeBudgetIsAnsweredWithSettings) {
     const std::string scene = make("cornell --light spot");
     const auto ask = [&](const std::string& budget) {
-        const Outcome outcome =
-            run("render " + scene + " --png " + file("p.png").string() +
-                " --method second-order --size 64x48 --time-budget " + budget + " --stats " + file("s.json").string());
+        const Outcome outcome = run("render " + scene + " --png " + file("p.png").string() +
+                                    " --method second-order --size 64x48 --time-budget " + budget +
+                                    " --stats " + file("s.json").string());
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         EXPECT_NE(outcome.out.find("promised"), std::string::npos) << outcome.out;
         return nlohmann::json::parse(read("s.json")).at("ask");
@@ -141,7 +142,8 @@ TEST_F(Program, ATargetOutOfReachIsAWarning) {
     const std::string scene = make("cornell --light spot");
     const Outcome outcome =
         run("render " + scene + " --png " + file("p.png").string() +
-            " --method second-order --size 32x24 --target-error 1% --time-budget 1ms --stats " + file("s.json").string());
+            " --method second-order --size 32x24 --target-error 1% --time-budget 1ms --stats " +
+            file("s.json").string());
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("not reached within the time budget"), std::string::npos)
         << outcome.err;
@@ -189,7 +191,8 @@ TEST_F(Program, AMissingDeviceEndsWithThree) {
 TEST_F(Program, AFailingCompilerOrTooLittleMemoryEndsWithThree) {
     const std::string scene = make("cornell");
     const std::string out = "render " + scene + " --quiet -o " + file("x.exr").string();
-    const Outcome huge = run(out + " --method second-order --size 16384x16384", "POCL_MEMORY_LIMIT=1");
+    const Outcome huge =
+        run(out + " --method second-order --size 16384x16384", "POCL_MEMORY_LIMIT=1");
     if (huge.code != 0) {  // a device of 30 GB could
         expect_one_error_line(huge, 3);
         EXPECT_NE(huge.err.find("lower width and height"), std::string::npos) << huge.err;
@@ -210,8 +213,8 @@ TEST_F(Program, AFailingCompilerOrTooLittleMemoryEndsWithThree) {
     EXPECT_FALSE(fs::exists(file("x.exr")));
 }
 
-// oclgrind as a second OpenCL beside the first. Its options are those of tests/support/oclgrind.sh, and it
-// compiles with no other driver in the process for the reason given there.
+// oclgrind as a second OpenCL beside the first. Its options are those of tests/support/oclgrind.sh,
+// and it compiles with no other driver in the process for the reason given there.
 TEST_F(Program, ASecondPlatformIsListedAndCanBeChosen) {
     const char* driver = "/usr/lib/oclgrind/liboclgrind-rt-icd.so";
     if (!fs::exists(driver)) GTEST_SKIP() << "oclgrind's driver is not at " << driver;
@@ -258,7 +261,8 @@ TEST_F(Program, TheLayersCostIsTold) {
 
 TEST_F(Program, FastMathStaysCloseToStrict) {
     const std::string scene = make("box");
-    const std::string common = "render " + scene + " --method second-order --size 96x72 --quiet -o ";
+    const std::string common =
+        "render " + scene + " --method second-order --size 96x72 --quiet -o ";
     ASSERT_EQ(run(common + file("s.exr").string()).code, 0);
     ASSERT_EQ(run(common + file("f.exr").string() + " --math fast").code, 0);
     const Outcome outcome =

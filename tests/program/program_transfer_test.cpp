@@ -6,8 +6,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "program.hpp"
 #include "lab/transfer_vectors.hpp"
+#include "program.hpp"
 #include "transfer_scenes.hpp"
 
 namespace {

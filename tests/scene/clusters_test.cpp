@@ -39,15 +39,15 @@ Scene sheet() {
     const auto last = static_cast<std::uint32_t>(scene.materials.size() - 1);
     for (int i = 0; i < 200; ++i) {
         const double x = 0.01 * i;
-        test::add_triangle(scene, {x, 0, 0}, {x, i == 20 ? 0 : 1, 0}, {x + 0.01, 0, 0.001 * (i % 7)},
-                           i == 150 ? last : 0);
+        test::add_triangle(scene, {x, 0, 0}, {x, i == 20 ? 0 : 1, 0},
+                           {x + 0.01, 0, 0.001 * (i % 7)}, i == 150 ? last : 0);
     }
     return scene;
 }
 
 // Triangles that face +z, and one in the middle that faces away. Its normal is 1e-24 long, so the
 // square of the length is 0.
-Scene speck() {
+Scene island() {
     Scene scene = test::plain_scene();
     for (const double y : {-1.0, 0.0})
         test::add_triangle(scene, {-1, y, 0}, {1, y, 0}, {1, y + 1, 0});
@@ -116,7 +116,7 @@ TEST(Clusters, KnowWhichWayTheirTrianglesFace) {
 }
 
 TEST(Clusters, AreNotTurnedByATriangleTooSmallToBeSeen) {
-    const DeviceScene scene = test::on_device(speck());
+    const DeviceScene scene = test::on_device(island());
     EXPECT_EQ(clusters_of(scene)[0].cone, glm::vec4(0, 0, 1, 0));
 }
 
@@ -145,7 +145,7 @@ TEST(Clusters, AreTheSameBitsFromTheDevice) {
     for (const std::size_t group : {std::size_t{0}, std::size_t{1}, std::size_t{3}}) {
         const ScenePasses passes(test::programs(), {.local_size = group});
         for (const Scene& world :
-             {dust(1), dust(64), dust(65), dust(1000), box(), sheet(), speck()}) {
+             {dust(1), dust(64), dust(65), dust(1000), box(), sheet(), island()}) {
             DeviceScene scene = test::on_device(world);
             const std::vector<Cluster> host = clusters_of(scene);
             const std::size_t bytes = host.size() * sizeof(Cluster);

@@ -74,8 +74,12 @@ TEST(MovingElementPasses, RefuseWhatDoesNotFit) {
     const std::uint32_t count = 3;
     LinkBuffers links{
         zeros(count * sizeof(Element)), zeros(16), zeros(4), zeros(2), zeros(4), count, 1, 2, 1};
-    MovingElements moving{zeros(count * sizeof(ElementPlace)), zeros(count * sizeof(PatchCorners)),
-                          zeros(4), zeros(8), zeros(4), 1};
+    MovingElements moving{zeros(count * sizeof(ElementPlace)),
+                          zeros(count * sizeof(PatchCorners)),
+                          zeros(4),
+                          zeros(8),
+                          zeros(4),
+                          1};
     cl::Buffer directions = zeros(32 * 16);
     const ElementParams one{0, 1, 0, 0};
     const auto refit = [&] { passes.refit(queue, one, scene, moving, links, directions).wait(); };

@@ -133,9 +133,9 @@ TEST(Mask, LetsThroughWhereAlphaIsBelowItsCutoff) {
     scene.uvs.resize(scene.positions.size());
     for (const int width : {1, 4, 8}) {
         const DeviceScene placed = test::on_device(scene);
-        const Drawing drawing = test::draw(
-            placed, make_view(test::pixel_camera(32, 32), placed.frame(), 32, 32),
-            GBufferPasses(test::programs(), {.packet_width = width}));
+        const Drawing drawing =
+            test::draw(placed, make_view(test::pixel_camera(32, 32), placed.frame(), 32, 32),
+                       GBufferPasses(test::programs(), {.packet_width = width}));
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x) {
                 const int alpha = 4 * (8 * (y / 4) + x / 4);

@@ -36,7 +36,7 @@ SecondOrderOptions small() {
 }
 
 std::vector<cl_mem> handles(const SecondOrderSolver& solver) {
-    return {solver.radiance()(), solver.irradiance()(),    solver.planes()(), solver.ids()(),
+    return {solver.radiance()(), solver.irradiance()(),    solver.planes()(),        solver.ids()(),
             solver.vpls()(),     solver.negative_vpls()(), solver.gbuffer().planes()};
 }
 
@@ -92,9 +92,8 @@ TEST(Flicker, ComesAfterThePictureThatIsStillOnItsWay) {
     const cl::Event held = solver.render(world.cameras[0], {gate});
     const cl::Buffer copy = test::empty<float>(RADIANCE_PLANES * solver.stride());
     const WaitList after{held};
-    test::device().queue.enqueueCopyBuffer(solver.radiance(), copy, 0, 0,
-                                           RADIANCE_PLANES * solver.stride() * sizeof(float),
-                                           &after);
+    test::device().queue.enqueueCopyBuffer(
+        solver.radiance(), copy, 0, 0, RADIANCE_PLANES * solver.stride() * sizeof(float), &after);
     Light light = world.lights[0];
     light.intensity *= 0.25f;
     scene.set_light(0, light);
@@ -118,8 +117,9 @@ TEST(Flicker, KeepsTheCountOfWhatWasNotFinite) {
     std::vector<float> planes = test::download<float>(given.planes, GBUFFER_PLANES * given.stride);
     std::fill_n(planes.begin() + GBUFFER_BASE * given.stride, given.stride,
                 std::numeric_limits<float>::quiet_NaN());
-    solver.render(world.cameras[0],
-                  GBuffer{test::upload(planes), given.ids, given.stride, given.storage})
+    solver
+        .render(world.cameras[0],
+                GBuffer{test::upload(planes), given.ids, given.stride, given.storage})
         .wait();
     const std::uint32_t counted = solver.status().non_finite;
     EXPECT_GT(counted, 0u);

@@ -10,9 +10,9 @@ namespace {
 
 struct Points {
     std::vector<SurfaceSample> samples;
-    std::vector<float> planes;       // [GBUFFER_PLANES][stride]
-    std::vector<std::int32_t> ids;   // [GBUFFER_ID_PLANES][stride]
-    std::vector<float> coords;       // [4][stride]
+    std::vector<float> planes;      // [GBUFFER_PLANES][stride]
+    std::vector<std::int32_t> ids;  // [GBUFFER_ID_PLANES][stride]
+    std::vector<float> coords;      // [4][stride]
     std::uint32_t stride = 0;
     glm::vec3 at(int plane, std::size_t i) const {
         return {planes[plane * stride + i], planes[(plane + 1) * stride + i],
@@ -55,7 +55,8 @@ TEST(Points, HaveTheAttributesOfTheirTriangles) {
     for (std::size_t v = 0; v < world.positions.size(); ++v)
         world.uvs.emplace_back(random(-2, 2), random(-2, 2), random(-2, 2), random(-2, 2));
     for (std::size_t t = 0; t < world.triangles.size(); t += 5)  // facing away from their triangles
-        for (const std::uint32_t v : world.triangles[t].vertex) world.normals[v] = -world.normals[v];
+        for (const std::uint32_t v : world.triangles[t].vertex)
+            world.normals[v] = -world.normals[v];
     const DeviceScene scene = test::on_device(world);
     const Points found = points_of(scene, random_samples(200, 1003));
     int given_way = 0;
@@ -94,7 +95,8 @@ TEST(Points, HaveTheAttributesOfTheirTriangles) {
             EXPECT_NEAR(found.coords[k * found.stride + i], uv[k], 1e-6) << k;
         EXPECT_EQ(found.planes[GBUFFER_DEPTH * found.stride + i], 0.0f);
         EXPECT_EQ(found.ids[GBUFFER_MATERIAL * found.stride + i], static_cast<int>(t.material));
-        EXPECT_EQ(found.ids[GBUFFER_TRIANGLE * found.stride + i], static_cast<int>(sample.triangle));
+        EXPECT_EQ(found.ids[GBUFFER_TRIANGLE * found.stride + i],
+                  static_cast<int>(sample.triangle));
     }
     EXPECT_GT(given_way, 20);
 }
@@ -105,13 +107,15 @@ TEST(Points, AreTexturedLikeThePixelsThatShowThem) {
     for (Texture& texture : world.textures) texture.nearest = false;
     const DeviceScene scene = test::on_device(world);
     // From so close that every pixel is less than a texel.
-    const View view = make_view(test::camera_at({0.3, 0.2, 0.9}, {0, 0, 0}), scene.frame(), 2048, 64);
+    const View view =
+        make_view(test::camera_at({0.3, 0.2, 0.9}, {0, 0, 0}), scene.frame(), 2048, 64);
     const test::Drawing drawing = test::draw(scene, view);
     std::vector<SurfaceSample> samples;
     std::vector<std::size_t> pixels;
     for (std::size_t p = 0; p < drawing.pixels(); p += 37) {
         if (drawing.triangle(p) < 0) continue;
-        const auto t = static_cast<std::uint32_t>(drawing.ids[GBUFFER_TRIANGLE * drawing.stride + p]);
+        const auto t =
+            static_cast<std::uint32_t>(drawing.ids[GBUFFER_TRIANGLE * drawing.stride + p]);
         const SceneTriangle& triangle = world.triangles[scene.triangle_order()[t]];
         glm::dvec3 corner[3];
         for (int k = 0; k < 3; ++k)
@@ -128,7 +132,8 @@ TEST(Points, AreTexturedLikeThePixelsThatShowThem) {
     const Points found = points_of(scene, samples);
     std::size_t off = 0;
     for (std::size_t i = 0; i < samples.size(); ++i)
-        off += glm::distance(found.at(GBUFFER_BASE, i), drawing.at(GBUFFER_BASE, pixels[i])) > 2e-3f;
+        off +=
+            glm::distance(found.at(GBUFFER_BASE, i), drawing.at(GBUFFER_BASE, pixels[i])) > 2e-3f;
     EXPECT_LE(off, samples.size() / 50) << "of " << samples.size();
 }
 

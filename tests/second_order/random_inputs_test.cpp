@@ -1,5 +1,6 @@
 // About a million random inputs, ordinary and hostile, for what is cheap enough to be asked so
-// often. Radical inverses: tests/core/halton_test.cpp; pixels of a mesh: tests/shading/raster_test.cpp.
+// often. Radical inverses: tests/core/halton_test.cpp; pixels of a mesh:
+// tests/shading/raster_test.cpp.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <algorithm>

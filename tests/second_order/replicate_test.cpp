@@ -40,7 +40,8 @@ TEST(Replicate, ZeroIsTheSequenceItselfAndOthersAreNot) {
     for (const LightSource lamp : {LightSource::spot, LightSource::point, LightSource::area}) {
         const Scene scene = cornell({.light = lamp});
         const DeviceScene device = test::on_device(scene);
-        SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(200, 40));
+        SecondOrderSolver solver(test::programs(), test::device().queue, device,
+                                 options_for(200, 40));
         const io::Image plain = picture(solver, scene.cameras[0]);
         solver.set_replicate(7);
         const io::Image seven = picture(solver, scene.cameras[0]);
@@ -65,9 +66,7 @@ TEST(Replicate, AcceptsAsManyLightsAsTheSequenceDoes) {
         solver.render(scene.cameras[0]);
         test::device().queue.finish();
         int lit = 0;
-        for (const Vpl& light :
-             test::download<Vpl>(solver.vpls(), 300))
-            lit += light.flux.w > 0.0f;
+        for (const Vpl& light : test::download<Vpl>(solver.vpls(), 300)) lit += light.flux.w > 0.0f;
         // Part of the cone leaves by the open side: which lights do depends on the shift.
         EXPECT_GT(lit, 270) << replicate;
         if (replicate > 0) {
@@ -117,7 +116,7 @@ TEST(Replicate, IsCancelledBetweenTwoAndLeavesTheSolverAsItWas) {
     solver.set_replicate(9);
     int asked = 0;
     EXPECT_FALSE(lab::replicate(test::device().queue, solver, scene.cameras[0], 100,
-                                   [&](double) { return ++asked < 3; }));
+                                [&](double) { return ++asked < 3; }));
     EXPECT_EQ(asked, 3);
     EXPECT_EQ(solver.options().emitters.replicate, 9u);
 }

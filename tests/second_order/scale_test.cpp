@@ -1,5 +1,6 @@
 // Scenes at sizes that are no powers of two apart: everything is rounded anew, and no result may
-// move by more than that explains. (Powers of two change no bit: tests/second_order/invariance_test.cpp.)
+// move by more than that explains. (Powers of two change no bit:
+// tests/second_order/invariance_test.cpp.)
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <algorithm>

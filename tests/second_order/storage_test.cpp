@@ -65,7 +65,8 @@ TEST(HalfStorage, TakesFewerBytesAndGivesNearlyTheSamePicture) {
     const Scene scene = cornell();
     const DeviceScene placed = test::on_device(scene);
     const auto frame = [&](const BuildOptions& build, std::size_t& bytes) {
-        SecondOrderSolver solver(test::programs(), test::device().queue, placed, small_frame(build));
+        SecondOrderSolver solver(test::programs(), test::device().queue, placed,
+                                 small_frame(build));
         bytes = solver.bytes();
         // Besides what is estimated, a few words.
         EXPECT_NEAR(

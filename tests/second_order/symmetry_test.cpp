@@ -191,7 +191,8 @@ TEST(Turned, LightsASpotsOwnPlaceAsTheIntegralSays) {
     for (const glm::mat3& turn : turns) {
         const DeviceScene scene = test::on_device(turned(world, turn));
         const auto placed = test::place_lights(scene, {.vpls = 10000, .shadow_size = 256});
-        // As in tests/shading/lights_test.cpp: corners at 1/256 pixel, and the sum of 10,000 points.
+        // As in tests/shading/lights_test.cpp: corners at 1/256 pixel, and the sum of 10,000
+        // points.
         EXPECT_NEAR(test::lux_at(scene, placed.lights, glm::dmat3(turn) * glm::dvec3(0, 1, 0),
                                  turn * glm::vec3(0, -1, 0)),
                     wanted, 0.005 * wanted)

@@ -10,9 +10,9 @@ namespace {
 
 using test::add_square;
 using test::Eye;
+using test::islands;
 using test::place;
 using test::Random;
-using test::specks;
 using test::SurfacePlace;
 
 CLGI_IN_BOTH_MATHS(HemicubeEdges);
@@ -132,7 +132,7 @@ TEST_P(HemicubeEdges, SeesASurfaceUpToItsOutline) {
         const glm::dvec3 facing =
             glm::normalize(-normal + 0.6 * glm::dvec3(test::direction(random)));
         const glm::dvec3 centre = 0.4 * normal;
-        Scene world = specks(facing);
+        Scene world = islands(facing);
         add_square(world, centre, facing, 0.1);
         add_square(world, centre - 0.3 * facing, facing, 2.0);
         const DeviceScene scene = test::on_device(world);

@@ -10,9 +10,9 @@ namespace {
 
 using test::add_square;
 using test::Eye;
+using test::islands;
 using test::place;
 using test::Random;
-using test::specks;
 using test::SurfacePlace;
 
 // Directions about a hemicube: at random, and on and beside the edges of its faces.
@@ -52,7 +52,7 @@ TEST_P(Hemicube, SeesAPlaneAtEveryDistanceAndAngle) {
                 facing = glm::normalize(facing + 0.25 * turn * glm::dvec3(test::direction(random)));
             if (glm::dot(facing, normal) > -0.1) continue;
             const glm::dvec3 eye_at = 0.05 * glm::dvec3(test::direction(random));
-            Scene world = specks(facing);
+            Scene world = islands(facing);
             add_square(world, eye_at - distance * facing, facing, 40.0 * distance);
             const DeviceScene scene = test::on_device(world);
             const Eye eye(scene, scene.frame().to_local(eye_at), glm::vec3(normal),
@@ -97,7 +97,7 @@ TEST_P(Hemicube, DoesNotSeeBehindAWallOfTwiceTheBias) {
             const glm::dvec3 normal(test::direction(random));
             const glm::dvec3 facing =
                 glm::normalize(-normal + 0.5 * glm::dvec3(test::direction(random)));
-            Scene world = specks(facing);
+            Scene world = islands(facing);
             add_square(world, glm::dvec3(0) - distance * facing, facing, 40.0 * distance);
             add_square(world, glm::dvec3(0) - distance / (1.0 + thick) * facing, facing,
                        40.0 * distance);
@@ -198,7 +198,7 @@ TEST_P(Hemicube, SeesWhatRaysSee) {
 
 // On the horizon and below, behind the plane of the receiver: never, whatever is drawn.
 TEST_P(Hemicube, SeesNothingBelowItsHorizonNorFromBehind) {
-    const DeviceScene scene = test::on_device(specks({0, 1, 0}));
+    const DeviceScene scene = test::on_device(islands({0, 1, 0}));
     const Eye eye(scene, {0.01f, 0.02f, -0.03f}, glm::vec3(0, 0, 1));
     std::vector<SurfacePlace> points;
     std::vector<bool> wanted;

@@ -61,8 +61,7 @@ TEST(Spot, TakesTheSameForEveryWorkGroup) {
     const DeviceScene scene = test::on_device(room({0.3f, -1, 0.2f}, 20 * degree));
     const PlacedLights usual = test::place_lights(scene, {.vpls = 333});
     for (const std::size_t size : {1, 7, 64, 256}) {
-        const LightPasses passes(test::programs(),
-                                 {.local_size = size});
+        const LightPasses passes(test::programs(), {.local_size = size});
         const PlacedLights other = test::place_lights(scene, {.vpls = 333}, passes);
         EXPECT_EQ(other.accepted, usual.accepted) << size;
         for (std::size_t i = 0; i < usual.lights.size(); ++i) {
@@ -122,8 +121,7 @@ TEST(Spot, KeepsTheLightsItStillCoversWhenItTurns) {
             std::find(after.accepted.begin(), after.accepted.end(), before.accepted[i]);
         if (same == after.accepted.end()) continue;
         ++kept;
-        const Vpl& moved =
-            after.lights[static_cast<std::size_t>(same - after.accepted.begin())];
+        const Vpl& moved = after.lights[static_cast<std::size_t>(same - after.accepted.begin())];
         // Another image shows the same plane: a few float spacings of a room of size 1.
         EXPECT_LT(glm::length(glm::vec3(moved.position - before.lights[i].position)), 2e-6f);
         EXPECT_EQ(glm::vec3(moved.normal), glm::vec3(before.lights[i].normal));

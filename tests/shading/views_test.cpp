@@ -80,9 +80,8 @@ void expect_same_words(const Scene& world) {
         EXPECT_TRUE(same_bits(drawn<std::uint64_t>(scene, views, way), wanted)) << way.name;
         EXPECT_TRUE(same_bits(drawn<std::uint32_t>(scene, views, way), depth)) << way.name;
     }
-    for (const BuildOptions& build :
-         {BuildOptions{.packet_width = 1, .local_size = 7},
-          {.packet_width = 4, .atomics64 = false}}) {
+    for (const BuildOptions& build : {BuildOptions{.packet_width = 1, .local_size = 7},
+                                      {.packet_width = 4, .atomics64 = false}}) {
         const GBufferPasses passes(test::programs(), build);
         for (const Way& way : {ways[1], ways[3], ways[4]}) {
             EXPECT_TRUE(same_bits(drawn<std::uint64_t>(scene, views, way, passes), wanted))
@@ -212,10 +211,10 @@ TEST(Views, PassOverWhatTheyCannotSee) {
     // Without depth in common: a cluster whose box lies elsewhere hides what is in it.
     DeviceScene elsewhere = test::on_device(bumpy_mesh());
     const glm::vec3 behind = glm::vec3(view.eye) - 3.0f * glm::vec3(view.forward);
-    const glm::vec3 beside = glm::vec3(view.eye) + glm::vec3(view.forward) +
-                             9.0f * glm::vec3(view.right);
-    const glm::vec3 above = glm::vec3(view.eye) + glm::vec3(view.forward) +
-                            9.0f * glm::vec3(view.up);
+    const glm::vec3 beside =
+        glm::vec3(view.eye) + glm::vec3(view.forward) + 9.0f * glm::vec3(view.right);
+    const glm::vec3 above =
+        glm::vec3(view.eye) + glm::vec3(view.forward) + 9.0f * glm::vec3(view.up);
     const glm::vec3 ahead = glm::vec3(view.eye) + glm::vec3(view.forward);
     const glm::vec4 away(glm::vec3(view.forward), 0.1f), toward(-glm::vec3(view.forward), 0.1f);
     const auto shown = [&](const glm::vec3& middle, const glm::vec4& cone, bool cull_backs) {
@@ -335,8 +334,8 @@ TEST(Views, FollowAChoiceThatNeverLeavesTheDevice) {
         test::gbuffer_passes().raster_views(on.queue, span, views, scene, pixels, Pixels::depth);
         return test::download<cl_uint>(pixels, span.pixels);
     };
-    const auto brightest = static_cast<cl_uint>(
-        std::max_element(power.begin(), power.end()) - power.begin());
+    const auto brightest =
+        static_cast<cl_uint>(std::max_element(power.begin(), power.end()) - power.begin());
     const auto wanted = maps(test::upload(std::vector<cl_uint>{brightest}));
     parallel.arg_max(on.queue, count, test::upload(power), best,
                      test::empty<char>(arg_max_scratch_bytes(count)));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/advanced/facts.hpp>
+#include <clgi/advanced/analysis.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <vector>

@@ -31,7 +31,7 @@ struct HandElements {
     std::vector<glm::vec4> directions;  // xyz: unit; w: sr
     std::vector<Element> elements;
     std::vector<HandLink> links;
-    std::vector<HandLobe> lobes;  // by element
+    std::vector<HandLobe> lobes;                        // by element
     std::vector<glm::vec4> sky, sources, reflectances;  // of bins; of leaves
 
     std::uint32_t bins() const { return static_cast<std::uint32_t>(directions.size()); }
@@ -60,7 +60,8 @@ struct HandElements {
     // What the sender has before it in the link's bin; not above 0: the link reads a row.
     float cosine(const HandLink& link) const {
         for (const HandLobe& lobe : lobes)
-            if (lobe.element >= link.sender && lobe.element < elements[link.sender].end) return 0.0f;
+            if (lobe.element >= link.sender && lobe.element < elements[link.sender].end)
+                return 0.0f;
         return glm::dot(glm::vec3(elements[link.sender].normal), glm::vec3(directions[link.bin]));
     }
     void close(std::uint32_t i) { elements[i].end = static_cast<std::uint32_t>(elements.size()); }
@@ -135,8 +136,7 @@ public:
                     if (flags & LOCAL_REFLECT || !lobe_of(i))
                         next[i * bins + b] =
                             scale * (radiances[leaf.row] + gloss(i, b, arrives.data() + i * bins));
-                }
-                else if (flags & LOCAL_GO_THROUGH)
+                } else if (flags & LOCAL_GO_THROUGH)
                     next[i * bins + b] = scale * arrives[i * bins + b];
             }
         }
@@ -214,7 +214,7 @@ public:
             }
             const std::uint32_t parent = of.elements[i].parent;
             level[i] = parent == ELEMENT_NONE ? 0 : level[parent] + 1;
-            std::vector<std::uint32_t>& list = !of.is_leaf(i) ? inner_
+            std::vector<std::uint32_t>& list = !of.is_leaf(i)     ? inner_
                                                : is_glossy(of, i) ? glossy_
                                                                   : leaves_;
             if (!of.is_leaf(i)) levels_ = std::max(levels_, level[i] + 1);

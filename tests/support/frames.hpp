@@ -18,7 +18,7 @@ struct Frame {
     std::vector<glm::vec3> radiance;    // [height][width] cd/m^2
     std::vector<glm::vec3> position;    // [height][width] local frame
     std::vector<glm::vec3> irradiance;  // [height][width] local frame, exposed; indirect
-    std::vector<Vpl> lights;  // [N]
+    std::vector<Vpl> lights;            // [N]
     std::vector<Vpl> negative;
 
     glm::dvec3 world(std::size_t pixel) const {
@@ -74,13 +74,11 @@ inline Frame read_frame(const cl::CommandQueue& queue, const DeviceScene& scene,
     const auto read = [&](const cl::Buffer& buffer, std::size_t count) {
         std::vector<Vpl> lights(count);
         if (count > 0)
-            queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(Vpl),
-                                    lights.data());
+            queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(Vpl), lights.data());
         return lights;
     };
     out.lights = read(solver.vpls(), solver.emitters().vpl_count);
-    out.negative =
-        read(solver.negative_vpls(), static_cast<std::size_t>(options.negative_vpls));
+    out.negative = read(solver.negative_vpls(), static_cast<std::size_t>(options.negative_vpls));
     return out;
 }
 

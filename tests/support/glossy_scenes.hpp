@@ -54,7 +54,7 @@ inline std::vector<glm::vec3> places_of(const Picture& picture) {
 inline AntiradianceOptions antiradiance_options(const Build& build, int bins, std::size_t leaves) {
     AntiradianceOptions out;
     out.bins = bins;
-    out.elements.wished = leaves;
+    out.elements.requested = leaves;
     out.build = build;
     return out;
 }

@@ -54,7 +54,7 @@ inline void add_square(Scene& world, const glm::dvec3& center, const glm::dvec3&
 }
 
 // Something far behind every plane that faces this way, so that a scene's size is about 1.
-inline Scene specks(const glm::dvec3& facing) {
+inline Scene islands(const glm::dvec3& facing) {
     Scene world = plain_scene();
     const glm::dvec3 at = -1.2 * facing;
     for (const double s : {-0.3, 0.3})

@@ -4,8 +4,8 @@
 
 #include <clgi/advanced/atlas_layout.hpp>
 #include <clgi/advanced/patches.hpp>
-#include <clgi/light_atlas.hpp>
 #include <clgi/advanced/vpl_layout.hpp>
+#include <clgi/light_atlas.hpp>
 #include <cmath>
 #include <functional>
 #include <vector>

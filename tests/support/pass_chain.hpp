@@ -285,11 +285,13 @@ private:
                           radiance,
                           {"non_finite", "non_finite", 4}},
                          [=, this](auto& queue, auto& wait) {
-                             return image_.combine(
-                                 queue, combine, view_, scene_,
-                                 {sources(), {at("planes"), at("ids"), stride}, at("irradiance"),
-                                  at("radiance"), at("non_finite")},
-                                 wait);
+                             return image_.combine(queue, combine, view_, scene_,
+                                                   {sources(),
+                                                    {at("planes"), at("ids"), stride},
+                                                    at("irradiance"),
+                                                    at("radiance"),
+                                                    at("non_finite")},
+                                                   wait);
                          }});
         steps.push_back({"image.tonemap",
                          {radiance, {"preview", "preview", pixels * 4}},

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/renderer.hpp>
 #include <clgi/reference.hpp>
+#include <clgi/renderer.hpp>
 #include <cmath>
 
 #include "frames.hpp"
@@ -32,8 +32,8 @@ inline double distance(const Pixels& a, const Pixels& b) {
     return std::sqrt(squares / static_cast<double>(a.size()));
 }
 
-inline PlanWish quick(std::vector<Effect> with = {}, std::vector<Effect> without = {}) {
-    PlanWish out;
+inline PlanRequest quick(std::vector<Effect> with = {}, std::vector<Effect> without = {}) {
+    PlanRequest out;
     out.width = plan_width;
     out.height = plan_height;
     out.seconds = 0.2;
@@ -48,8 +48,8 @@ inline std::vector<Effect> all_effects() {
     return out;
 }
 
-inline Plan plan_of(const Scene& scene, const Camera& camera, const PlanWish& wish) {
-    return make_plan(device().queue, programs(), scene, camera, wish);
+inline Plan plan_of(const Scene& scene, const Camera& camera, const PlanRequest& request) {
+    return make_plan(device().queue, programs(), scene, camera, request);
 }
 
 // The path tracer's, of `samples` a pixel.

@@ -24,8 +24,8 @@ inline void grow(HandElements& scene, const DirectionBins& bins, std::uint32_t p
     const bool is_leaf = depth == 5 || (depth > 1 && number(random) < 0.25f);
     if (plane == glm::vec3(0.0f) && (is_leaf || (depth > 1 && number(random) < 0.3f))) {
         std::normal_distribution<double> normal;
-        plane = scaled(bins, glm::normalize(
-                                 glm::dvec3(normal(random), normal(random), normal(random))));
+        plane = scaled(bins,
+                       glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))));
     }
     if (is_leaf) {
         scene.leaf(parent, plane, 0.1f + number(random),
@@ -65,7 +65,8 @@ void expect_alike(const std::vector<Found>& found, const std::vector<Wanted>& wa
     ASSERT_EQ(found.size(), wanted.size());
     double largest = 0.0;
     for (const Wanted& value : wanted)
-        largest = std::max<double>({largest, std::abs(value.x), std::abs(value.y), std::abs(value.z)});
+        largest =
+            std::max<double>({largest, std::abs(value.x), std::abs(value.y), std::abs(value.z)});
     for (std::size_t i = 0; i < found.size(); ++i)
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(found[i][c], wanted[i][c], within * largest)

@@ -35,7 +35,8 @@ inline Scene chambers() {
     return scene;
 }
 
-// Four double-sided shelves across a room: reflecting light and letting it through at once diverges.
+// Four double-sided shelves across a room: reflecting light and letting it through at once
+// diverges.
 inline Scene shelves(float albedo) {
     Scene scene = plain_scene(glm::vec3(albedo));
     scene.materials[0].double_sided = true;

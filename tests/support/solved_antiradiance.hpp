@@ -34,7 +34,7 @@ struct Solved {
 inline AntiradianceOptions options_of(const Build& build, int bins, std::size_t leaves) {
     AntiradianceOptions out;
     out.bins = bins;
-    out.elements.wished = leaves;
+    out.elements.requested = leaves;
     out.build = build;
     return out;
 }

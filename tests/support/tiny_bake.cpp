@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/advanced/atlas_layout.hpp>
 #include <clgi/advanced/patches.hpp>
-#include <clgi/light_atlas.hpp>
 #include <clgi/advanced/vpl_layout.hpp>
+#include <clgi/light_atlas.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -73,14 +73,14 @@ TEST(Mask, ARegionIsCutFromTheMask) {
 TEST(Mask, RegionsThatLeaveThePictureAreRefused) {
     constexpr int most = std::numeric_limits<int>::max();
     for (const clgi::lab::Region& region : {clgi::lab::Region{-1, 0, 2, 2},
-                                               {0, -1, 2, 2},
-                                               {0, 0, 7, 1},
-                                               {0, 0, 1, 5},
-                                               {5, 0, 2, 1},
-                                               {0, 0, 0, 1},
-                                               {0, 0, 1, -1},
-                                               {6, 4, 1, 1},
-                                               {1, 1, most, most}}) {
+                                            {0, -1, 2, 2},
+                                            {0, 0, 7, 1},
+                                            {0, 0, 1, 5},
+                                            {5, 0, 2, 1},
+                                            {0, 0, 0, 1},
+                                            {0, 0, 1, -1},
+                                            {6, 4, 1, 1},
+                                            {1, 1, most, most}}) {
         EXPECT_THROW(within(whole_picture(6, 4), region), clgi::InputError);
     }
 }

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include "lab/scenes/deforming.hpp"
 #include <clgi/io/gltf.hpp>
 #include <filesystem>
+#include "lab/scenes/deforming.hpp"
 
 #include "posing.hpp"
 #include "transfer_scenes.hpp"
@@ -98,8 +98,7 @@ void expect_smooth(Player& player, const std::string& name, double limit) {
     }
     const Steps slow = steps(player, from, 1.0 / 240, 8), fast = steps(player, from, 1.0 / 30, 4);
     std::printf("%s: change in 1/240 s %.4f %%, %.3f %% of them jumps; in 1/30 s %.4f, %.3f\n",
-                name.c_str(), 100 * slow.mean, 100 * slow.jumps, 100 * fast.mean,
-                100 * fast.jumps);
+                name.c_str(), 100 * slow.mean, 100 * slow.jumps, 100 * fast.mean, 100 * fast.jumps);
     EXPECT_GT(fast.mean, 1e-5) << name << " stands still";
     // An eighth of the time changes about an eighth, but for the size of pixels.
     EXPECT_LT(slow.mean, 0.25 * fast.mean + 2e-4) << name;
@@ -116,9 +115,9 @@ TEST(TransferAnimated, CollectedCharactersMoveSmoothly) {
     const std::filesystem::path folder = std::filesystem::path(CLGI_SCENES_DIR);
     if (!std::filesystem::is_directory(folder / "animated"))
         GTEST_SKIP() << "no folder " << folder / "animated";
-    for (const char* name : {"animated/CesiumMan.glb", "animated/Fox.glb",
-                             "animated/RiggedSimple/RiggedSimple.gltf",
-                             "animated/MorphStressTest.gltf"}) {
+    for (const char* name :
+         {"animated/CesiumMan.glb", "animated/Fox.glb", "animated/RiggedSimple/RiggedSimple.gltf",
+          "animated/MorphStressTest.gltf"}) {
         Player player(io::load_gltf(folder / name));
         expect_smooth(player, name, 0.08);
     }

@@ -108,10 +108,12 @@ TEST_P(TransferBounce, AgreesWithThePathTracer) {
     // A vertex in a wall's plane sees the wall edge-on: its outside is what blocks.
     const double out = 1.02;
     for (const double side : {-out, out}) {
-        test::add_quad(scene, {glm::dvec3(side, 0, -out), {side, 0, out}, {side, 1.5, out},
-                               {side, 1.5, -out}});
-        test::add_quad(scene, {glm::dvec3(-out, 0, side), {out, 0, side}, {out, 1.5, side},
-                               {-out, 1.5, side}});
+        test::add_quad(
+            scene,
+            {glm::dvec3(side, 0, -out), {side, 0, out}, {side, 1.5, out}, {side, 1.5, -out}});
+        test::add_quad(
+            scene,
+            {glm::dvec3(-out, 0, side), {out, 0, side}, {out, 1.5, side}, {-out, 1.5, side}});
     }
     test::add_sphere(scene, {0.2, 0.7, 0.1}, 0.35, 2, 1);
     test::light_by(scene, sky);

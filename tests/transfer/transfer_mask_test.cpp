@@ -81,8 +81,7 @@ TEST_P(Mask, BoxesHoldAllCornersAndNoMore) {
     test::Random random(41);
     std::vector<Triangle> triangles;
     for (int i = 0; i < 200; ++i) triangles.push_back(test::random_triangle(random));
-    const test::Drawn drawn =
-        test::draw_masks(Blockers(triangles), {}, {}, {.math = GetParam()});
+    const test::Drawn drawn = test::draw_masks(Blockers(triangles), {}, {}, {.math = GetParam()});
     const auto boxes = test::download<BlockerBox>(drawn.blockers.boxes, 4);
     for (std::size_t cluster = 0; cluster < 4; ++cluster) {
         glm::vec3 low(1e30f), high(-1e30f);
@@ -100,7 +99,8 @@ TEST_P(Mask, BoxesHoldAllCornersAndNoMore) {
 TEST_P(Mask, OfTrianglesInTheTangentPlaneIsEmpty) {
     test::Random random(17);
     // At the origin, and where coordinates are rounded by far more than the triangles are flat.
-    for (const glm::dvec3 place : {glm::dvec3(0), glm::dvec3(20, -13, 7), glm::dvec3(-0.6, 0.1, 0.7)})
+    for (const glm::dvec3 place :
+         {glm::dvec3(0), glm::dvec3(20, -13, 7), glm::dvec3(-0.6, 0.1, 0.7)})
         for (int i = 0; i < 100; ++i) {
             const glm::vec3 normal(random(-1, 1), random(-1, 1), random(-1, 1));
             const test::Frame frame = test::frame_of(normal);

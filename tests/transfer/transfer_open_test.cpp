@@ -1,8 +1,8 @@
 // Light of an environment that nothing blocks: the pass, against sums in double precision.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 #include <limits>
 

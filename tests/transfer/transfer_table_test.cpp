@@ -171,8 +171,8 @@ TEST_P(PlaneTable, DrawsSliversNearThemselvesAlone) {
         const glm::dvec3 middle(random(-1, 1), random(-1, 1), random(0, 1));
         if (glm::length(middle) < 0.1) continue;
         const glm::dvec3 d = glm::normalize(middle);
-        const glm::dvec3 u = glm::normalize(
-            glm::cross(d, glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1))));
+        const glm::dvec3 u =
+            glm::normalize(glm::cross(d, glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1))));
         const double length = random(0.02, 0.3), width = std::pow(10.0, random(-4, -2));
         const Triangle sliver = {d - 0.5 * length * u, d + 0.5 * length * u,
                                  d + width * glm::cross(d, u)};
@@ -184,8 +184,8 @@ TEST_P(PlaneTable, DrawsSliversNearThemselvesAlone) {
     eyes.positions.resize(slivers.size(), eyes.positions[0]);
     eyes.normals.resize(slivers.size(), eyes.normals[0]);
     const Drawn drawn =
-        test::draw_masks(test::one_each(slivers), eyes,
-                         {.size = 32, .planes = EdgePlanes::table}, {.math = GetParam()});
+        test::draw_masks(test::one_each(slivers), eyes, {.size = 32, .planes = EdgePlanes::table},
+                         {.math = GetParam()});
     int pixels = 0;
     for (std::size_t i = 0; i < slivers.size(); ++i) {
         glm::dvec2 low(1.0), high(-1.0);

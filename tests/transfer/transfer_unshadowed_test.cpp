@@ -2,8 +2,8 @@
 // environment, against closed forms and against masks of which none is blocked.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/dynamic_transfer_view.hpp>
+#include <clgi/error.hpp>
 #include <set>
 
 #include "frames.hpp"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/opencl.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/opencl.hpp>
 #include <cstddef>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/interval.hpp>
+#include <clgi/error.hpp>
 
 #include "core/opencl/error_text.hpp"
 

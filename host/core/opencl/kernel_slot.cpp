@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/opencl/kernel_slot.hpp"
 
+#include <clgi/advanced/kernel_source.hpp>
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
-#include <clgi/advanced/kernel_source.hpp>
 #include <utility>
 
 #include "core/opencl/error_text.hpp"

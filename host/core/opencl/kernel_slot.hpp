@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <clgi/opencl.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/opencl.hpp>
 #include <mutex>
 #include <string>
 

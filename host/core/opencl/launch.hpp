@@ -3,8 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
 #include "core/opencl/error_text.hpp"

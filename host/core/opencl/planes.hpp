@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/error.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
 namespace clgi {

@@ -2,9 +2,9 @@
 #include "core/opencl/program.hpp"
 
 #include <algorithm>
+#include <clgi/advanced/kernel_source.hpp>
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
-#include <clgi/advanced/kernel_source.hpp>
 #include <future>
 #include <map>
 #include <mutex>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/slice.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
 #include "core/opencl/error_text.hpp"

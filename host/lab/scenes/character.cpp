@@ -2,9 +2,9 @@
 // [Dachsbacher07, figure 1] has a character in the office.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include "lab/scenes/interiors.hpp"
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include "lab/scenes/interiors.hpp"
 
 #include "lab/scenes/figure.hpp"
 #include "lab/scenes/office_room.hpp"

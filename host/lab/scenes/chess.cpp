@@ -6,9 +6,9 @@
 // 1,608 vertices and 3,192 triangles.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include "lab/scenes/deforming.hpp"
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include "lab/scenes/deforming.hpp"
 
 #include "lab/scenes/rigging.hpp"
 #include "scene/surfaces.hpp"

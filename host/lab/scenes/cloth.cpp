@@ -2,12 +2,13 @@
 //
 // The cloth is a grid of 32 x 32 squares, 1,089 vertices and 2,048 triangles; the floor one of
 // 16 x 16, 289 vertices and 512 triangles. Points of the grid keep their distances by position
-// based dynamics in small steps: a step moves every point by its velocity, then mends the length of
-// each edge, diagonal and double edge once. [derived: from Verlet integration with constraints]
+// based dynamics in small steps: a step moves every point by its velocity, then sanitises the
+// length of each edge, diagonal and double edge once. [derived: from Verlet integration with
+// constraints]
 // SPDX-License-Identifier: MIT
-#include "lab/scenes/deforming.hpp"
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include "lab/scenes/deforming.hpp"
 
 #include "lab/scenes/rigging.hpp"
 #include "scene/surfaces.hpp"
@@ -24,7 +25,7 @@ constexpr double floor_gap = 0.015;  // between floor and cloth
 struct Link {
     std::uint32_t a, b;
     double length;
-    double stiffness;  // share of the error that a step mends
+    double stiffness;  // share of the error that a step sanitises
 };
 
 class Sheet {

@@ -5,9 +5,9 @@
 // has 9 x 9 tiles of 3 x 3 squares, 1,296 vertices and 1,458 triangles.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include "lab/scenes/deforming.hpp"
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include "lab/scenes/deforming.hpp"
 
 #include "lab/scenes/fight_motion.hpp"
 #include "lab/scenes/figure.hpp"

@@ -1,8 +1,8 @@
 // Rooms with an object that shines. [Dachsbacher07, figures 1 and 15]
 // SPDX-License-Identifier: MIT
-#include "lab/scenes/interiors.hpp"
 #include <cmath>
 #include <map>
+#include "lab/scenes/interiors.hpp"
 
 #include "lab/scenes/bust.hpp"
 #include "lab/scenes/hollow.hpp"

@@ -5,9 +5,9 @@
 // 1,536 vertices and 1,728 triangles.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include "lab/scenes/deforming.hpp"
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include "lab/scenes/deforming.hpp"
 
 #include "lab/scenes/flesh.hpp"
 #include "scene/surfaces.hpp"

@@ -1,7 +1,7 @@
 // Passages that light from above reaches around corners. [Dachsbacher07, figure 12]
 // SPDX-License-Identifier: MIT
-#include "lab/scenes/interiors.hpp"
 #include <string>
+#include "lab/scenes/interiors.hpp"
 
 #include "lab/scenes/solids.hpp"
 #include "scene/surfaces.hpp"

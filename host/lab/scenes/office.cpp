@@ -1,8 +1,8 @@
 // An office whose light comes through the window and is reflected by the wall opposite.
 // [Dachsbacher07, figure 1] shows such a scene.
 // SPDX-License-Identifier: MIT
-#include "lab/scenes/interiors.hpp"
 #include <glm/gtc/constants.hpp>
+#include "lab/scenes/interiors.hpp"
 
 #include "lab/scenes/hollow.hpp"
 #include "lab/scenes/office_furniture.hpp"

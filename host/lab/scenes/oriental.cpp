@@ -2,9 +2,9 @@
 // oriental room.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include "lab/scenes/interiors.hpp"
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include "lab/scenes/interiors.hpp"
 
 #include "lab/scenes/hollow.hpp"
 #include "lab/scenes/solids.hpp"

@@ -14,7 +14,7 @@ namespace clgi {
 // A closed room of 12 triangles with a mesh floating in its middle, one light near the front of
 // the ceiling and the camera at the front wall: the test scene of [Cochran07].
 struct BoxOptions {
-    LightSource light = LightSource::spot;                           // spot or point
+    LightSource light = LightSource::spot;            // spot or point
     glm::dvec3 size = glm::dvec3(2.0, 2.0, 3.0);      // width, height, depth
     double mesh_height = 0.45;                        // share of the box's height, (0,0.9]
     glm::vec3 left = glm::vec3(0.72f, 0.09f, 0.07f);  // reflectances, each in [0,1]

@@ -13,8 +13,8 @@ constexpr double rounding = 1e-7;   // radians, of angles near 0
 
 // So many squares that few bins may be nearest in each; fewer where there are very many bins.
 int side_for(int bins) {
-    const double wished = std::min(2.0 * bins, most_tests / (1.5 * bins));
-    return std::max(1, static_cast<int>(std::sqrt(wished)));
+    const double requested = std::min(2.0 * bins, most_tests / (1.5 * bins));
+    return std::max(1, static_cast<int>(std::sqrt(requested)));
 }
 
 double angle_of(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }

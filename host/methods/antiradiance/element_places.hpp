@@ -3,9 +3,9 @@
 #pragma once
 
 #include <clgi/shared/moving_elements.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/direction_bins.hpp>
 #include <clgi/advanced/elements.hpp>
+#include <clgi/device_scene.hpp>
 #include <vector>
 
 namespace clgi {

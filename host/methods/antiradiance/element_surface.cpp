@@ -69,15 +69,16 @@ bool is_double_sided(const Scene& scene, std::uint32_t triangle) {
     return scene.materials[scene.triangles[triangle].material].double_sided;
 }
 
-// The middles of halves of thirds, of those that hold the middles of four equal shares of the area.
-void sample_thirds(const ElementTree& tree, std::uint32_t leaf, bool lit,
-                   const std::vector<std::uint32_t>& on_device, double scale,
-                   std::vector<SurfaceSample>& out) {
-    const std::uint32_t first = tree.first_thirds[leaf], end = tree.first_thirds[leaf + 1];
+// The middles of halves of vertex patches, of those that hold the middles of four equal shares of
+// the area.
+void sample_vertex_patches(const ElementTree& tree, std::uint32_t leaf, bool lit,
+                           const std::vector<std::uint32_t>& on_device, double scale,
+                           std::vector<SurfaceSample>& out) {
+    const std::uint32_t first = tree.first_patches[leaf], end = tree.first_patches[leaf + 1];
     std::vector<double> reached(2 * std::size_t{end - first});  // area up to the end of each half
     double sum = 0.0;
     for (std::uint32_t half = 0; half < reached.size(); ++half) {
-        sum += 0.5 * glm::length(vector_area(tree.thirds[first + half / 2]));
+        sum += 0.5 * glm::length(vector_area(tree.vertex_patches[first + half / 2]));
         reached[half] = sum;
     }
     const auto area = static_cast<float>(tree.areas[leaf] * scale * scale / leaf_samples);
@@ -85,14 +86,15 @@ void sample_thirds(const ElementTree& tree, std::uint32_t leaf, bool lit,
         const double wanted = (k + 0.5) / leaf_samples * sum;
         const auto half = static_cast<std::uint32_t>(
             std::upper_bound(reached.begin(), reached.end() - 1, wanted) - reached.begin());
-        const VertexThird& third = tree.thirds[first + half / 2];
+        const VertexPatch& vertex_patch = tree.vertex_patches[first + half / 2];
         // Corner, middle of an edge and centroid: 11, 5 and 2 of 18, in the order of the triangle.
         float weights[3] = {0.0f, 0.0f, 0.0f};
         const std::uint32_t beside = (half % 2 == 0) == !tree.backs[leaf] ? 1 : 2;
-        weights[third.corner] = 11.0f / 18.0f;
-        weights[(third.corner + beside) % 3] = 5.0f / 18.0f;
-        weights[(third.corner + 3 - beside) % 3] = 2.0f / 18.0f;
-        out.push_back({lit ? on_device[third.triangle] : no_index, weights[1], weights[2], area});
+        weights[vertex_patch.corner] = 11.0f / 18.0f;
+        weights[(vertex_patch.corner + beside) % 3] = 5.0f / 18.0f;
+        weights[(vertex_patch.corner + 3 - beside) % 3] = 2.0f / 18.0f;
+        out.push_back(
+            {lit ? on_device[vertex_patch.triangle] : no_index, weights[1], weights[2], area});
     }
 }
 
@@ -103,20 +105,23 @@ void show_vertices(const ElementTree& tree, const LeafVertices& shared,
     for (std::uint32_t row = 0; row < out.leaves.size(); ++row) {
         const std::uint32_t i = out.leaves[row];
         if (!tree.is_vertex(i)) continue;
-        for (std::uint32_t k = tree.first_thirds[i]; k < tree.first_thirds[i + 1]; ++k) {
-            const std::uint32_t t = on_device[tree.thirds[k].triangle];
+        for (std::uint32_t k = tree.first_patches[i]; k < tree.first_patches[i + 1]; ++k) {
+            const std::uint32_t t = on_device[tree.vertex_patches[k].triangle];
             if (t == no_index) continue;
             TrianglePatches& root = out.roots[t];
             std::uint32_t& patch = tree.backs[i] ? root.back : root.front;
             if (patch == ELEMENT_NONE) {
                 patch = static_cast<std::uint32_t>(out.patches.size());
-                const float second = tree.backs[i] ? 0.0f : 1.0f, third = 1.0f - second;
-                out.patches.push_back(
-                    {{0.0f, 0.0f, second, third}, {third, second, 0.0f, 0.0f}, {}, 0});
+                const float second = tree.backs[i] ? 0.0f : 1.0f, vertex_patch = 1.0f - second;
+                out.patches.push_back({{0.0f, 0.0f, second, vertex_patch},
+                                       {vertex_patch, second, 0.0f, 0.0f},
+                                       {},
+                                       0});
             }
-            const std::uint32_t corner = tree.thirds[k].corner;  // backs are wound the other way
+            const std::uint32_t corner =
+                tree.vertex_patches[k].corner;  // backs are wound the other way
             out.patches[patch].vertex[tree.backs[i] ? (3 - corner) % 3 : corner] =
-                shared.of_thirds[k];
+                shared.of_vertex_patches[k];
         }
     }
 }
@@ -145,7 +150,7 @@ ElementSurface make_element_surface(const ElementTree& tree, const DirectionBins
     for (const std::uint32_t i : out.leaves) {
         if (tree.is_vertex(i)) {
             const bool lit = !tree.backs[i] || is_double_sided(scene, tree.triangles[i]);
-            sample_thirds(tree, i, lit, on_device, scale, out.samples);
+            sample_vertex_patches(tree, i, lit, on_device, scale, out.samples);
             continue;
         }
         const PatchCorners& patch = out.patches[i];

@@ -5,9 +5,9 @@
 
 #include <clgi/shared/antiradiance.h>
 #include <clgi/shared/gbuffer.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/direction_bins.hpp>
 #include <clgi/advanced/elements.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/scene.hpp>
 #include <vector>
 

@@ -30,7 +30,7 @@ void check(const ElementOptions& options) {
         fail("max_area", options.max_area);
     if (!(options.min_area >= 0.0 && std::isfinite(options.min_area)))
         fail("min_area", options.min_area);
-    if (options.wished == 0) throw Error("make_elements: wished is 0, needs at least 1");
+    if (options.requested == 0) throw Error("make_elements: wished is 0, needs at least 1");
 }
 
 // Writes elements in depth-first order; what depends on children comes after.
@@ -86,7 +86,7 @@ private:
         out_.triangles.push_back(no_index);
         out_.backs.push_back(0);
         if (!leaves_.cells.empty())
-            out_.first_thirds.push_back(static_cast<std::uint32_t>(out_.thirds.size()));
+            out_.first_patches.push_back(static_cast<std::uint32_t>(out_.vertex_patches.size()));
         return i;
     }
 
@@ -97,10 +97,11 @@ private:
         out_.positions[i] = cell.position;
         out_.normals[i] = cell.normal;
         out_.areas[i] = cell.area;
-        out_.triangles[i] = leaves_.thirds[cell.first_third].triangle;
+        out_.triangles[i] = leaves_.vertex_patches[cell.first_patch].triangle;
         out_.backs[i] = cell.back ? 1 : 0;
-        out_.thirds.insert(out_.thirds.end(), leaves_.thirds.begin() + cell.first_third,
-                           leaves_.thirds.begin() + cell.end_third);
+        out_.vertex_patches.insert(out_.vertex_patches.end(),
+                                   leaves_.vertex_patches.begin() + cell.first_patch,
+                                   leaves_.vertex_patches.begin() + cell.end_patch);
         ++out_.leaves;
     }
 
@@ -213,8 +214,8 @@ double reach(const ElementTree& tree, std::size_t i, const glm::dvec3& position)
             square = std::max(square, glm::dot(way, way));
         }
     if (tree.is_vertex(i))
-        for (std::uint32_t k = tree.first_thirds[i]; k < tree.first_thirds[i + 1]; ++k)
-            square = std::max(square, square_reach(tree.thirds[k], position));
+        for (std::uint32_t k = tree.first_patches[i]; k < tree.first_patches[i + 1]; ++k)
+            square = std::max(square, square_reach(tree.vertex_patches[k], position));
     return std::sqrt(square);
 }
 
@@ -262,29 +263,29 @@ void find_flat_clusters(ElementTree& tree) {
 
 // Joined cells have about this share of the area that they may have.
 constexpr double joined_share = 0.7;
-constexpr double enough = 0.6;  // leaves, of the wished ones
+constexpr double enough = 0.6;  // leaves, of the requested ones
 constexpr int most_tries = 3;
 
-// Faces, and leaves at vertices unless there would be fewer leaves than wished; joined ones where
-// there would be more.
+// Faces, and leaves at vertices unless there would be fewer leaves than requested; joined ones
+// where there would be more.
 VertexCells mixed_leaves(const Scene& scene, const Faces& faces, double max_area,
                          const ElementOptions& options) {
     if (!options.vertices) return {{}, {}, faces.faces};
     const VertexCellMaker maker(scene, faces);
     CellPlan plan = maker.plan(max_area);
     if (options.max_area > 0.0) return maker(plan);
-    const auto wished = static_cast<double>(options.wished);
-    if (plan.leaves < wished) return {{}, {}, faces.faces};
-    if (plan.leaves == wished) return maker(plan);
+    const auto requested = static_cast<double>(options.requested);
+    if (plan.leaves < requested) return {{}, {}, faces.faces};
+    if (plan.leaves == requested) return maker(plan);
     double area = plan.area;
     if (plan.count == 0.0)  // pieces that have none may have joined ones
         for (const Face& face : faces.faces) area += face.area <= max_area ? face.area : 0.0;
     const double coarse = plan.leaves - plan.count;
-    double joined = area / (joined_share * std::max(wished - coarse, 0.25 * wished));
+    double joined = area / (joined_share * std::max(requested - coarse, 0.25 * requested));
     for (int tries = 0; tries < most_tries; ++tries) {
         plan = maker.plan(max_area, std::min(joined, max_area));
-        if (plan.leaves >= enough * wished) break;
-        joined *= plan.leaves / wished;  // more pieces have cells than had some before
+        if (plan.leaves >= enough * requested) break;
+        joined *= plan.leaves / requested;  // more pieces have cells than had some before
     }
     return maker(plan);
 }
@@ -320,7 +321,7 @@ ElementTree make_elements(const Scene& scene, const ElementOptions& options,
     const VertexCells mixed = mixed_leaves(scene, faces, out.max_area, cells);
     Builder(mixed, scene, poses, moves, out).build();
     if (!mixed.cells.empty())
-        out.first_thirds.push_back(static_cast<std::uint32_t>(out.thirds.size()));
+        out.first_patches.push_back(static_cast<std::uint32_t>(out.vertex_patches.size()));
     mark_moving(moves, out);
     gather(out);
     measure_radii(out);

@@ -28,9 +28,10 @@ constexpr double least_sent = 1e-2, least_received = 1e-6;
 constexpr double part_share = 0.25;
 constexpr int most_cuts = 8;
 
-// Thirds, and groups of them, are points where their squared radius is less than this share of
-// their squared distance. Of a flat one that is about the error of its solid angle; of a curved one
-// its radius over its distance, times the sine of half the angle that it bends by, adds to that.
+// Vertex patches, and groups of them, are points where their squared radius is less than this share
+// of their squared distance. Of a flat one that is about the error of its solid angle; of a curved
+// one its radius over its distance, times the sine of half the angle that it bends by, adds to
+// that.
 constexpr double far = 1e-2;
 
 }  // namespace
@@ -70,7 +71,7 @@ std::vector<double> hemisphere_scales(const ElementTree& tree, const DirectionBi
 
 Exchange::Exchange(const ElementTree& tree, const DirectionBins& bins, const BinChoice& choose,
                    const std::vector<double>& scales, const LinkOptions& options,
-                   std::shared_ptr<const SpreadTable> table, const ThirdGroups& groups)
+                   std::shared_ptr<const SpreadTable> table, const PatchGroups& groups)
     : tree_(tree),
       bins_(bins),
       scales_(scales),
@@ -127,7 +128,7 @@ void Exchange::spread_around(int bin, double angle) {
         if (meets(share)) add(share.bin, angle * share.weight / all);
 }
 
-double Exchange::cut_thirds(std::uint32_t sender, double side) {
+double Exchange::cut_vertex_patches(std::uint32_t sender, double side) {
     halves_.clear();
     points_.clear();
     double sum = 0.0;
@@ -143,18 +144,19 @@ double Exchange::cut_thirds(std::uint32_t sender, double side) {
         if (angle > 0.0) points_.emplace_back(way, angle);
         return true;
     };
-    const std::span<const ThirdGroup> groups = groups_.of(sender);
+    const std::span<const PatchGroup> groups = groups_.of(sender);
     for (std::size_t g = 0; g < groups.size();) {
-        const ThirdGroup& group = groups[g++];
+        const PatchGroup& group = groups[g++];
         if (put_point(group.middle, group.vector_area, group.square_radius)) {
             g = group.next;
             continue;
         }
         for (std::uint32_t k = group.first; k < group.end; ++k) {
-            const VertexThird& third = tree_.thirds[groups_.thirds()[k]];
-            const glm::dvec3 middle = centroid(third);
-            if (put_point(middle, vector_area(third), square_reach(third, middle))) continue;
-            const std::array<glm::dvec3, 4> p = outline(third);
+            const VertexPatch& vertex_patch = tree_.vertex_patches[groups_.vertex_patches()[k]];
+            const glm::dvec3 middle = centroid(vertex_patch);
+            if (put_point(middle, vector_area(vertex_patch), square_reach(vertex_patch, middle)))
+                continue;
+            const std::array<glm::dvec3, 4> p = outline(vertex_patch);
             for (const Corners& half : {Corners{p[0], p[1], p[2]}, Corners{p[0], p[2], p[3]}}) {
                 const double angle = side * signed_solid_angle(half, eye_);
                 sum += angle;
@@ -165,7 +167,7 @@ double Exchange::cut_thirds(std::uint32_t sender, double side) {
     return sum;
 }
 
-void Exchange::spread_thirds(double angle) {
+void Exchange::spread_vertex_patches(double angle) {
     double seen = 0.0;
     for (const auto& [way, part] : points_) {
         seen += part;
@@ -192,7 +194,7 @@ double Exchange::aim(std::uint32_t sender, std::uint32_t receiver) {
     const double height = glm::dot(tree_.normals[sender], way);
     sends_ = {height > 0.0 ? tree_.normals[sender] : -tree_.normals[sender], least_sent};
     angle = tree_.is_patch(sender) ? solid_angle(tree_.corners[sender], eye_)
-            : near_                ? cut_thirds(sender, height > 0.0 ? 1.0 : -1.0)
+            : near_                ? cut_vertex_patches(sender, height > 0.0 ? 1.0 : -1.0)
             : tree_.is_vertex(sender)
                 ? groups_.flatness(sender) * angle * std::abs(height) / distance
                 : std::min(angle * std::abs(height) / distance, 2.0 * pi);
@@ -226,7 +228,7 @@ void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vec
 
     if (parts && angle > limit_) {
         if (near_)
-            spread_thirds(angle);
+            spread_vertex_patches(angle);
         else
             spread(tree_.corners[sender], angle, 0);
     } else if (arrives(way)) {
@@ -242,7 +244,7 @@ void Exchange::operator()(std::uint32_t sender, std::uint32_t receiver, std::vec
     for (const int bin : used_) {
         const double sum = std::exchange(sums_[static_cast<std::size_t>(bin)], 0.0);
         if (!is_ahead(sender, receiver, bin)) continue;
-        out.push_back({receiver, sender, static_cast<std::uint16_t>(bin), still_part,
+        out.push_back({receiver, sender, static_cast<std::uint16_t>(bin), static_part,
                        form_factor(sender, receiver, bin, sum)});
     }
     used_.clear();

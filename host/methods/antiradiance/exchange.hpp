@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "methods/antiradiance/bin_choice.hpp"
+#include "methods/antiradiance/patch_groups.hpp"
 #include "methods/antiradiance/spread_table.hpp"
-#include "methods/antiradiance/third_groups.hpp"
 
 namespace clgi {
 
-constexpr std::uint16_t still_part = 0xffff;
+constexpr std::uint16_t static_part = 0xffff;
 
 struct Link {
     std::uint32_t receiver, sender;
     std::uint16_t bin;
-    std::uint16_t part;  // of the sender, see part_of(); still_part: no end of the link moves
+    std::uint16_t part;  // of the sender, see part_of(); static_part: no end of the link moves
     float form_factor;
 };
 
@@ -36,7 +36,7 @@ public:
     // table: for Spread::gaussian
     Exchange(const ElementTree& tree, const DirectionBins& bins, const BinChoice& choose,
              const std::vector<double>& scales, const LinkOptions& options,
-             std::shared_ptr<const SpreadTable> table, const ThirdGroups& groups);
+             std::shared_ptr<const SpreadTable> table, const PatchGroups& groups);
 
     // Appends the links from sender to receiver.
     void operator()(std::uint32_t sender, std::uint32_t receiver, std::vector<Link>& out);
@@ -72,12 +72,13 @@ private:
     void spread_around(int bin, double solid_angle);
     // To the bin of a direction towards the receiver.
     void send(const glm::dvec3& way, double solid_angle);
-    // Of a leaf at a vertex: cuts its thirds into points and halves and adds up their solid angles,
-    // those that face away from the side (1: front, -1: back) as negative. So the sum depends on
-    // the outline of the leaf alone, and a closed surface of leaves covers what it hides once.
-    double cut_thirds(std::uint32_t sender, double side);
+    // Of a leaf at a vertex: cuts its vertex patches into points and halves and adds up their solid
+    // angles, those that face away from the side (1: front, -1: back) as negative. So the sum
+    // depends on the outline of the leaf alone, and a closed surface of leaves covers what it hides
+    // once.
+    double cut_vertex_patches(std::uint32_t sender, double side);
     // Those that face that side, together as large as the sum.
-    void spread_thirds(double solid_angle);
+    void spread_vertex_patches(double solid_angle);
 
     const ElementTree& tree_;
     const DirectionBins& bins_;
@@ -87,17 +88,18 @@ private:
     const double limit_;
     const Spread spread_;
     const std::shared_ptr<const SpreadTable> table_;  // of Spread::gaussian alone
-    const ThirdGroups& groups_;
+    const PatchGroups& groups_;
     std::size_t unrefined_ = 0;
 
     // Of the present pair.
     glm::dvec3 eye_{0.0};  // the receiver's position
     BinDemand sends_, receives_;
-    bool near_ = false;  // the sender is a leaf at a vertex, and its thirds count
-    std::vector<std::pair<Corners, double>> halves_;     // of thirds, with their solid angles
-    std::vector<std::pair<glm::dvec3, double>> points_;  // way and solid angle of far thirds
-    std::vector<double> sums_;                           // [bins] sr; zero between calls
-    std::vector<int> used_;                              // bins that are not zero
+    bool near_ = false;  // the sender is a leaf at a vertex, and its vertex patches count
+    std::vector<std::pair<Corners, double>> halves_;  // of vertex patches, with their solid angles
+    std::vector<std::pair<glm::dvec3, double>>
+        points_;                // way and solid angle of far vertex patches
+    std::vector<double> sums_;  // [bins] sr; zero between calls
+    std::vector<int> used_;     // bins that are not zero
 };
 
 }  // namespace clgi

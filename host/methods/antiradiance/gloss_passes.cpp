@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/passes/antiradiance_gloss.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/passes/antiradiance_gloss.hpp>
 
-#include "methods/antiradiance/linked.hpp"
-#include "shading/lights/emitter_buffers.hpp"
 #include "core/opencl/planes.hpp"
 #include "core/opencl/program.hpp"
 #include "core/opencl/variants.hpp"
 #include "core/opencl/word.hpp"
+#include "methods/antiradiance/linked.hpp"
+#include "shading/lights/emitter_buffers.hpp"
 
 namespace clgi {
 namespace {

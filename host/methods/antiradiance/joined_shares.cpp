@@ -14,26 +14,26 @@ constexpr double alike = 0.5;  // cosine between the normals of leaves that shar
 bool JoinedShares::joined(std::uint32_t row) const {
     const std::uint32_t i = rows_[row];
     if (!tree_.is_vertex(i)) return false;
-    const auto first = tree_.thirds.begin() + tree_.first_thirds[i];
-    return std::any_of(first, tree_.thirds.begin() + tree_.first_thirds[i + 1],
-                       [&](const VertexThird& one) { return one.corners[0] != first->corners[0]; });
+    const auto first = tree_.vertex_patches.begin() + tree_.first_patches[i];
+    return std::any_of(first, tree_.vertex_patches.begin() + tree_.first_patches[i + 1],
+                       [&](const VertexPatch& one) { return one.corners[0] != first->corners[0]; });
 }
 
 // Leaves are beside each other where a triangle has corners in both.
 JoinedShares::JoinedShares(const ElementTree& tree, const std::vector<std::uint32_t>& rows)
     : tree_(tree), rows_(rows), beside_(rows.size()) {
     std::size_t triangles = 0;
-    for (const VertexThird& third : tree.thirds)
-        triangles = std::max(triangles, third.triangle + std::size_t{1});
+    for (const VertexPatch& vertex_patch : tree.vertex_patches)
+        triangles = std::max(triangles, vertex_patch.triangle + std::size_t{1});
     using Corners = std::array<std::uint32_t, 3>;  // rows
     std::vector<Corners> met(2 * triangles, Corners{no_index, no_index, no_index});
     const auto each = [&](const auto& visit) {
         for (std::uint32_t row = 0; row < rows.size(); ++row) {
             const std::uint32_t i = rows[row];
             if (!tree.is_vertex(i)) continue;
-            for (std::uint32_t k = tree.first_thirds[i]; k < tree.first_thirds[i + 1]; ++k)
-                visit(row, met[2 * std::size_t{tree.thirds[k].triangle} + tree.backs[i]],
-                      tree.thirds[k].corner);
+            for (std::uint32_t k = tree.first_patches[i]; k < tree.first_patches[i + 1]; ++k)
+                visit(row, met[2 * std::size_t{tree.vertex_patches[k].triangle} + tree.backs[i]],
+                      tree.vertex_patches[k].corner);
         }
     };
     each([](std::uint32_t row, Corners& corners, std::uint32_t k) { corners[k] = row; });

@@ -31,15 +31,15 @@ double leaf_area(const std::vector<Face>& faces, const ElementOptions& options) 
     if (options.max_area > 0.0) return options.max_area;
     double total = 0.0;
     for (const Face& face : faces) total += face.area;
-    const auto wished = static_cast<double>(options.wished);
+    const auto requested = static_cast<double>(options.requested);
     // At `fine` there are twice as many leaves and more.
-    double fine = 0.5 * total / wished, coarse = 4.0 * total / wished;
-    if (count_leaves(faces, coarse) < wished) {
+    double fine = 0.5 * total / requested, coarse = 4.0 * total / requested;
+    if (count_leaves(faces, coarse) < requested) {
         for (int step = 0; step < steps; ++step) {
             const double middle = std::sqrt(fine * coarse);
-            (count_leaves(faces, middle) < wished ? coarse : fine) = middle;
+            (count_leaves(faces, middle) < requested ? coarse : fine) = middle;
         }
-        if (count_leaves(faces, fine) - wished < wished - count_leaves(faces, coarse))
+        if (count_leaves(faces, fine) - requested < requested - count_leaves(faces, coarse))
             coarse = fine;
     }
     return std::max(coarse, options.min_area);

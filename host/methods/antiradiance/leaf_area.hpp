@@ -1,4 +1,4 @@
-// How often a face is halved, and the area of leaves that gives a wished number of them.
+// How often a face is halved, and the area of leaves that gives a requested number of them.
 // SPDX-License-Identifier: MIT
 #pragma once
 

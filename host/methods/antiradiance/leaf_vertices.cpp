@@ -28,19 +28,19 @@ LeafVertices leaf_vertices(const ElementTree& tree, const std::vector<std::uint3
     std::vector<LeafShares> weights;  // of each vertex: rows, and how much of the light is theirs
     LeafVertices out;
     out.vertices.resize(rows.size());
-    out.of_thirds.assign(tree.thirds.size(), no_index);
+    out.of_vertex_patches.assign(tree.vertex_patches.size(), no_index);
     const JoinedShares joined(tree, rows);
     std::size_t corner = 0;
     for (std::uint32_t row = 0; row < rows.size(); ++row) {
         if (tree.is_vertex(rows[row])) {
-            const std::uint32_t first = tree.first_thirds[rows[row]];
-            for (std::uint32_t k = first; k < tree.first_thirds[rows[row] + 1]; ++k) {
-                const glm::dvec3& at = tree.thirds[k].corners[0];
-                if (k == first || at != tree.thirds[k - 1].corners[0]) {
+            const std::uint32_t first = tree.first_patches[rows[row]];
+            for (std::uint32_t k = first; k < tree.first_patches[rows[row] + 1]; ++k) {
+                const glm::dvec3& at = tree.vertex_patches[k].corners[0];
+                if (k == first || at != tree.vertex_patches[k - 1].corners[0]) {
                     normals.push_back(tree.normals[rows[row]]);
                     weights.push_back(joined.at(row, at));
                 }
-                out.of_thirds[k] = static_cast<std::uint32_t>(weights.size() - 1);
+                out.of_vertex_patches[k] = static_cast<std::uint32_t>(weights.size() - 1);
             }
             continue;
         }

@@ -12,8 +12,8 @@ namespace clgi {
 
 struct LeafVertices {
     std::vector<std::array<std::uint32_t, 3>> vertices;   // [rows] of corners; not of leaves at
-                                                          // vertices, whose are of_thirds
-    std::vector<std::uint32_t> of_thirds;                 // [thirds of the tree]
+                                                          // vertices, whose are of_vertex_patches
+    std::vector<std::uint32_t> of_vertex_patches;         // [vertex patches of the tree]
     std::vector<std::uint32_t> first;                     // [vertices + 1] in leaves
     std::vector<std::pair<std::uint32_t, float>> leaves;  // row, share of the vertex: of area
 };

@@ -58,7 +58,7 @@ LinkSample sample_links(const ElementTree& tree, const DirectionBins& bins,
         const Link& one = found[k];
         const double stands_for = share * held.sample[one.receiver] / held.all[one.receiver];
         out.total += stands_for;
-        if (one.part != still_part) out.moving += stands_for;
+        if (one.part != static_part) out.moving += stands_for;
         ++out.links.first[one.receiver + 1];
         set_link(out.links, k, one);
         list_moving(out.links, k, one);

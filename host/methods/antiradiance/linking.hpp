@@ -79,7 +79,7 @@ private:
     const ElementTree& tree_;
     const DirectionBins& bins_;
     const LinkOptions& options_;
-    const ThirdGroups groups_;
+    const PatchGroups groups_;
     std::optional<MotionRefine> motion_;  // where something moves
     const Refine refine_;
     const std::vector<double> scales_;
@@ -106,7 +106,7 @@ inline void resize_links(Links& links, std::size_t count) {
 
 // Lists a link of which an end moves.
 inline void list_moving(Links& links, std::size_t place, const Link& link) {
-    if (link.part != still_part)
+    if (link.part != static_part)
         links.moving.push_back({static_cast<std::uint32_t>(place), link.receiver, link.part});
 }
 

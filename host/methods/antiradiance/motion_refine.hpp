@@ -37,7 +37,7 @@ private:
 
     const ElementTree& tree_;
     const std::vector<ElementTree>& poses_;
-    const ThirdGroups no_groups_;  // no leaf of a tree with something that moves is at a vertex
+    const PatchGroups no_groups_;  // no leaf of a tree with something that moves is at a vertex
     std::vector<Refine> at_;       // [poses]
     std::vector<double> radii_;
 };

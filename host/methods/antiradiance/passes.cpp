@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/passes/antiradiance.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/passes/antiradiance.hpp>
 
-#include "methods/antiradiance/linked.hpp"
 #include "core/opencl/planes.hpp"
 #include "core/opencl/program.hpp"
 #include "core/opencl/variants.hpp"
 #include "core/opencl/word.hpp"
+#include "methods/antiradiance/linked.hpp"
 
 namespace clgi {
 namespace {

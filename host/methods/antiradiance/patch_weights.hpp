@@ -7,7 +7,7 @@
 
 namespace clgi {
 
-// Of each corner of a patch: weights of the second and third corner of its triangle.
+// Of each corner of a patch: weights of the second and vertex patch corner of its triangle.
 using PatchWeights = std::array<glm::dvec2, 3>;
 
 inline std::array<glm::dvec3, 3> triangle_corners(const SceneTriangle& triangle,

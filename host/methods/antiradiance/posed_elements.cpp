@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/advanced/animation.hpp>
-#include <clgi/error.hpp>
 #include <clgi/advanced/moving_elements.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
 #include "methods/antiradiance/faces.hpp"

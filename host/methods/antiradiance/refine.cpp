@@ -32,16 +32,17 @@ double Refine::seen(std::size_t element, std::size_t from) const {
 
 bool Refine::below(std::size_t leaf, const glm::dvec3& normal, const glm::dvec3& position,
                    double height) const {
-    const std::span<const ThirdGroup> groups = groups_.of(leaf);
+    const std::span<const PatchGroup> groups = groups_.of(leaf);
     for (std::size_t g = 0; g < groups.size();) {
-        const ThirdGroup& group = groups[g++];
+        const PatchGroup& group = groups[g++];
         const double least = height - glm::dot(normal, group.middle - position);
         if (least >= 0.0 && group.square_radius <= least * least) {
             g = group.next;
             continue;
         }
         for (std::uint32_t k = group.first; k < group.end; ++k)
-            for (const glm::dvec3& corner : outline(tree_.thirds[groups_.thirds()[k]]))
+            for (const glm::dvec3& corner :
+                 outline(tree_.vertex_patches[groups_.vertex_patches()[k]]))
                 if (glm::dot(normal, corner - position) > height) return false;
     }
     return true;

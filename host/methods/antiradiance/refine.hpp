@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "methods/antiradiance/third_groups.hpp"
+#include "methods/antiradiance/patch_groups.hpp"
 
 namespace clgi {
 
@@ -32,7 +32,7 @@ class Refine {
 public:
     // groups: of the tree. limit: sr that an element may have, seen from the other. motion: it
     // answers for pairs of which an end moves; null: none does.
-    Refine(const ElementTree& tree, const ThirdGroups& groups, double limit,
+    Refine(const ElementTree& tree, const PatchGroups& groups, double limit,
            const MotionRefine* motion = nullptr)
         : tree_(tree), groups_(groups), limit_(limit), motion_(motion) {}
 
@@ -56,12 +56,12 @@ private:
     bool far_apart(std::size_t a, std::size_t b) const;
     double radius(std::size_t i) const;
 
-    // Whether all thirds of a leaf at a vertex lie below this height above the plane.
+    // Whether all vertex patches of a leaf at a vertex lie below this height above the plane.
     bool below(std::size_t leaf, const glm::dvec3& normal, const glm::dvec3& position,
                double height) const;
 
     const ElementTree& tree_;
-    const ThirdGroups& groups_;
+    const PatchGroups& groups_;
     const double limit_;
     const MotionRefine* const motion_;
 };

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <clgi/advanced/kit/draw.hpp>
 
-#include "methods/antiradiance/sky.hpp"
 #include "core/opencl/variants.hpp"
+#include "methods/antiradiance/sky.hpp"
 #include "methods/antiradiance/solver_state.hpp"
 
 namespace clgi {

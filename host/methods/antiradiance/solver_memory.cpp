@@ -5,18 +5,18 @@
 #include <chrono>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/moving_elements.hpp>
-#include <clgi/passes/parallel.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/passes/parallel.hpp>
 #include <cmath>
 
+#include "core/kit/ranges.hpp"
+#include "core/opencl/check.hpp"
+#include "core/opencl/word.hpp"
 #include "methods/antiradiance/device_links.hpp"
 #include "methods/antiradiance/link_sample.hpp"
 #include "methods/antiradiance/linked.hpp"
-#include "core/opencl/check.hpp"
-#include "core/opencl/word.hpp"
 #include "methods/antiradiance/solver_buffers.hpp"
 #include "methods/antiradiance/solver_motion.hpp"
-#include "core/kit/ranges.hpp"
 
 namespace clgi {
 namespace {

@@ -15,8 +15,8 @@
 namespace clgi {
 
 struct AntiradianceSolver::State : AntiradianceBuffers {
-    State(const Programs& all, const cl::CommandQueue& on, const Scene& file,
-          const DeviceScene& of, const AntiradianceOptions& wanted);
+    State(const Programs& all, const cl::CommandQueue& on, const Scene& file, const DeviceScene& of,
+          const AntiradianceOptions& wanted);
 
     void build() const;
     void write(const Scene& file, const DeviceLinks& between);

@@ -52,12 +52,12 @@ std::vector<std::uint32_t> smooth_corners(const Scene& scene, const Adjacency& m
 }
 
 // The cell's position, or where that lies below a curved surface, the centroid of the nearest
-// third.
+// vertex patch.
 glm::dvec3 not_below(const VertexCells& all, const VertexCell& cell) {
     glm::dvec3 out(0.0);
     double nearest = std::numeric_limits<double>::max();
-    for (std::uint32_t k = cell.first_third; k < cell.end_third; ++k) {
-        const glm::dvec3 middle = centroid(all.thirds[k]), way = middle - cell.position;
+    for (std::uint32_t k = cell.first_patch; k < cell.end_patch; ++k) {
+        const glm::dvec3 middle = centroid(all.vertex_patches[k]), way = middle - cell.position;
         if (!(glm::dot(way, way) < nearest)) continue;
         nearest = glm::dot(way, way);
         out = middle;
@@ -68,15 +68,15 @@ glm::dvec3 not_below(const VertexCells& all, const VertexCell& cell) {
 void measure(const VertexCells& all, const std::vector<Face>& faces,
              const std::vector<std::uint32_t>& of, bool joined, VertexCell& cell) {
     glm::dvec3 moment(0.0);
-    const glm::dvec3& first = faces[of[all.thirds[cell.first_third].triangle]].normal;
+    const glm::dvec3& first = faces[of[all.vertex_patches[cell.first_patch].triangle]].normal;
     bool flat = true;
-    for (std::uint32_t k = cell.first_third; k < cell.end_third; ++k) {
-        const Face& face = faces[of[all.thirds[k].triangle]];
-        const double third = face.area / 3.0;
-        cell.area += third;
-        cell.normal += third * face.normal;
+    for (std::uint32_t k = cell.first_patch; k < cell.end_patch; ++k) {
+        const Face& face = faces[of[all.vertex_patches[k].triangle]];
+        const double vertex_patch = face.area / 3.0;
+        cell.area += vertex_patch;
+        cell.normal += vertex_patch * face.normal;
         flat = flat && face.normal == first;
-        moment += third * centroid(all.thirds[k]);
+        moment += vertex_patch * centroid(all.vertex_patches[k]);
     }
     cell.position = moment / cell.area;
     cell.normal = flat ? first : glm::normalize(cell.normal);
@@ -177,20 +177,21 @@ VertexCells VertexCellMaker::operator()(const CellPlan& plan) const {
     for (const bool back : {false, true}) {
         const std::vector<std::uint32_t>& sides = back ? backs_ : fronts_;
         const std::vector<std::uint32_t> order = by_cell(plan, sides);
-        out.thirds.reserve(out.thirds.size() + order.size());
+        out.vertex_patches.reserve(out.vertex_patches.size() + order.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             const std::uint32_t t = order[i] / 3, corner = order[i] % 3;
             if (i == 0 || plan.cells[order[i]] != plan.cells[order[i - 1]]) {
                 out.cells.emplace_back();
-                out.cells.back().first_third = static_cast<std::uint32_t>(out.thirds.size());
+                out.cells.back().first_patch =
+                    static_cast<std::uint32_t>(out.vertex_patches.size());
                 out.cells.back().back = back;
             }
             // Corners of backs run the other way round, from the same first one.
             const std::array<glm::dvec3, 3>& p = faces[fronts_[t]].corners;
             const std::uint32_t next = (corner + (back ? 2 : 1)) % 3;
             const std::uint32_t last = (corner + (back ? 1 : 2)) % 3;
-            out.thirds.push_back({{p[corner], p[next], p[last]}, t, corner});
-            out.cells.back().end_third = static_cast<std::uint32_t>(out.thirds.size());
+            out.vertex_patches.push_back({{p[corner], p[next], p[last]}, t, corner});
+            out.cells.back().end_patch = static_cast<std::uint32_t>(out.vertex_patches.size());
         }
         for (VertexCell& cell : out.cells)
             if (cell.back == back) measure(out, faces, sides, plan.joined, cell);

@@ -4,10 +4,10 @@
 //
 //   area = sum of a_t / 3,  normal = sum of a_t n_t / 3, made unit,  t: triangles around the vertex
 //
-// Areas add up to those of the triangles. The position at one vertex is the centroid of the thirds,
-// which all but is the vertex in the middle of a smooth surface, and lies beside it on a crease,
-// where leaves of several sides would else coincide. Of several vertices that may lie far below a
-// surface that is curved outwards: there it is the centroid of the nearest third.
+// Areas add up to those of the triangles. The position at one vertex is the centroid of the vertex
+// patches, which all but is the vertex in the middle of a smooth surface, and lies beside it on a
+// crease, where leaves of several sides would else coincide. Of several vertices that may lie far
+// below a surface that is curved outwards: there it is the centroid of the nearest vertex patch.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -24,14 +24,14 @@ struct VertexCell {
     glm::dvec3 position{0.0};  // metres
     glm::dvec3 normal{0.0};    // unit
     double area = 0.0;         // m^2
-    std::uint32_t first_third = 0, end_third = 0;
+    std::uint32_t first_patch = 0, end_patch = 0;
     bool back = false;
 };
 
 struct VertexCells {
     std::vector<VertexCell> cells;
-    std::vector<VertexThird> thirds;  // by cell
-    std::vector<Face> faces;          // that no cell replaces, in their order
+    std::vector<VertexPatch> vertex_patches;  // by cell
+    std::vector<Face> faces;                  // that no cell replaces, in their order
 };
 
 // Which cells there would be.
@@ -69,29 +69,29 @@ private:
 };
 
 // Corner, middle, centroid, middle: a plane quadrilateral, wound as the triangle is.
-inline std::array<glm::dvec3, 4> outline(const VertexThird& third) {
-    const std::array<glm::dvec3, 3>& p = third.corners;
+inline std::array<glm::dvec3, 4> outline(const VertexPatch& vertex_patch) {
+    const std::array<glm::dvec3, 3>& p = vertex_patch.corners;
     return {p[0], 0.5 * (p[0] + p[1]), centroid(p), 0.5 * (p[0] + p[2])};
 }
 
 // Its centroid: that of its two halves, which are of one size.
-inline glm::dvec3 centroid(const VertexThird& third) {
-    const std::array<glm::dvec3, 3>& p = third.corners;
+inline glm::dvec3 centroid(const VertexPatch& vertex_patch) {
+    const std::array<glm::dvec3, 3>& p = vertex_patch.corners;
     return (11.0 * p[0] + 3.5 * (p[1] + p[2])) / 18.0;
 }
 
 // m^2, of the square of the way from `middle` to the farthest corner of the outline.
-inline double square_reach(const VertexThird& third, const glm::dvec3& middle) {
+inline double square_reach(const VertexPatch& vertex_patch, const glm::dvec3& middle) {
     double out = 0.0;
-    for (const glm::dvec3& corner : outline(third)) {
+    for (const glm::dvec3& corner : outline(vertex_patch)) {
         const glm::dvec3 way = corner - middle;
         out = std::max(out, glm::dot(way, way));
     }
     return out;
 }
 
-inline glm::dvec3 vector_area(const VertexThird& third) {
-    const std::array<glm::dvec3, 3>& p = third.corners;
+inline glm::dvec3 vector_area(const VertexPatch& vertex_patch) {
+    const std::array<glm::dvec3, 3>& p = vertex_patch.corners;
     return glm::cross(p[1] - p[0], p[2] - p[0]) / 6.0;
 }
 

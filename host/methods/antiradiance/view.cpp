@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/advanced/planes.hpp>
 #include <clgi/advanced/antiradiance_view.hpp>
+#include <clgi/advanced/planes.hpp>
 #include <optional>
 
 #include "shading/kit/without_sky.hpp"

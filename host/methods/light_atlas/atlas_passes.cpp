@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/passes/atlas.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/passes/atlas.hpp>
 #include <cmath>
 
 #include "core/opencl/launch.hpp"

@@ -4,8 +4,8 @@
 #include <future>
 #include <system_error>
 
-#include "methods/light_atlas/placement.hpp"
 #include "methods/light_atlas/patches.hpp"
+#include "methods/light_atlas/placement.hpp"
 #include "methods/light_atlas/vpl_count.hpp"
 
 namespace clgi {

@@ -1,7 +1,7 @@
 // The passes that look up some texels first, and the others where that is needed.
 // SPDX-License-Identifier: MIT
-#include <clgi/passes/atlas.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/passes/atlas.hpp>
 
 #include "core/opencl/launch.hpp"
 #include "core/opencl/planes.hpp"

@@ -78,7 +78,8 @@ private:
 std::string room(const AtlasOptions& options) {
     return std::to_string(options.most_pages) + (options.most_pages == 1 ? " page" : " pages") +
            " of " + times(options.size, options.size) + " texels with " +
-           std::to_string(options.padding) + " texels of padding; larger pages, or more of them, needed";
+           std::to_string(options.padding) +
+           " texels of padding; larger pages, or more of them, needed";
 }
 
 // The largest number of texels per metre that fits, to half a per cent.

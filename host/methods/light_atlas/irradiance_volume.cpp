@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/irradiance_volume.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 
 namespace clgi {

@@ -9,8 +9,8 @@
 #include <queue>
 #include <utility>
 
+#include "methods/light_atlas/clusters_of_islands.hpp"
 #include "scene/disjoint_sets.hpp"
-#include "methods/light_atlas/clusters_of_specks.hpp"
 
 namespace clgi {
 namespace {
@@ -97,9 +97,9 @@ public:
         return out;
     }
 
-    // Regions below an area, as specks to be clustered.
-    std::vector<Speck> smaller_than(double area) {
-        std::vector<Speck> out;
+    // Regions below an area, as islands to be clustered.
+    std::vector<Island> smaller_than(double area) {
+        std::vector<Island> out;
         std::vector<glm::dvec3> centre(area_.size(), glm::dvec3(0.0));
         for (std::uint32_t p = 0; p < area_.size(); ++p) {
             const Patch& patch = patches_.patches[p];
@@ -222,16 +222,16 @@ std::vector<Region> make_regions(const Patches& patches, std::uint32_t count) {
     const auto too_many = [&] { return merger.fewest() > most || merger.excess() > most_excess; };
     merger.merge(widest_cone, [&](double smallest) { return smallest < vpl_area && too_many(); });
     if (too_many()) {
-        const std::vector<Speck> specks = merger.smaller_than(vpl_area);
+        const std::vector<Island> islands = merger.smaller_than(vpl_area);
         double share = 0.0;
         std::int64_t others = merger.fewest();
-        for (const Speck& speck : specks) {
-            const int sites = speck.double_sided ? 2 : 1;
-            share += sites * speck.area / vpl_area;
+        for (const Island& island : islands) {
+            const int sites = island.double_sided ? 2 : 1;
+            share += sites * island.area / vpl_area;
             others -= sites;
         }
         const auto room = std::min(most - others, static_cast<std::int64_t>(share + most_excess));
-        for (const std::vector<std::uint32_t>& cluster : cluster_specks(specks, room))
+        for (const std::vector<std::uint32_t>& cluster : cluster_islands(islands, room))
             for (const std::uint32_t region : cluster) merger.join_unlike(cluster[0], region);
     }
     std::vector<Region> regions = merger.regions();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/error.hpp>
 #include <numeric>
 
 #include "methods/light_atlas/solver_state.hpp"

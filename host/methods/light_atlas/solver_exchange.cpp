@@ -1,4 +1,5 @@
-// Light that VPLs send each other, bounce by bounce or the strongest alone. [Schaerfig16, section 3]
+// Light that VPLs send each other, bounce by bounce or the strongest alone. [Schaerfig16, section
+// 3]
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstring>

@@ -19,7 +19,8 @@ constexpr std::uint32_t batches_a_report = 16;
 // The scene as a batch of VPLs sees it.
 void LightAtlasSolver::State::hemicubes(std::uint32_t first, std::uint32_t count, Pixels kind) {
     const auto side = static_cast<std::uint32_t>(options.hemicube_size);
-    const CubeParams params{count, 5, side, 0, 0, b.sites.stride, lift, 0.5f * lift, first, 0, 0, 0};
+    const CubeParams params{count, 5,           side,  0, 0, b.sites.stride,
+                            lift,  0.5f * lift, first, 0, 0, 0};
     record("gbuffer.cubes", count, [&](const WaitList& wait) {
         return gbuffer.cubes(queue, params, b.sites.planes, b.sites.chosen, b.views, wait);
     });
@@ -31,10 +32,18 @@ void LightAtlasSolver::State::hemicubes(std::uint32_t first, std::uint32_t count
 
 // Rows of the transport of a batch, and its reach.
 void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count) {
-    const TransportParams params{first, count, b.kept ? 1u : 0u, b.sites.site_count,
-                                 b.sites.stride, b.sites.sample_stride,
-                                 static_cast<std::uint32_t>(options.hemicube_size), row_scale,
-                                 0, 0, 0, lift};
+    const TransportParams params{first,
+                                 count,
+                                 b.kept ? 1u : 0u,
+                                 b.sites.site_count,
+                                 b.sites.stride,
+                                 b.sites.sample_stride,
+                                 static_cast<std::uint32_t>(options.hemicube_size),
+                                 row_scale,
+                                 0,
+                                 0,
+                                 0,
+                                 lift};
     const std::size_t pairs = std::size_t{count} * b.sites.site_count * b.sites.per_site;
     if (!options.occlusion) {
         record("vpl.transport_open", pairs, [&](const WaitList& wait) {
@@ -73,8 +82,9 @@ void LightAtlasSolver::State::measure() {
 }
 
 ShootParams LightAtlasSolver::State::shoot_params(std::uint32_t first, std::uint32_t count) const {
-    return {first,          count, b.kept ? 1u : 0u, b.sites.site_count, b.sites.stride,
-            1.0f / row_scale, SHOOT_ALL, threshold};
+    return {
+        first,     count,    b.kept ? 1u : 0u, b.sites.site_count, b.sites.stride, 1.0f / row_scale,
+        SHOOT_ALL, threshold};
 }
 
 // Begins with 1, the factors of shooters and receivers alike.

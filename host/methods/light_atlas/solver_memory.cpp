@@ -1,13 +1,13 @@
 // What the light atlas solver needs in memory: options in range, and the table of buffers.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
-#include "shading/lights/single_view.hpp"
 #include "core/opencl/check.hpp"
 #include "methods/light_atlas/solver_state.hpp"
+#include "shading/lights/single_view.hpp"
 
 namespace clgi {
 

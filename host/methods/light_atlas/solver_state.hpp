@@ -5,10 +5,10 @@
 #include <clgi/advanced/atlas_blocks.hpp>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/emitters.hpp>
+#include <clgi/light_atlas.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/lights.hpp>
 #include <clgi/passes/parallel.hpp>
-#include <clgi/light_atlas.hpp>
 
 namespace clgi {
 
@@ -16,7 +16,7 @@ namespace light_atlas {
 
 struct Buffers {
     SiteBuffers sites;
-    GBuffer samples, texels;   // of sample points and VPLs, of texels
+    GBuffer samples, texels;             // of sample points and VPLs, of texels
     cl::Buffer sample_list, texel_list;  // SurfaceSample
     cl::Buffer sample_irradiance;        // [IRRADIANCE_PLANES][sample_stride]
     cl::Buffer gathered, irradiance;     // [IRRADIANCE_PLANES][texel_stride]; the second completed
@@ -33,13 +33,13 @@ struct Buffers {
     cl::Buffer non_finite;
     RasterBuffers lists;  // for what is not drawn a view a work-item
     std::uint32_t texel_count = 0, texel_stride = 0;
-    std::uint32_t first_point = 0;  // behind the texels, at the beginning of a packet
+    std::uint32_t first_point = 0;     // behind the texels, at the beginning of a packet
     std::uint32_t receiver_count = 0;  // texels, and all up to the last point if there are points
-    std::uint32_t batch = 0;  // shooters at a time
+    std::uint32_t batch = 0;           // shooters at a time
     std::uint32_t listed_count = 0, listed_stride = 0, unblocked = 0;  // as in BlockParams
     std::uint32_t block_count = 0;                                     // 0: nothing is refined
-    bool kept = false;        // rows of all sites
-    bool seen_kept = false;   // what texels see of them; only if the rows are kept
+    bool kept = false;                                                 // rows of all sites
+    bool seen_kept = false;  // what texels see of them; only if the rows are kept
 };
 
 // Throws Error for options out of range.
@@ -106,8 +106,8 @@ struct LightAtlasSolver::State {
     void project(std::uint32_t first, std::uint32_t count);
     FillParams fill_params(std::uint32_t first, std::uint32_t count) const;
     ShootParams shoot_params(std::uint32_t first, std::uint32_t count) const;
-    double unshot_power() const;    // exposed
-    float strongest_power();        // exposed; waits
+    double unshot_power() const;  // exposed
+    float strongest_power();      // exposed; waits
     bool run(const Progress& progress, double least);
 
     cl::CommandQueue queue;
@@ -128,7 +128,7 @@ struct LightAtlasSolver::State {
     std::uint32_t shots = 0;
     std::size_t bytes = 0;
     bool placed = false, measured = false, near_known = false, ended = false;
-    bool differences = false;       // this run adds to what the texels have
+    bool differences = false;  // this run adds to what the texels have
     std::uint32_t measured_vpls = 0;
     std::uint32_t filled_vpls = 0;  // that have lit the texels in this run
     std::optional<LightAtlasState> restored;

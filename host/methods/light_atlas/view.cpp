@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/passes/atlas.hpp>
 #include <clgi/advanced/light_atlas_view.hpp>
+#include <clgi/passes/atlas.hpp>
 #include <cmath>
 
 namespace clgi {

@@ -39,8 +39,7 @@ constexpr double walk_lift = 1.0 / 64.0;
 
 double area_of(const Patches& patches) {
     double out = 0.0;
-    for (const Patch& patch : patches.patches)
-        out += (patch.double_sided ? 2.0 : 1.0) * patch.area;
+    for (const Patch& patch : patches.patches) out += (patch.double_sided ? 2.0 : 1.0) * patch.area;
     return out;
 }
 
@@ -57,8 +56,8 @@ std::uint32_t vpl_count(const Scene& scene, const Patches& patches, const VplOpt
         fail("gap_density", std::to_string(options.gap_density),
              "1 to " + std::to_string(most_gap_density));
     const bool by_density = options.density > 0.0;
-    const double count =
-        by_density ? std::max(1.0, std::round(options.density * area_of(patches))) : double(options.count);
+    const double count = by_density ? std::max(1.0, std::round(options.density * area_of(patches)))
+                                    : double(options.count);
     if (!(count >= 1.0 && count <= double(options.most)))
         fail(by_density ? "density times area" : "count", std::to_string(count),
              "1 to " + std::to_string(options.most) + " (most)");
@@ -146,11 +145,10 @@ public:
         std::iota(owner.begin(), owner.end(), 0u);
         if (sample_count > region.vpls) {
             samples = spread(pieces, triangles, sample_count, sample_jitter);
-            owner = nearest_sites(samples.positions, sites.positions,
-                                  [&](std::uint32_t i, std::uint32_t s) {
-                                      return divided(region, number, samples.points[i],
-                                                     sites.points[s]);
-                                  });
+            owner = nearest_sites(
+                samples.positions, sites.positions, [&](std::uint32_t i, std::uint32_t s) {
+                    return divided(region, number, samples.points[i], sites.points[s]);
+                });
         }
         append(region, number, sites.points, samples.points, owner);
     }

@@ -2,8 +2,8 @@
 #include <clgi/passes/vpl.hpp>
 
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
 #include "core/opencl/launch.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/kit/draw.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 
 #include "methods/second_order/solver_state.hpp"
@@ -49,7 +49,7 @@ SecondOrderSolver::State::State(const Programs& programs, const cl::CommandQueue
     image.build({"combine"});
     if (options.direct && scene.environment()) image.build({"environment"});
     // Also of lights that are dark now, as buffers are.
-    if (options.indirect && options.emitters.vpls > 0 && emitters.set().room.emitters > 0) {
+    if (options.indirect && options.emitters.vpls > 0 && emitters.set().capacity.emitters > 0) {
         const std::vector<Light>& lights = scene.lights();
         if (std::any_of(lights.begin(), lights.end(),
                         [](const Light& light) { return light.kind == Light::Kind::spot; }))

@@ -2,13 +2,13 @@
 // shared with other devices.
 // SPDX-License-Identifier: MIT
 #include <array>
-#include <clgi/error.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/error.hpp>
 
-#include "shading/lights/replicate.hpp"
-#include "core/opencl/error_text.hpp"
 #include "core/kit/ranges.hpp"
+#include "core/opencl/error_text.hpp"
 #include "methods/second_order/solver_state.hpp"
+#include "shading/lights/replicate.hpp"
 
 namespace clgi {
 

@@ -1,13 +1,14 @@
-// What the second-order solver needs in memory and time: options in range, and the table of buffers.
+// What the second-order solver needs in memory and time: options in range, and the table of
+// buffers.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
-#include "core/opencl/check.hpp"
 #include "core/kit/ranges.hpp"
+#include "core/opencl/check.hpp"
 #include "methods/second_order/solver_state.hpp"
 
 namespace clgi {
@@ -53,7 +54,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene,
     b.stride = plane_stride(pixels);
     b.low_stride = plane_stride(low_pixels);
     const Storage storage = options.build.storage;
-    const bool lit = options.indirect && emitters.set().room.emitters > 0;
+    const bool lit = options.indirect && emitters.set().capacity.emitters > 0;
     const bool refine = lit && refines(options);
     const std::size_t n = lit ? options.emitters.vpls : 0;
     const std::size_t negative = lit ? options.negative_vpls : 0;

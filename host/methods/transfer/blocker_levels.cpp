@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "core/opencl/check.hpp"
-#include "scene/disjoint_sets.hpp"
-#include "scene/weld.hpp"
 #include "methods/transfer/nearest_coarse.hpp"
 #include "methods/transfer/rings.hpp"
+#include "scene/disjoint_sets.hpp"
+#include "scene/weld.hpp"
 
 namespace clgi {
 namespace {

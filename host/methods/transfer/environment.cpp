@@ -1,8 +1,8 @@
 // Weights of an environment's rows and columns, and which way its picture lies.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/passes/transfer.hpp>
 #include <clgi/advanced/sh.hpp>
+#include <clgi/passes/transfer.hpp>
 #include <cmath>
 #include <numbers>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/passes/masks.hpp>
 #include <clgi/advanced/visible_sets.hpp>
+#include <clgi/passes/masks.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

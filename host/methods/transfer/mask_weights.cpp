@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <clgi/error.hpp>
 #include <clgi/advanced/mask_weights.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>

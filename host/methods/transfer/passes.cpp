@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/shared/masks.h>
-#include <clgi/passes/transfer.hpp>
 #include <clgi/advanced/planes.hpp>
 #include <clgi/advanced/sh.hpp>
+#include <clgi/passes/transfer.hpp>
 
 #include "core/opencl/launch.hpp"
 #include "core/opencl/planes.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/passes/receivers.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/passes/receivers.hpp>
 
 #include "core/opencl/launch.hpp"
 #include "core/opencl/planes.hpp"

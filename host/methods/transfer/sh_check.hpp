@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/error.hpp>
 #include <clgi/advanced/sh.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
 namespace clgi::sh {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <clgi/advanced/planes.hpp>
 
+#include "core/kit/ranges.hpp"
 #include "core/opencl/check.hpp"
 #include "core/opencl/word.hpp"
 #include "methods/transfer/solver_state.hpp"
-#include "core/kit/ranges.hpp"
 
 namespace clgi {
 namespace {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "scene/base_color.hpp"
 #include "methods/transfer/solver_state.hpp"
+#include "scene/base_color.hpp"
 
 namespace clgi {
 
@@ -52,7 +52,7 @@ void SceneReceivers::add_other_sides(BlockerLevels& levels) const {
 }
 
 std::vector<float> SceneReceivers::reflectances(const Scene& scene, const DeviceScene& device,
-                                               std::size_t stride) const {
+                                                std::size_t stride) const {
     const BaseColorMeans base_colors(scene);
     std::vector<glm::dvec3> sum(scene.positions.size(), glm::dvec3(0.0));
     std::vector<int> count(scene.positions.size(), 0);
@@ -62,8 +62,8 @@ std::vector<float> SceneReceivers::reflectances(const Scene& scene, const Device
         for (const std::uint32_t corner : triangle.vertex) {
             const glm::dvec3 colour =
                 scene.colors.empty() ? glm::dvec3(1.0) : glm::dvec3(scene.colors[corner]);
-            sum[corner] += colour * base *
-                           double{reflectance(material.metallic, material.roughness).diffuse};
+            sum[corner] +=
+                colour * base * double{reflectance(material.metallic, material.roughness).diffuse};
             ++count[corner];
         }
     }

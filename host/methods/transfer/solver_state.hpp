@@ -3,8 +3,8 @@
 #pragma once
 
 #include <clgi/advanced/environment_light.hpp>
-#include <clgi/passes/receivers.hpp>
 #include <clgi/dynamic_transfer.hpp>
+#include <clgi/passes/receivers.hpp>
 
 namespace clgi {
 

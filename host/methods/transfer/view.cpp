@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <clgi/advanced/dynamic_transfer_view.hpp>
+#include <clgi/advanced/planes.hpp>
 #include <clgi/passes/parallel.hpp>
 #include <clgi/passes/receivers.hpp>
-#include <clgi/advanced/planes.hpp>
-#include <clgi/advanced/dynamic_transfer_view.hpp>
 #include <cmath>
 #include <vector>
 

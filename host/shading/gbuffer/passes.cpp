@@ -114,8 +114,8 @@ GBufferPasses::GBufferPasses(const Programs& programs, const BuildOptions& optio
 
 void GBufferPasses::build(std::initializer_list<const char*> passes, Pixels kind) const {
     const Drawing& d = drawing(kind);
-    build_named({d.clear, d.raster, d.raster_late, d.raster_large, d.raster_views, put_view_, cubes_,
-                 surface_, resolve_, downsample_},
+    build_named({d.clear, d.raster, d.raster_late, d.raster_large, d.raster_views, put_view_,
+                 cubes_, surface_, resolve_, downsample_},
                 passes);
 }
 

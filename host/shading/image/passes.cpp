@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "shading/lights/emitter_buffers.hpp"
 #include "core/opencl/launch.hpp"
 #include "core/opencl/planes.hpp"
 #include "core/opencl/program.hpp"
+#include "shading/lights/emitter_buffers.hpp"
 
 namespace clgi {
 namespace {
@@ -48,7 +48,8 @@ ImagePasses::ImagePasses(const Programs& programs, const BuildOptions& options) 
 }
 
 void ImagePasses::build(std::initializer_list<const char*> passes) const {
-    build_named({gather_, count_, compact_, upsample_, place_, combine_, tonemap_, environment_}, passes);
+    build_named({gather_, count_, compact_, upsample_, place_, combine_, tonemap_, environment_},
+                passes);
 }
 
 cl::Event ImagePasses::gather(const cl::CommandQueue& queue, const GatherParams& params,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/error.hpp>
 #include <clgi/advanced/kit/draw.hpp>
+#include <clgi/error.hpp>
 #include <string>
 
 namespace clgi {

@@ -5,7 +5,7 @@
 namespace clgi {
 
 Emitters::Emitters(const DeviceScene& scene, const EmitterOptions& options, Pixels kind)
-    : scene_(&scene), set_(make_emitters(scene, options)), room_(set_.room) {
+    : scene_(&scene), set_(make_emitters(scene, options)), capacity_(set_.capacity) {
     buffers_.kind = kind;
     buffers_.view_count = set_.views.size();
     buffers_.pixels = set_.pixels;
@@ -13,16 +13,16 @@ Emitters::Emitters(const DeviceScene& scene, const EmitterOptions& options, Pixe
 
 void Emitters::add_to(BufferTable& table) {
     const char* lower = "emitters.shadow_size, face_size or area_samples";
-    table.add(buffers_.emitters, "emitters", lower, room_.emitters * sizeof(Emitter));
-    table.add(buffers_.views, "the emitters' views", lower, room_.views * sizeof(View));
+    table.add(buffers_.emitters, "emitters", lower, capacity_.emitters * sizeof(Emitter));
+    table.add(buffers_.views, "the emitters' views", lower, capacity_.views * sizeof(View));
     table.add(buffers_.visibility, "the emitters' shadow maps", lower,
-              room_.pixels * pixel_bytes(buffers_.kind));
+              capacity_.pixels * pixel_bytes(buffers_.kind));
 }
 
 bool Emitters::update(const EmitterOptions& options) {
     EmitterSet next = make_emitters(*scene_, options);
-    if (next.room.emitters > room_.emitters || next.room.views > room_.views ||
-        next.room.pixels > room_.pixels)
+    if (next.capacity.emitters > capacity_.emitters || next.capacity.views > capacity_.views ||
+        next.capacity.pixels > capacity_.pixels)
         return false;
     set_ = std::move(next);
     buffers_.view_count = set_.views.size();
@@ -32,7 +32,7 @@ bool Emitters::update(const EmitterOptions& options) {
 
 void Emitters::adopt(Emitters&& planned) {
     set_ = std::move(planned.set_);
-    room_ = planned.room_;
+    capacity_ = planned.capacity_;
     buffers_.view_count = set_.views.size();
     buffers_.pixels = set_.pixels;
 }
@@ -59,7 +59,7 @@ void Emitters::accept(Recorder& record, const LightPasses& passes, const cl::Buf
 }
 
 void Emitters::build(const GBufferPasses& gbuffer) const {
-    for (const EmitterRoom::Together& views : room_.together)
+    for (const EmitterCapacity::Together& views : capacity_.together)
         for (const std::uint32_t count : {views.least, views.most})
             build_draw(gbuffer, *scene_, {0, count, views.width, views.height, 0}, buffers_.kind);
 }

@@ -9,7 +9,7 @@
 namespace clgi {
 
 inline void need_emitters(const PassKernel& pass, const EmitterBuffers& sources,
-                         std::size_t emitters) {
+                          std::size_t emitters) {
     need(pass, "views", sources.views, sources.view_count * sizeof(View));
     need(pass, "visibility", sources.visibility, sources.pixels * pixel_bytes(sources.kind));
     need(pass, "emitters", sources.emitters, emitters * sizeof(Emitter));

@@ -12,10 +12,10 @@
 #include <numeric>
 #include <string>
 
-#include "shading/lights/replicate.hpp"
-#include "shading/lights/single_view.hpp"
 #include "core/opencl/check.hpp"
 #include "scene/luminance.hpp"
+#include "shading/lights/replicate.hpp"
+#include "shading/lights/single_view.hpp"
 
 namespace clgi {
 namespace {
@@ -195,14 +195,14 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
 
 // The samples of all surfaces, or all directions of the environment, go dark together; each lamp
 // for itself.
-void count_views(const std::vector<Source>& sources, EmitterRoom& room) {
-    std::map<std::uint32_t, EmitterRoom::Together> by_width;
+void count_views(const std::vector<Source>& sources, EmitterCapacity& capacity) {
+    std::map<std::uint32_t, EmitterCapacity::Together> by_width;
     std::map<std::pair<std::uint32_t, std::size_t>, std::uint32_t> of_one;
     for (std::size_t i = 0; i < sources.size(); ++i)
         for (const View& view : sources[i].views) {
-            ++room.views;
-            room.pixels += static_cast<std::size_t>(view.width) * view.height;
-            EmitterRoom::Together& all = by_width[view.width];
+            ++capacity.views;
+            capacity.pixels += static_cast<std::size_t>(view.width) * view.height;
+            EmitterCapacity::Together& all = by_width[view.width];
             all.width = view.width;
             all.height = std::max(all.height, view.height);
             ++all.most;
@@ -213,7 +213,7 @@ void count_views(const std::vector<Source>& sources, EmitterRoom& room) {
         all.least = all.most;
         for (const auto& [key, count] : of_one)
             if (key.first == width) all.least = std::min(all.least, count);
-        room.together.push_back(all);
+        capacity.together.push_back(all);
     }
 }
 
@@ -310,9 +310,9 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     if (!options.shadows)
         for (Source& source : sources) source.views.clear();
     EmitterSet out;
-    out.room.emitters = sources.size();
-    count_views(sources, out.room);
-    if (out.room.pixels > most_pixels)
+    out.capacity.emitters = sources.size();
+    count_views(sources, out.capacity);
+    if (out.capacity.pixels > most_pixels)
         throw Error(
             "emitters: the sources' views have more than 2^30 pixels; fewer "
             "area_samples or environment_lights, or smaller shadow_size and face_size needed");

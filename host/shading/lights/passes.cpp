@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/passes/lights.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/passes/lights.hpp>
 
-#include "shading/lights/emitter_buffers.hpp"
 #include "core/opencl/launch.hpp"
 #include "core/opencl/planes.hpp"
 #include "core/opencl/program.hpp"
+#include "shading/lights/emitter_buffers.hpp"
 
 namespace clgi {
 

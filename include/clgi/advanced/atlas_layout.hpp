@@ -95,8 +95,7 @@ CLGI_API AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint3
 // scene; the others are in no chart. Throws Error for another number of triangles, and one that
 // is not below `count`.
 CLGI_API AtlasLayout atlas_of_whole(const AtlasLayout& part,
-                                    const std::vector<std::uint32_t>& triangles,
-                                    std::size_t count);
+                                    const std::vector<std::uint32_t>& triangles, std::size_t count);
 
 enum class AtlasPages {
     stacked,  // one unit square with the pages below each other

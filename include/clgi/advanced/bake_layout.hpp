@@ -5,8 +5,8 @@
 #include <clgi/advanced/atlas_layout.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/patches.hpp>
-#include <clgi/scene.hpp>
 #include <clgi/advanced/vpl_layout.hpp>
+#include <clgi/scene.hpp>
 
 namespace clgi {
 

@@ -8,8 +8,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/scene.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -41,14 +41,13 @@ struct BlockerLevels {
 
 // coarse: vertices of the scene; mesh::simplify of clgi::mesh makes such triangles. rings: 0 to 2;
 // the surroundings of a vertex are the triangles with a corner at most this many edges away.
-// Vertices in one place count as one (clgi/advanced/adjacency.hpp). Triangles that touch the vertex itself
-// are in no list: it sees them edge-on.
-// A piece of the scene without any coarse triangle is part of the coarse mesh as it is.
-// most_bytes: of all lists; 0: what the device allows for one buffer. The fewer coarse triangles,
-// the longer lists are: they hold all that the coarse triangles near a vertex stand for.
-// Throws DeviceError when that is too much, before it is listed, and Error when the scene is not
-// the one on the device, when rings is out of range, and for coarse triangles with vertices that
-// the scene has not or that are not on the device.
+// Vertices in one place count as one (clgi/advanced/adjacency.hpp). Triangles that touch the vertex
+// itself are in no list: it sees them edge-on. A piece of the scene without any coarse triangle is
+// part of the coarse mesh as it is. most_bytes: of all lists; 0: what the device allows for one
+// buffer. The fewer coarse triangles, the longer lists are: they hold all that the coarse triangles
+// near a vertex stand for. Throws DeviceError when that is too much, before it is listed, and Error
+// when the scene is not the one on the device, when rings is out of range, and for coarse triangles
+// with vertices that the scene has not or that are not on the device.
 CLGI_API BlockerLevels blocker_levels(const Scene& scene, const DeviceScene& device_scene,
                                       const std::vector<glm::uvec3>& coarse, int rings,
                                       std::size_t most_bytes = 0);

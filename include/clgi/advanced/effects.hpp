@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
+#include <clgi/advanced/analysis.hpp>
 #include <clgi/advanced/export.hpp>
-#include <clgi/advanced/facts.hpp>
 #include <optional>
 #include <string>
 
@@ -34,19 +34,19 @@ CLGI_API const char* name_of(Effect effect);
 CLGI_API std::optional<Effect> effect_of(const std::string& name);
 
 // What a decision stands on.
-enum class Ground {
-    absent,    // the scene has nothing of it
-    proven,    // a picture without it is the same
-    measured,  // a probe bounds what a picture loses without it
-    needed,    // nothing bounds what a picture would lose
-    wished,    // the caller decided
+enum class Evidence {
+    absent,     // the scene has nothing of it
+    proven,     // a picture without it is the same
+    measured,   // a probe bounds what a picture loses without it
+    needed,     // nothing bounds what a picture would lose
+    requested,  // the caller decided
 };
-CLGI_API const char* name_of(Ground ground);
+CLGI_API const char* name_of(Evidence evidence);
 
 struct EffectChoice {
     Effect effect = Effect::point_light;
     bool on = false;
-    Ground ground = Ground::absent;
+    Evidence evidence = Evidence::absent;
     // What a picture without it differs by at most: root of the mean squared difference of
     // luminance over the mean luminance. Infinite where nothing bounds it.
     double bound = 0.0;
@@ -59,10 +59,10 @@ struct EffectChoice {
 };
 using EffectChoices = std::array<EffectChoice, effect_count>;  // by Effect
 
-// What small pictures tell beyond the facts.
+// What small pictures tell beyond the analysis.
 // 0 where no surface reflects light. Infinite where the camera sees none; the first two also where
 // no VPL has any.
-struct ProbeFacts {
+struct ProbeResult {
     // Root of the mean squared luminance that one bounce, unshadowed, adds to the camera's picture,
     // over the mean luminance of that picture.
     double first_bounce = 0.0;
@@ -80,7 +80,7 @@ struct ProbeFacts {
 // Decides each effect: off where the scene has nothing of it, where the proofs say that it changes
 // nothing, or where the probe bounds what it changes by `tolerance`. Without a probe only the first
 // two.
-CLGI_API EffectChoices choose_effects(const SceneFacts& facts, double tolerance,
-                                      const std::optional<ProbeFacts>& probe = std::nullopt);
+CLGI_API EffectChoices choose_effects(const SceneAnalysis& analysis, double tolerance,
+                                      const std::optional<ProbeResult>& probe = std::nullopt);
 
 }  // namespace clgi

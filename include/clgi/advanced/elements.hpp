@@ -7,10 +7,10 @@
 // to four children. The same scene gives the same tree in every run.
 //
 // Pieces of the mesh whose triangles are finer than that have leaves at their vertices instead,
-// about half as many [section 4.3, Table 1]. Such a leaf has a third of each triangle around the
-// vertex, and the mean of their normals. A vertex on a crease, or where materials meet, has a leaf
-// for each side of it. Where these are more leaves than wished, those of neighbouring vertices are
-// joined while together they are small, round and face about one way.
+// about half as many [section 4.3, Table 1]. Such a leaf has a vertex patch of each triangle around
+// the vertex, and the mean of their normals. A vertex on a crease, or where materials meet, has a
+// leaf for each side of it. Where these are more leaves than requested, those of neighbouring
+// vertices are joined while together they are small, round and face about one way.
 //
 // Light passes an open sheet unless both of its sides are there to block it. So a triangle that is
 // double-sided, or of a piece of the mesh that is not closed, has a second patch that faces
@@ -34,20 +34,20 @@ namespace clgi {
 using VertexPoses = std::vector<std::vector<glm::dvec3>>;
 
 struct ElementOptions {
-    double max_area = 0.0;  // m^2 of a leaf; 0: what gives about the wished number of leaves
-    double min_area = 0.0;  // m^2, the least that max_area becomes for the wished number
+    double max_area = 0.0;  // m^2 of a leaf; 0: what gives about the requested number of leaves
+    double min_area = 0.0;  // m^2, the least that max_area becomes for the requested number
     // Leaves, about. In scenes of many small triangles, large ones are cut to four times the area
-    // that a wished leaf has on average, and leaves at vertices are joined until there are about
-    // as many as wished. Small triangles that have no leaves at vertices remain, however many.
-    std::size_t wished = 8192;
+    // that a requested leaf has on average, and leaves at vertices are joined until there are about
+    // as many as requested. Small triangles that have no leaves at vertices remain, however many.
+    std::size_t requested = 8192;
     bool backs = true;  // of open sheets
     // Leaves at the vertices of fine meshes, where enough leaves remain and nothing moves.
     bool vertices = true;
 };
 
 // The part of a triangle at one of its corners: between the corner, the middles of the edges beside
-// it and the centroid. It has a third of the area.
-struct VertexThird {
+// it and the centroid. It has a vertex patch of the area.
+struct VertexPatch {
     std::array<glm::dvec3, 3> corners;  // of the triangle, as wound, that of the vertex first
     std::uint32_t triangle;             // of the scene
     std::uint32_t corner;               // of it, 0 to 2
@@ -67,9 +67,10 @@ struct ElementTree {
     // Of the scene; no_index for clusters. Of a leaf at vertices one of those around them, all of
     // which have the same material.
     std::vector<std::uint32_t> triangles;
-    std::vector<std::uint8_t> backs;          // 1: a leaf or patch of the back of its triangle
-    std::vector<std::uint32_t> first_thirds;  // [elements + 1] in thirds; empty: none has any
-    std::vector<VertexThird> thirds;          // of leaves at vertices
+    std::vector<std::uint8_t> backs;  // 1: a leaf or patch of the back of its triangle
+    std::vector<std::uint32_t>
+        first_patches;  // [elements + 1] in vertex patches; empty: none has any
+    std::vector<VertexPatch> vertex_patches;  // of leaves at vertices
     std::vector<std::uint8_t> moving;         // 1: a vertex of the subtree moves; empty: none does
 
     double max_area = 0.0;  // m^2 that triangles were cut to
@@ -81,7 +82,7 @@ struct ElementTree {
     bool is_leaf(std::size_t i) const { return ends[i] == i + 1; }
     bool is_patch(std::size_t i) const { return triangles[i] != no_index && !is_vertex(i); }
     bool is_vertex(std::size_t i) const {
-        return !first_thirds.empty() && first_thirds[i] != first_thirds[i + 1];
+        return !first_patches.empty() && first_patches[i] != first_patches[i + 1];
     }
     bool is_flat(std::size_t i) const { return normals[i] != glm::dvec3(0.0); }
     bool moves(std::size_t i) const { return !moving.empty() && moving[i] != 0; }

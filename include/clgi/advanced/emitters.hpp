@@ -4,8 +4,8 @@
 
 #include <clgi/shared/gbuffer.h>
 #include <clgi/shared/lights.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
+#include <clgi/device_scene.hpp>
 #include <vector>
 
 namespace clgi {
@@ -29,7 +29,7 @@ struct EmitterOptions {
 constexpr std::uint32_t most_candidates = 1u << 22;
 
 // How much buffers must hold for all lights of a scene, also for those that are dark at the moment.
-struct EmitterRoom {
+struct EmitterCapacity {
     std::size_t emitters = 0;
     std::size_t views = 0;
     std::size_t pixels = 0;
@@ -48,7 +48,7 @@ struct EmitterSet {
     std::size_t pixels = 0;                 // of all views
     std::vector<std::uint32_t> candidates;  // Halton candidates to try, by emitter; spots only
     std::size_t vpl_count = 0;
-    EmitterRoom room;
+    EmitterCapacity capacity;
 };
 
 // One emitter for each punctual light, `area_samples` for the emissive triangles (stratified by

@@ -4,9 +4,9 @@
 #pragma once
 
 #include <clgi/advanced/atlas_layout.hpp>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/irradiance_volume.hpp>
 #include <clgi/advanced/kit/picture.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/programs.hpp>
 #include <memory>
 #include <optional>
@@ -24,9 +24,9 @@ using LightAtlasViewOptions = PictureOptions;
 // nearest points; without a volume they have none.
 class CLGI_API LightAtlasView {
 public:
-    // Builds kernels and allocates. atlas: of the scene that was uploaded; volume: whose points_of()
-    // were baked with it. Throws Error for options out of range and the layout of another scene,
-    // DeviceError when memory does not suffice.
+    // Builds kernels and allocates. atlas: of the scene that was uploaded; volume: whose
+    // points_of() were baked with it. Throws Error for options out of range and the layout of
+    // another scene, DeviceError when memory does not suffice.
     LightAtlasView(const Programs& programs, const cl::CommandQueue& queue,
                    const DeviceScene& scene, const AtlasLayout& atlas,
                    const LightAtlasViewOptions& options = {},

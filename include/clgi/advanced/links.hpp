@@ -69,12 +69,12 @@ struct Links {
 // The same links for any number of threads.
 //
 // poses: of what moves, the tree at times of its motion, in their order (posed_elements() of
-// clgi/advanced/moving_elements.hpp); empty: nothing moves. Two elements of which one moves are refined as
-// the worst of the poses wants it, where both go straight from each pose to the next. Between poses
-// a surface that turns may show parts that no pose shows: more poses make that less. Where a
-// sender's triangle exceeds bin_share of a bin in some pose it is cut into 4 or 16 parts with a
-// link each, which may give nothing as long as the elements do not face each other. In the links
-// made here they are as the tree has them.
+// clgi/advanced/moving_elements.hpp); empty: nothing moves. Two elements of which one moves are
+// refined as the worst of the poses wants it, where both go straight from each pose to the next.
+// Between poses a surface that turns may show parts that no pose shows: more poses make that less.
+// Where a sender's triangle exceeds bin_share of a bin in some pose it is cut into 4 or 16 parts
+// with a link each, which may give nothing as long as the elements do not face each other. In the
+// links made here they are as the tree has them.
 //
 // Throws Error for options out of range, for poses of another number of elements and for more than
 // 2^32 - 1 links, InputError for elements so small that floats cannot hold a form factor.

@@ -8,9 +8,9 @@
 
 namespace clgi {
 
-// Values from plane to plane for so many points: a multiple of 16, so that every packet stays inside
-// its plane, and no multiple of a page, so that the same point of all planes does not fall into one
-// set of a CPU's cache.
+// Values from plane to plane for so many points: a multiple of 16, so that every packet stays
+// inside its plane, and no multiple of a page, so that the same point of all planes does not fall
+// into one set of a CPU's cache.
 inline std::uint32_t plane_stride(std::size_t points) {
     constexpr std::size_t line = 16, page = 1024, skew = 5 * line;
     const std::size_t whole = (points + line - 1) / line * line;

@@ -12,8 +12,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/error.hpp>
 #include <clgi/advanced/export.hpp>
+#include <clgi/error.hpp>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>

@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/kit/progress.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/second_order.hpp>
 #include <optional>
 
@@ -22,7 +22,7 @@ CLGI_API SecondOrderOptions with_settings(SecondOrderOptions options,
                                           const SecondOrderSettings& settings);
 
 // What is asked for, one at least. With both, the error counts as far as the time allows.
-struct TuningWish {
+struct TuningTarget {
     // Median time of a frame, ms above 0: to be met, not only to stay under. A frame lasts, on the
     // host's clock, from render() until the queue is empty, shadow maps and G-buffer included.
     std::optional<double> frame_ms;
@@ -48,10 +48,10 @@ struct SecondOrderTuning {
 // options stay as they are; if it has no negative VPLs, the settings have none. queue, scene: the
 // solver's. Waits, some 0.3 s for each setting that is timed, and with an error for seconds,
 // because it renders the converged picture. Returns nothing if progress cancelled. The solver then
-// has the options that it had, as after an exception. Throws Error for a wish out of range, or
+// has the options that it had, as after an exception. Throws Error for a request out of range, or
 // where the solver renders no indirect light; otherwise what the solver throws.
 CLGI_API std::optional<SecondOrderTuning> tune_second_order(
     const cl::CommandQueue& queue, const DeviceScene& scene, SecondOrderSolver& solver,
-    const Camera& camera, const TuningWish& wish, const Progress& progress = nullptr);
+    const Camera& camera, const TuningTarget& request, const Progress& progress = nullptr);
 
 }  // namespace clgi

@@ -13,7 +13,7 @@
 namespace clgi::io {
 
 struct GltfOptions {
-    int scene = -1;  // index of the scene; -1: the file's default, else its first
+    int scene = -1;          // index of the scene; -1: the file's default, else its first
     bool lightmaps = false;  // keeps texture coordinates without a texture
     bool animation = true;   // fills Scene::animation if the file has any that moves something
     std::size_t max_triangles = std::size_t{1} << 26;  // of all instances; more is an InputError

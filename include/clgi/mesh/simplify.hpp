@@ -17,9 +17,9 @@ namespace clgi::mesh {
 // (clgi::posed): the vertices keep their numbers.
 //
 // Vertices in one place are welded first, so seams of UVs and normals do not stop a collapse. Every
-// connected piece (clgi/advanced/adjacency.hpp) gets a share in proportion to its triangles, but at least 4,
-// so the result has more triangles than asked for when there are many small pieces. It also has
-// more where every further collapse would turn a triangle over or change how the piece is
+// connected piece (clgi/advanced/adjacency.hpp) gets a share in proportion to its triangles, but at
+// least 4, so the result has more triangles than asked for when there are many small pieces. It
+// also has more where every further collapse would turn a triangle over or change how the piece is
 // connected, such as closing a hole or opening a border. A piece with no more triangles than its
 // share is kept as it is.
 //

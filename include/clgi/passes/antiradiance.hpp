@@ -4,10 +4,10 @@
 #pragma once
 
 #include <clgi/shared/antiradiance.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/direction_bins.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
@@ -17,14 +17,14 @@ namespace clgi {
 
 // Elements and the links that end at each.
 struct LinkBuffers {
-    cl::Buffer elements;      // [element_count] Element
+    cl::Buffer elements;  // [element_count] Element
     // [element_count][2] uint: where those begin that read powers, and those that read rows; and
     // where the last ones end.
     cl::Buffer first_links;
     // [link_count] uint: elements of links that read powers, rows of the others; one at least, like
     // the other two.
     cl::Buffer senders;
-    cl::Buffer bins;          // [link_count] ushort
+    cl::Buffer bins;  // [link_count] ushort
     // [link_count] float, 1 / (m^2 sr) [Dachsbacher07, Eq. 17]; of links that read powers times
     // the cosine of the sender's Element::normal with the direction of the bin.
     cl::Buffer form_factors;

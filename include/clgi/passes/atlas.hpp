@@ -5,9 +5,9 @@
 
 #include <clgi/shared/atlas.h>
 #include <clgi/shared/volume.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/vpl.hpp>
 #include <clgi/programs.hpp>
@@ -86,7 +86,8 @@ public:
                      const cl::Buffer& gathered, const cl::Buffer& filled,
                      const WaitList& wait = {}) const;
 
-    // The same where nothing lies between surfaces: to all texels that they face and that face them.
+    // The same where nothing lies between surfaces: to all texels that they face and that face
+    // them.
     cl::Event gather_open(const cl::CommandQueue& queue, const FillParams& params,
                           const SiteBuffers& buffers, const cl::Buffer& texels,
                           const cl::Buffer& gathered, const cl::Buffer& filled,
@@ -108,15 +109,14 @@ public:
     cl::Event project(const cl::CommandQueue& queue, const FillParams& params,
                       const MeshParams& mesh_params, const SiteBuffers& buffers,
                       const cl::Buffer& views, const cl::Buffer& visibility,
-                      const MeshBuffers& mesh, const cl::Buffer& texels,
-                      const cl::Buffer& gathered, const cl::Buffer& filled,
-                      const WaitList& wait = {}) const;
+                      const MeshBuffers& mesh, const cl::Buffer& texels, const cl::Buffer& gathered,
+                      const cl::Buffer& filled, const WaitList& wait = {}) const;
 
     // The reach of the VPL nearest to each texel, of those that face the same way -> reach [stride]
     // float. params.shooter_count: all VPLs.
     cl::Event nearest(const cl::CommandQueue& queue, const FillParams& params,
-                      const SiteBuffers& buffers, const cl::Buffer& texels,
-                      const cl::Buffer& reach, const WaitList& wait = {}) const;
+                      const SiteBuffers& buffers, const cl::Buffer& texels, const cl::Buffer& reach,
+                      const WaitList& wait = {}) const;
 
     // gathered -> irradiance, both [3][stride] float: raised where VPLs fill the hemisphere of a
     // texel less than surfaces do, lowered where they fill more than there is. non_finite: [1]

@@ -9,12 +9,12 @@
 #pragma once
 
 #include <clgi/shared/gbuffer.h>
-#include <clgi/device_scene.hpp>
+#include <algorithm>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
 #include <clgi/advanced/planes.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/programs.hpp>
-#include <algorithm>
 #include <initializer_list>
 #include <vector>
 
@@ -43,11 +43,11 @@ inline std::size_t pixel_bytes(Pixels kind) {
 
 // What views are drawn into, and the lists of large triangles of the views drawn at a time.
 struct RasterBuffers {
-    cl::Buffer pixels;    // [pixels of all views] ulong (visibility) or uint (depth)
-    cl::Buffer polygons;  // [views][capacity] RasterPolygon
-    cl::Buffer runs;      // [views][capacity] RasterRun
-    cl::Buffer late;      // [views][raster_batches(triangle_count)] uint
-    cl::Buffer counts;    // [views] RasterCount
+    cl::Buffer pixels;           // [pixels of all views] ulong (visibility) or uint (depth)
+    cl::Buffer polygons;         // [views][capacity] RasterPolygon
+    cl::Buffer runs;             // [views][capacity] RasterRun
+    cl::Buffer late;             // [views][raster_batches(triangle_count)] uint
+    cl::Buffer counts;           // [views] RasterCount
     std::uint32_t views = 1;     // drawn at a time
     std::uint32_t capacity = 0;  // polygons that a view's list holds; raster_late draws the rest
     Pixels kind = Pixels::visibility;
@@ -60,7 +60,8 @@ inline std::size_t raster_batches(std::size_t triangles) {
 
 // A capacity that few views exceed: all triangles of a small scene, else 16,384 polygons (2 MB).
 inline std::uint32_t raster_capacity(std::size_t triangles) {
-    return static_cast<std::uint32_t>(std::min<std::size_t>(std::max<std::size_t>(triangles, 1), 16384));
+    return static_cast<std::uint32_t>(
+        std::min<std::size_t>(std::max<std::size_t>(triangles, 1), 16384));
 }
 
 // The planes of one picture. `resolve` or `surface` writes them, or they are imported from another
@@ -151,8 +152,7 @@ public:
     // Builds these kernels now, several at a time, by the names of the methods. Those that draw are
     // built for visibility. Kernels that are not built here are built when first enqueued.
     // kind: which variant of those that draw.
-    void build(std::initializer_list<const char*> passes,
-               Pixels kind = Pixels::visibility) const;
+    void build(std::initializer_list<const char*> passes, Pixels kind = Pixels::visibility) const;
 
     int packet_width() const { return resolve_.packet_width; }
 

@@ -4,13 +4,13 @@
 #pragma once
 
 #include <clgi/shared/image.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/advanced/planes.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/passes/lights.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
-#include <clgi/advanced/planes.hpp>
-#include <clgi/passes/lights.hpp>
 
 namespace clgi {
 
@@ -73,7 +73,7 @@ public:
                     const WaitList& wait = {}) const;
 
     // Emission, direct and indirect light of every pixel of the view. Packets with numbers that are
-    // not finite are counted and mended.
+    // not finite are counted and sanitised.
     cl::Event combine(const cl::CommandQueue& queue, const CombineParams& params, const View& view,
                       const DeviceScene& scene, const CombineBuffers& buffers,
                       const WaitList& wait = {}) const;

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <clgi/shared/gbuffer.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/pass.hpp>
-#include <clgi/programs.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
+#include <clgi/programs.hpp>
 
 namespace clgi {
 
@@ -36,7 +36,7 @@ struct ImportBuffers {
 // Scale, exposure and counts of a scene; flags and formats are left at 0. origin: the world point,
 // in metres, that positions in the texels are relative to.
 CLGI_API ImportParams import_params(const DeviceScene& scene, std::uint32_t stride,
-                           const glm::dvec3& origin = glm::dvec3(0.0));
+                                    const glm::dvec3& origin = glm::dvec3(0.0));
 
 // Bytes of a texel in a TEXEL_... layout.
 CLGI_API std::size_t texel_bytes(std::uint32_t format);

@@ -4,9 +4,9 @@
 #pragma once
 
 #include <clgi/shared/lights.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
@@ -15,9 +15,9 @@ namespace clgi {
 
 // The emitters with their shadow maps.
 struct EmitterBuffers {
-    cl::Buffer emitters;    // [emitter_count] Emitter
-    cl::Buffer views;       // of all emitters, View
-    cl::Buffer visibility;  // [pixels of all views] ulong, or uint where kind is depth
+    cl::Buffer emitters;         // [emitter_count] Emitter
+    cl::Buffer views;            // of all emitters, View
+    cl::Buffer visibility;       // [pixels of all views] ulong, or uint where kind is depth
     std::size_t view_count = 0;  // how many views and pixels the buffers must hold at least
     std::size_t pixels = 0;
     Pixels kind = Pixels::visibility;

@@ -8,8 +8,8 @@
 #include <clgi/shared/receivers.h>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
-#include <clgi/programs.hpp>
 #include <clgi/advanced/sh.hpp>
+#include <clgi/programs.hpp>
 #include <glm/glm.hpp>
 #include <initializer_list>
 #include <vector>
@@ -96,8 +96,8 @@ public:
 
     // The triangles of the receivers' clusters and singles (build: visible_near) that are the
     // nearest in some pixel of their masks -> bits of seen [visible_words(triangle_count)][stride]
-    // uint (clgi/advanced/visible_sets.hpp). Bits that are set already stay. heights: pixel_heights of the
-    // masks' size; planes are always exact.
+    // uint (clgi/advanced/visible_sets.hpp). Bits that are set already stay. heights: pixel_heights
+    // of the masks' size; planes are always exact.
     cl::Event visible(const cl::CommandQueue& queue, const ReceiverBuffers& receivers,
                       const BlockerBuffers& blockers, const cl::Buffer& heights,
                       const cl::Buffer& seen, const WaitList& wait = {}) const;

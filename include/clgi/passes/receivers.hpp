@@ -5,9 +5,9 @@
 #pragma once
 
 #include <clgi/shared/receivers.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/masks.hpp>
 #include <clgi/programs.hpp>
@@ -55,9 +55,8 @@ public:
     // there; the last plane becomes the sum of what is shown. states [columns * rows] uint:
     // PROBE_...
     cl::Event compare_probes(const cl::CommandQueue& queue, const ProbeParams& params,
-                             const GBuffer& seen, const cl::Buffer& shown,
-                             const cl::Buffer& probes, const cl::Buffer& states,
-                             const WaitList& wait = {}) const;
+                             const GBuffer& seen, const cl::Buffer& shown, const cl::Buffer& probes,
+                             const cl::Buffer& states, const WaitList& wait = {}) const;
 
     // The same of gloss [3][params.pixel_stride] as it is shown, after compare_probes: more probes
     // fail where materials have lobes. shown: what arrives. seen has base colours and materials.

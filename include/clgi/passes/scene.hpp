@@ -4,9 +4,9 @@
 #pragma once
 
 #include <clgi/shared/scene.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/programs.hpp>
 #include <cstdint>
 

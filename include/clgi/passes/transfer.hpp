@@ -1,14 +1,15 @@
 // Light and visibility in spherical harmonics, one method per kernel. Structs:
-// clgi/shared/transfer.h, conventions: clgi/advanced/sh.hpp. Rules for all methods: clgi/passes/gbuffer.hpp.
+// clgi/shared/transfer.h, conventions: clgi/advanced/sh.hpp. Rules for all methods:
+// clgi/passes/gbuffer.hpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/shared/transfer.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
-#include <clgi/programs.hpp>
 #include <clgi/advanced/sh.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/programs.hpp>
 #include <initializer_list>
 #include <vector>
 

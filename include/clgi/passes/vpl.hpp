@@ -4,9 +4,9 @@
 #pragma once
 
 #include <clgi/shared/vpl.h>
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>

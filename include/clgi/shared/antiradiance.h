@@ -63,11 +63,11 @@ typedef struct {
     uint first_back;  // row of the first leaf that faces backwards: its points are turned round
 } LeafPointParams;
 
-// A patch as a part of its triangle of the scene: weights of the triangle's second and third corner
+// A patch as a part of its triangle of the scene: weights of the triangle's second and vertex patch corner
 // at the patch's corners. vertex: of leaves, where they are shown.
 typedef struct {
     float4 weights;  // of the first corner, then of the second
-    float4 last;     // xy: of the third
+    float4 last;     // xy: of the vertex patch
     uint vertex[3];
     uint pad0_;
 } PatchCorners;

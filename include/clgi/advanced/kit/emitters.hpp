@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/emitters.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/lights.hpp>
 
@@ -51,7 +51,7 @@ public:
                 const cl::Buffer& accepted) const;
 
     // Whether some light of the scene has a shadow map, also one that is dark now.
-    bool casts_shadows() const { return room_.views > 0; }
+    bool casts_shadows() const { return capacity_.views > 0; }
 
     const EmitterSet& set() const { return set_; }
     const EmitterBuffers& buffers() const { return buffers_; }
@@ -59,7 +59,7 @@ public:
 private:
     const DeviceScene* scene_;
     EmitterSet set_;
-    EmitterRoom room_;  // what the buffers have room for
+    EmitterCapacity capacity_;  // what the buffers have room for
     EmitterBuffers buffers_;
 };
 

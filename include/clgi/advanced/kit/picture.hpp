@@ -3,12 +3,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/interval.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/emitters.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
+#include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
 #include <clgi/programs.hpp>

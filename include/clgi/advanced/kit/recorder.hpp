@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/error.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/interval.hpp>
 #include <clgi/advanced/kit/progress.hpp>
+#include <clgi/error.hpp>
 #include <clgi/opencl.hpp>
 #include <string>
 #include <utility>
@@ -90,11 +90,11 @@ private:
     std::string owner_;
     Progress progress_;
     bool cancelled_ = false;
-    WaitList before_;     // what the next command must wait for besides the last one
-    WaitList end_;        // the last command; kept up to date, so that a sequence that fails half-way
-                          // leaves behind what the next one must wait for
-    WaitList fills_;      // of a picture made of fills
-    WaitList running_;    // commands that had not ended by the last begin(), and those since
+    WaitList before_;   // what the next command must wait for besides the last one
+    WaitList end_;      // the last command; kept up to date, so that a sequence that fails half-way
+                        // leaves behind what the next one must wait for
+    WaitList fills_;    // of a picture made of fills
+    WaitList running_;  // commands that had not ended by the last begin(), and those since
     std::vector<PassEvent> events_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/antiradiance/third_groups.hpp"
+#include "methods/antiradiance/patch_groups.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,14 +11,14 @@
 namespace clgi {
 namespace {
 
-// What is no part of a group yet, with its place among the thirds of the tree.
-struct Third {
+// What is no part of a group yet, with its place among the vertex patches of the tree.
+struct VertexPatch {
     glm::dvec3 middle;
     std::uint32_t place;
 };
-using Iterator = std::vector<Third>::iterator;
+using Iterator = std::vector<VertexPatch>::iterator;
 
-constexpr std::ptrdiff_t few = 4;  // thirds that are a group without groups
+constexpr std::ptrdiff_t few = 4;  // vertex patches that are a group without groups
 
 // At the median of the longest axis of the box of middles.
 Iterator split(Iterator first, Iterator last) {
@@ -30,7 +30,7 @@ Iterator split(Iterator first, Iterator last) {
     const glm::dvec3 size = high - low;
     const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
     const Iterator middle = first + (last - first + 1) / 2;
-    std::nth_element(first, middle, last, [&](const Third& a, const Third& b) {
+    std::nth_element(first, middle, last, [&](const VertexPatch& a, const VertexPatch& b) {
         return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis]
                                                 : a.place < b.place;
     });
@@ -40,19 +40,19 @@ Iterator split(Iterator first, Iterator last) {
 // Makes the groups of one leaf after the other.
 class Grouping {
 public:
-    // order: [thirds of the tree] written for the leaves that are asked for.
+    // order: [vertex patches of the tree] written for the leaves that are asked for.
     Grouping(const ElementTree& tree, std::vector<std::uint32_t>& order,
-             std::vector<ThirdGroup>& groups)
+             std::vector<PatchGroup>& groups)
         : tree_(tree), order_(order), groups_(groups) {}
 
     void operator()(std::size_t leaf) {
         begin_ = groups_.size();
-        place_ = tree_.first_thirds[leaf];
+        place_ = tree_.first_patches[leaf];
         areas_.clear();
-        thirds_.clear();
-        for (std::uint32_t k = place_; k < tree_.first_thirds[leaf + 1]; ++k)
-            thirds_.push_back({centroid(tree_.thirds[k]), k});
-        if (!thirds_.empty()) group(thirds_.begin(), thirds_.end());
+        vertex_patches_.clear();
+        for (std::uint32_t k = place_; k < tree_.first_patches[leaf + 1]; ++k)
+            vertex_patches_.push_back({centroid(tree_.vertex_patches[k]), k});
+        if (!vertex_patches_.empty()) group(vertex_patches_.begin(), vertex_patches_.end());
     }
 
 private:
@@ -75,11 +75,11 @@ private:
     }
 
     void gather(Iterator first, Iterator last, std::size_t place) {
-        ThirdGroup& out = groups_[place];
+        PatchGroup& out = groups_[place];
         double& area = areas_[place - begin_];
         out.first = place_;
         for (Iterator one = first; one != last; ++one) {
-            const glm::dvec3 turned = vector_area(tree_.thirds[one->place]);
+            const glm::dvec3 turned = vector_area(tree_.vertex_patches[one->place]);
             area += glm::length(turned);
             out.middle += glm::length(turned) * one->middle;
             out.vector_area += turned;
@@ -88,26 +88,26 @@ private:
         out.end = place_;
         out.middle /= area;
         for (Iterator one = first; one != last; ++one)
-            out.square_radius =
-                std::max(out.square_radius, square_reach(tree_.thirds[one->place], out.middle));
+            out.square_radius = std::max(
+                out.square_radius, square_reach(tree_.vertex_patches[one->place], out.middle));
     }
 
     // From its parts, which follow it.
     void measure(std::size_t place) {
-        ThirdGroup& out = groups_[place];
+        PatchGroup& out = groups_[place];
         double& area = areas_[place - begin_];
         const auto each = [&](const auto& visit) {
             for (std::size_t k = place + 1; k < groups_.size(); k = begin_ + groups_[k].next)
                 visit(groups_[k], areas_[k - begin_]);
         };
-        each([&](const ThirdGroup& part, double part_area) {
+        each([&](const PatchGroup& part, double part_area) {
             area += part_area;
             out.middle += part_area * part.middle;
             out.vector_area += part.vector_area;
         });
         out.middle /= area;
         double radius = 0.0;
-        each([&](const ThirdGroup& part, double) {
+        each([&](const PatchGroup& part, double) {
             radius = std::max(
                 radius, glm::distance(part.middle, out.middle) + std::sqrt(part.square_radius));
         });
@@ -116,33 +116,33 @@ private:
 
     const ElementTree& tree_;
     std::vector<std::uint32_t>& order_;
-    std::vector<ThirdGroup>& groups_;
+    std::vector<PatchGroup>& groups_;
     std::size_t begin_ = 0;      // of the present leaf
     std::uint32_t place_ = 0;    // in order_
     std::vector<double> areas_;  // m^2, of its groups
-    std::vector<Third> thirds_;
+    std::vector<VertexPatch> vertex_patches_;
 };
 
 }  // namespace
 
-ThirdGroups::ThirdGroups(const ElementTree& tree, int threads) {
-    if (tree.first_thirds.empty()) return;
+PatchGroups::PatchGroups(const ElementTree& tree, int threads) {
+    if (tree.first_patches.empty()) return;
     const int used = thread_count(threads);
-    std::vector<std::vector<ThirdGroup>> parts(static_cast<std::size_t>(used));
+    std::vector<std::vector<PatchGroup>> parts(static_cast<std::size_t>(used));
     std::vector<std::size_t> counts(tree.count());
-    thirds_.resize(tree.thirds.size());
-    // Elements from share to share of the thirds.
+    vertex_patches_.resize(tree.vertex_patches.size());
+    // Elements from share to share of the vertex patches.
     const auto begin = [&](int thread) {
-        const std::size_t third =
-            tree.thirds.size() * static_cast<std::size_t>(thread) / parts.size();
+        const std::size_t vertex_patch =
+            tree.vertex_patches.size() * static_cast<std::size_t>(thread) / parts.size();
         const auto found =
-            std::lower_bound(tree.first_thirds.begin(), tree.first_thirds.end(), third);
+            std::lower_bound(tree.first_patches.begin(), tree.first_patches.end(), vertex_patch);
         return thread == used ? tree.count()
-                              : static_cast<std::size_t>(found - tree.first_thirds.begin());
+                              : static_cast<std::size_t>(found - tree.first_patches.begin());
     };
     on_threads(used, [&](int thread) {
-        std::vector<ThirdGroup>& groups = parts[static_cast<std::size_t>(thread)];
-        Grouping make(tree, thirds_, groups);
+        std::vector<PatchGroup>& groups = parts[static_cast<std::size_t>(thread)];
+        Grouping make(tree, vertex_patches_, groups);
         for (std::size_t i = begin(thread); i < begin(thread + 1); ++i) {
             const std::size_t before = groups.size();
             make(i);
@@ -150,9 +150,9 @@ ThirdGroups::ThirdGroups(const ElementTree& tree, int threads) {
         }
     });
     std::size_t all = 0;
-    for (const std::vector<ThirdGroup>& part : parts) all += part.size();
+    for (const std::vector<PatchGroup>& part : parts) all += part.size();
     groups_.reserve(all);
-    for (std::vector<ThirdGroup>& part : parts) {
+    for (std::vector<PatchGroup>& part : parts) {
         groups_.insert(groups_.end(), part.begin(), part.end());
         part = {};
     }

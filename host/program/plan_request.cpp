@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "program/plan_wish.hpp"
+#include "program/plan_request.hpp"
 
 #include <fmt/format.h>
 
@@ -72,8 +72,8 @@ void add_plan_flags(CLI::App& command, PlanFlags& flags) {
         ->default_str("none");
 }
 
-PlanWish wish_of(const std::string& command, const PlanFlags& flags) {
-    PlanWish out;
+PlanRequest request_of(const std::string& command, const PlanFlags& flags) {
+    PlanRequest out;
     out.tolerance = parse_percent(command, "--tolerance", flags.tolerance);
     const Effects with = effects_of(command, "--with", flags.with);
     const Effects without = effects_of(command, "--without", flags.without);

@@ -7,13 +7,14 @@
 namespace clgi {
 
 // Whether an atlas is of what stands still alone, and a volume lights what moves.
-inline bool bakes_still(const Plan& plan) {
-    return plan.wish.animated && plan.on(Effect::moving_geometry) && plan.facts.motion.geometry;
+inline bool bakes_static_part(const Plan& plan) {
+    return plan.request.animated && plan.on(Effect::moving_geometry) &&
+           plan.analysis.motion.geometry;
 }
 
 // Whether the plan does so.
 inline bool is_composed(const Plan& plan) {
-    return plan.method == Method::light_atlas && bakes_still(plan);
+    return plan.method == Method::light_atlas && bakes_static_part(plan);
 }
 
 }  // namespace clgi

@@ -26,8 +26,8 @@ Scene only_vertices(const Scene& scene) {
 
 }  // namespace
 
-MotionFacts motion_facts(const Scene& scene) {
-    MotionFacts out;
+MotionAnalysis motion_analysis(const Scene& scene) {
+    MotionAnalysis out;
     const std::vector<std::uint8_t> moving = moving_vertices(scene);
     if (moving.empty()) return out;
     double moves = 0.0, all = 0.0;

@@ -15,7 +15,7 @@ using std::numbers::pi;
 
 bool has_power(const Light& light) { return luminance(light.intensity) > 0.0f; }
 
-void add_lights(const Scene& scene, LightFacts& out) {
+void add_lights(const Scene& scene, LightAnalysis& out) {
     for (const Light& light : scene.lights) {
         const bool lit = has_power(light);
         switch (light.kind) {
@@ -59,11 +59,11 @@ bool emits(const Scene& scene) {
 
 }  // namespace
 
-LightsFound light_facts(const Scene& scene) {
+LightsFound light_analysis(const Scene& scene) {
     LightsFound out;
-    LightFacts& facts = out.facts;
-    add_lights(scene, facts);
-    facts.emission = emits(scene);
+    LightAnalysis& analysis = out.analysis;
+    add_lights(scene, analysis);
+    analysis.emission = emits(scene);
     const EmissionMeans emission(scene);
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         const SceneTriangle& triangle = scene.triangles[t];
@@ -72,13 +72,13 @@ LightsFound light_facts(const Scene& scene) {
         if (!(radiance > 0.0) || !(area > 0.0)) continue;
         const double sides = scene.materials[triangle.material].double_sided ? 2.0 : 1.0;
         out.emissive.push_back(t);
-        ++facts.emissive_triangles;
-        facts.emissive_area += area;
-        facts.emissive_power += pi * radiance * area * sides;
+        ++analysis.emissive_triangles;
+        analysis.emissive_area += area;
+        analysis.emissive_power += pi * radiance * area * sides;
     }
     if (scene.environment) {
-        facts.environment_mean = luminance(environment_fluence(*scene.environment)) / (4.0 * pi);
-        facts.environment = facts.environment_mean > 0.0;
+        analysis.environment_mean = luminance(environment_fluence(*scene.environment)) / (4.0 * pi);
+        analysis.environment = analysis.environment_mean > 0.0;
     }
     return out;
 }

@@ -1,43 +1,43 @@
 // SPDX-License-Identifier: MIT
-#include "plan/carrier.hpp"
+#include "plan/provider.hpp"
 
 #include "plan/sky.hpp"
-#include "plan/still.hpp"
+#include "plan/static_part.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr Carrier nothing{"nothing"};
+constexpr Provider nothing{"nothing"};
 
 // VPLs of second order are placed through the shadow maps, which then shadow direct light too.
 bool places_by_maps(const Plan& plan, Method method) {
     return method == Method::second_order && plan.on(Effect::first_bounce);
 }
 
-Carrier environment_light(Method method) {
+Provider environment_light(Method method) {
     if (has_sky_lights(method)) return {"directional lights"};
     return {method == Method::antiradiance ? "links from the sky" : "transfer vectors"};
 }
 
-Carrier direct_shadows(const Plan& plan, Method method) {
+Provider direct_shadows(const Plan& plan, Method method) {
     const bool of_sky =
         has_sky_lights(method) && has_sky(plan) && plan.on(Effect::environment_shadows);
     return {"shadow maps", of_sky || places_by_maps(plan, method)};
 }
 
-Carrier environment_shadows(const Plan& plan, Method method) {
+Provider environment_shadows(const Plan& plan, Method method) {
     if (method == Method::antiradiance) return {"antiradiance", true};
     if (method == Method::dynamic_transfer) return {"masks"};
-    const bool of_lights = plan.facts.lights.any_direct() && plan.on(Effect::direct_shadows);
+    const bool of_lights = plan.analysis.lights.any_direct() && plan.on(Effect::direct_shadows);
     return {"shadow maps", of_lights || places_by_maps(plan, method)};
 }
 
 // Of what stands still, and of what moves.
-Carrier baked(const Plan& plan) {
-    return {bakes_still(plan) ? "baked VPLs; moving: volume" : "baked VPLs"};
+Provider baked(const Plan& plan) {
+    return {bakes_static_part(plan) ? "baked VPLs; moving: volume" : "baked VPLs"};
 }
 
-Carrier first_bounce(const Plan& plan, Method method) {
+Provider first_bounce(const Plan& plan, Method method) {
     switch (method) {
         case Method::direct:
             return nothing;
@@ -48,18 +48,18 @@ Carrier first_bounce(const Plan& plan, Method method) {
         case Method::antiradiance:
             return {"links", true};
         case Method::dynamic_transfer:  // reflections go where masks are covered
-            return plan.on(Effect::environment_shadows) ? Carrier{"masks"} : nothing;
+            return plan.on(Effect::environment_shadows) ? Provider{"masks"} : nothing;
     }
     return nothing;
 }
 
-Carrier further_bounces(const Plan& plan, Method method) {
+Provider further_bounces(const Plan& plan, Method method) {
     if (method == Method::light_atlas) return baked(plan);
     if (method == Method::antiradiance) return {"links", true};
     return nothing;
 }
 
-Carrier indirect_occlusion(Method method) {
+Provider indirect_occlusion(Method method) {
     switch (method) {
         case Method::direct:
             return nothing;
@@ -77,7 +77,7 @@ Carrier indirect_occlusion(Method method) {
 
 }  // namespace
 
-Carrier carrier_of(const Plan& plan, Method method, Effect effect) {
+Provider provider_of(const Plan& plan, Method method, Effect effect) {
     switch (effect) {
         case Effect::point_light:
         case Effect::spot_light:
@@ -109,7 +109,7 @@ Carrier carrier_of(const Plan& plan, Method method, Effect effect) {
         case Effect::moving_geometry:
         case Effect::moving_lights:
             if (method == Method::light_atlas && effect == Effect::moving_geometry)
-                return bakes_still(plan) ? Carrier{"direct light, volume"} : nothing;
+                return bakes_static_part(plan) ? Provider{"direct light, volume"} : nothing;
             return {"all passes"};
     }
     return nothing;
@@ -118,8 +118,8 @@ Carrier carrier_of(const Plan& plan, Method method, Effect effect) {
 std::vector<Effect> unavoidable(const Plan& plan, Method method) {
     std::vector<Effect> out;
     for (const EffectChoice& choice : plan.effects)
-        if (!choice.on && choice.ground == Ground::wished &&
-            carrier_of(plan, method, choice.effect).always)
+        if (!choice.on && choice.evidence == Evidence::requested &&
+            provider_of(plan, method, choice.effect).always)
             out.push_back(choice.effect);
     return out;
 }

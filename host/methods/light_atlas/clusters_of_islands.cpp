@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "methods/light_atlas/clusters_of_specks.hpp"
+#include "methods/light_atlas/clusters_of_islands.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,27 +10,27 @@
 namespace clgi {
 namespace {
 
-int kind_of(const Speck& speck) {
+int kind_of(const Island& island) {
     int axis = 0;
     for (int k = 1; k < 3; ++k)
-        if (std::abs(speck.normal[k]) > std::abs(speck.normal[axis])) axis = k;
-    return 4 * axis + (speck.normal[axis] < 0.0 ? 2 : 0) + (speck.double_sided ? 1 : 0);
+        if (std::abs(island.normal[k]) > std::abs(island.normal[axis])) axis = k;
+    return 4 * axis + (island.normal[axis] < 0.0 ? 2 : 0) + (island.double_sided ? 1 : 0);
 }
 
 struct Cluster {
-    std::vector<std::uint32_t> members;  // of the specks
+    std::vector<std::uint32_t> members;  // of the islands
     double area = 0.0;
     double moment = 0.0;  // area times squared diagonal: what a single VPL gets wrong
     int longest = 0;      // axis
 };
 
-Cluster cluster_of(const std::vector<Speck>& specks, std::vector<std::uint32_t> members) {
+Cluster cluster_of(const std::vector<Island>& islands, std::vector<std::uint32_t> members) {
     Cluster out;
-    glm::dvec3 low = specks[members[0]].centre, high = low;
+    glm::dvec3 low = islands[members[0]].centre, high = low;
     for (const std::uint32_t m : members) {
-        out.area += specks[m].area;
-        low = glm::min(low, specks[m].centre);
-        high = glm::max(high, specks[m].centre);
+        out.area += islands[m].area;
+        low = glm::min(low, islands[m].centre);
+        high = glm::max(high, islands[m].centre);
     }
     const glm::dvec3 size = high - low;
     for (int k = 1; k < 3; ++k)
@@ -41,37 +41,37 @@ Cluster cluster_of(const std::vector<Speck>& specks, std::vector<std::uint32_t> 
 }
 
 // Two parts of nearly equal area, none empty.
-std::array<Cluster, 2> cut(const std::vector<Speck>& specks, Cluster cluster) {
+std::array<Cluster, 2> cut(const std::vector<Island>& islands, Cluster cluster) {
     const int axis = cluster.longest;
-    std::sort(cluster.members.begin(), cluster.members.end(),
-              [&](std::uint32_t a, std::uint32_t b) {
-                  return std::tie(specks[a].centre[axis], a) < std::tie(specks[b].centre[axis], b);
-              });
+    std::sort(
+        cluster.members.begin(), cluster.members.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::tie(islands[a].centre[axis], a) < std::tie(islands[b].centre[axis], b);
+        });
     double below = 0.0;
     std::size_t first = 0;  // of the upper part
     while (first + 1 < cluster.members.size()) {
-        below += specks[cluster.members[first++]].area;
+        below += islands[cluster.members[first++]].area;
         if (below >= 0.5 * cluster.area) break;
     }
     const auto middle = cluster.members.begin() + static_cast<std::ptrdiff_t>(first);
-    return {cluster_of(specks, {cluster.members.begin(), middle}),
-            cluster_of(specks, {middle, cluster.members.end()})};
+    return {cluster_of(islands, {cluster.members.begin(), middle}),
+            cluster_of(islands, {middle, cluster.members.end()})};
 }
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> cluster_specks(const std::vector<Speck>& specks,
-                                                       std::int64_t room) {
+std::vector<std::vector<std::uint32_t>> cluster_islands(const std::vector<Island>& islands,
+                                                        std::int64_t room) {
     std::array<std::vector<std::uint32_t>, 12> kinds;
-    for (std::uint32_t s = 0; s < specks.size(); ++s) kinds[kind_of(specks[s])].push_back(s);
+    for (std::uint32_t s = 0; s < islands.size(); ++s) kinds[kind_of(islands[s])].push_back(s);
     std::vector<Cluster> clusters;
     std::priority_queue<std::tuple<double, std::size_t>> widest;
     const auto cost = [&](std::size_t c) {
-        return specks[clusters[c].members[0]].double_sided ? 2 : 1;
+        return islands[clusters[c].members[0]].double_sided ? 2 : 1;
     };
     for (auto& members : kinds) {
         if (members.empty()) continue;
-        clusters.push_back(cluster_of(specks, std::move(members)));
+        clusters.push_back(cluster_of(islands, std::move(members)));
         room -= cost(clusters.size() - 1);
         widest.push({clusters.back().moment, clusters.size() - 1});
     }
@@ -80,7 +80,7 @@ std::vector<std::vector<std::uint32_t>> cluster_specks(const std::vector<Speck>&
         widest.pop();
         if (clusters[c].members.size() < 2 || cost(c) > room) continue;
         room -= cost(c);
-        std::array<Cluster, 2> parts = cut(specks, std::move(clusters[c]));
+        std::array<Cluster, 2> parts = cut(islands, std::move(clusters[c]));
         clusters[c] = std::move(parts[0]);
         clusters.push_back(std::move(parts[1]));
         widest.push({clusters[c].moment, c});
@@ -89,7 +89,7 @@ std::vector<std::vector<std::uint32_t>> cluster_specks(const std::vector<Speck>&
     std::vector<std::vector<std::uint32_t>> out;
     for (const Cluster& cluster : clusters) {
         out.emplace_back();
-        for (const std::uint32_t m : cluster.members) out.back().push_back(specks[m].id);
+        for (const std::uint32_t m : cluster.members) out.back().push_back(islands[m].id);
     }
     return out;
 }

@@ -6,7 +6,7 @@
 #include <clgi/advanced/bake_layout.hpp>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/irradiance_volume.hpp>
-#include <clgi/advanced/still_scene.hpp>
+#include <clgi/advanced/static_scene.hpp>
 
 namespace clgi {
 
@@ -16,11 +16,11 @@ constexpr int most_volume_points = 512;
 // the whole scene with `whole` and `volume`.
 //
 // Light counts once: direct light, with the shadows of all that moves, is the view's; indirect
-// light of what stands still is the atlas's, of what moves the volume's. What moves casts no indirect
-// shadow, and reflects and emits nothing onto the rest; where it hides itself its indirect light is
-// too much.
-struct StillBake {
-    StillScene still;
+// light of what stands still is the atlas's, of what moves the volume's. What moves casts no
+// indirect shadow, and reflects and emits nothing onto the rest; where it hides itself its indirect
+// light is too much.
+struct StaticBake {
+    StaticScene static_scene;
     BakeLayout layout;  // of still.scene
     AtlasLayout whole;
     IrradianceVolume volume;
@@ -29,8 +29,8 @@ struct StillBake {
 // volume: of Scene::moving_bounds, else of the motion_bounds of all clips. Throws what
 // make_bake_layout and make_irradiance_volume throw, and InputError for a scene of which nothing
 // stands still or nothing moves.
-CLGI_API StillBake make_still_bake(const Scene& scene, const VplOptions& vpls = {},
-                                   const AtlasOptions& atlas = {},
-                                   int most_points = most_volume_points);
+CLGI_API StaticBake make_static_bake(const Scene& scene, const VplOptions& vpls = {},
+                                     const AtlasOptions& atlas = {},
+                                     int most_points = most_volume_points);
 
 }  // namespace clgi

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/advanced/still_scene.hpp>
+#include <clgi/advanced/static_scene.hpp>
 
 #include "scene/local_frame.hpp"
 #include "scene/moving_parts.hpp"
@@ -13,8 +13,8 @@ bool moves(const Scene& scene) {
                        [&](const SceneTriangle& triangle) { return follows(triangle, moving); });
 }
 
-StillScene still_scene(const Scene& scene) {
-    StillScene out;
+StaticScene static_scene(const Scene& scene) {
+    StaticScene out;
     out.scene = scene;
     out.scene.animation.reset();
     out.scene.parts.clear();

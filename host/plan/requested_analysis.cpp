@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "plan/wished_facts.hpp"
+#include "plan/requested_analysis.hpp"
 
 namespace clgi {
 
-SceneFacts wished_facts(SceneFacts facts, const PlanWish& wish) {
-    LightFacts& lights = facts.lights;
-    if (wish.lights_change) {
+SceneAnalysis requested_analysis(SceneAnalysis analysis, const PlanRequest& request) {
+    LightAnalysis& lights = analysis.lights;
+    if (request.lights_change) {
         lights.points += lights.dark_points;
         lights.spots += lights.dark_spots;
         lights.directional += lights.dark_directional;
-        facts.proof.lights_open = false;
+        analysis.proof.lights_open = false;
     }
-    for (const Effect effect : wish.without) switch (effect) {
+    for (const Effect effect : request.without) switch (effect) {
             case Effect::point_light:
                 lights.points = 0;
                 break;
@@ -31,13 +31,13 @@ SceneFacts wished_facts(SceneFacts facts, const PlanWish& wish) {
                 lights.environment_mean = 0.0;
                 break;
             case Effect::gloss:
-                facts.surfaces.gloss = facts.surfaces.glossy_area = 0.0;
+                analysis.surfaces.gloss = analysis.surfaces.glossy_area = 0.0;
                 break;
             default:
                 break;
         }
     if (lights.points + lights.spots + lights.directional == 0) lights.moving = false;
-    return facts;
+    return analysis;
 }
 
 }  // namespace clgi

@@ -15,8 +15,8 @@ struct PlanFlags {
 };
 void add_plan_flags(CLI::App& command, PlanFlags& flags);
 
-// Effects and tolerance of a wish. Throws Error that begins with the command's name for an unknown
-// effect or an invalid share.
-PlanWish wish_of(const std::string& command, const PlanFlags& flags);
+// Effects and tolerance of a request. Throws Error that begins with the command's name for an
+// unknown effect or an invalid share.
+PlanRequest request_of(const std::string& command, const PlanFlags& flags);
 
 }  // namespace clgi::program

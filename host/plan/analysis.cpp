@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <clgi/advanced/facts.hpp>
+#include <clgi/advanced/analysis.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double thin = 0.01;  // of the scene's size
 void add_surroundings(const Scene& scene, const SceneFrame& frame,
                       const std::vector<LocalTriangle>& triangles,
                       const std::vector<TriangleAlbedo>& albedos,
-                      const std::vector<std::uint32_t>& emissive, SceneFacts& out) {
+                      const std::vector<std::uint32_t>& emissive, SceneAnalysis& out) {
     std::vector<double> reflects;
     reflects.reserve(albedos.size());
     for (const TriangleAlbedo& albedo : albedos)
@@ -43,19 +43,19 @@ void add_surroundings(const Scene& scene, const SceneFrame& frame,
 
 }  // namespace
 
-SceneFacts scene_facts(const Scene& scene) {
+SceneAnalysis scene_analysis(const Scene& scene) {
     const auto start = timing::Clock::now();
     validate(scene);
-    SceneFacts out;
+    SceneAnalysis out;
     const std::vector<TriangleAlbedo> albedos = triangle_albedos(scene);
-    const LightsFound lights = light_facts(scene);
+    const LightsFound lights = light_analysis(scene);
     const Bounds box = bounds(scene);
-    out.lights = lights.facts;
-    out.motion = motion_facts(scene);
+    out.lights = lights.analysis;
+    out.motion = motion_analysis(scene);
     out.size = glm::distance(box.low, box.high);
 
     const std::vector<LocalTriangle> triangles = local_triangles(scene);
-    out.surfaces = surface_facts(scene, triangles, albedos);
+    out.surfaces = surface_analysis(scene, triangles, albedos);
     // moving_bounds: a caller says that it will move vertices.
     if (!out.motion.geometry && !scene.moving_bounds) {
         out.proof = prove_openness(scene, triangles, lights.emissive);

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <clgi/error.hpp>
-#include "lab/scenes/interiors.hpp"
 #include <clgi/io/gltf.hpp>
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include "lab/scenes/interiors.hpp"
 
 #include "convex_scenes.hpp"
 #include "lab/scenes/rooms.hpp"
@@ -25,7 +25,7 @@ constexpr double pi = std::numbers::pi;
 // Surfaces are shaded flat, unless told.
 void expect_proven(const Scene& scene, const Proven& wanted, const std::string& name,
                    bool flat = true) {
-    const OpennessProof proof = scene_facts(scene).proof;
+    const OpennessProof proof = scene_analysis(scene).proof;
     EXPECT_EQ(proof.surfaces_open, wanted.surfaces) << name;
     EXPECT_EQ(proof.surfaces_apart, wanted.apart) << name;
     EXPECT_EQ(proof.environment_open, wanted.apart && flat) << name;
@@ -84,7 +84,7 @@ TEST(OpennessProof, HoldsForFineWallsOfRoundedVertices) {
         const glm::dvec3 normal(dented.normals[4 * 210]);
         for (glm::dvec3& p : dented.positions)
             if (p == at) p += depth * normal;
-        EXPECT_FALSE(scene_facts(dented).proof.surfaces_open) << depth;
+        EXPECT_FALSE(scene_analysis(dented).proof.surfaces_open) << depth;
     }
 }
 
@@ -103,7 +103,7 @@ TEST(OpennessProof, HoldsForSpheresWithinItsBounds) {
     expect_proven(sphere, {true, true, true}, "from outside", false);
 
     options.subdivisions = 6;  // 81,920 planes against 40,962 vertices
-    const SceneFacts bounded = scene_facts(furnace(options));
+    const SceneAnalysis bounded = scene_analysis(furnace(options));
     EXPECT_FALSE(bounded.proof.surfaces_open);
     EXPECT_FALSE(bounded.proof.lights_open);
     EXPECT_LT(bounded.milliseconds, 20000.0);
@@ -129,23 +129,23 @@ Scene driven(Scene scene, const std::vector<float>& values) {
     return scene;
 }
 
-TEST(MotionFacts, AreWhatClipsMove) {
+TEST(MotionAnalysis, AreWhatClipsMove) {
     const Scene room = test::with_light(test::unit_box(-1), test::point_light({0.5, 0.5, 0.5}));
     const std::vector<float> still(9, 0.0f), there_and_back = {0, 0, 0, 0, 3, 0, 0, 0, 0};
-    const SceneFacts moved = scene_facts(driven(room, there_and_back));
+    const SceneAnalysis moved = scene_analysis(driven(room, there_and_back));
     EXPECT_TRUE(moved.motion.geometry);
     EXPECT_EQ(moved.motion.moving_triangles, 12u);
     EXPECT_NEAR(moved.motion.travel, std::sqrt(3.0), 1e-6);  // the middle key is a sampled time
     EXPECT_FALSE(moved.lights.moving);
     expect_proven(driven(room, there_and_back), {false, false, false}, "moved");
 
-    const SceneFacts stays = scene_facts(driven(room, still));
+    const SceneAnalysis stays = scene_analysis(driven(room, still));
     EXPECT_FALSE(stays.motion.geometry);
     EXPECT_EQ(stays.motion.travel, 0.0);
     expect_proven(driven(room, still), {true, false, true}, "held where it is");
     Scene held = driven(room, still);
     held.animation->nodes[0].translation.y = 3.0;  // and the curve holds it elsewhere
-    EXPECT_TRUE(scene_facts(held).motion.geometry);
+    EXPECT_TRUE(scene_analysis(held).motion.geometry);
 
     // A cubic curve has tangents beside its values: both must stay.
     Scene cubic = driven(room, std::vector<float>(27, 0.0f));
@@ -154,9 +154,9 @@ TEST(MotionFacts, AreWhatClipsMove) {
         cubic.animation->nodes[0].translation.z = 2.0;
         cubic.animation->clips[0].curves[0].values[9 * key + 5] = 2.0f;
     }
-    EXPECT_FALSE(scene_facts(cubic).motion.geometry);
+    EXPECT_FALSE(scene_analysis(cubic).motion.geometry);
     cubic.animation->clips[0].curves[0].values[9 + 6] = 1.0f;
-    EXPECT_TRUE(scene_facts(cubic).motion.geometry);
+    EXPECT_TRUE(scene_analysis(cubic).motion.geometry);
 
     Scene announced = room;
     announced.moving_bounds = bounds(room);
@@ -165,28 +165,28 @@ TEST(MotionFacts, AreWhatClipsMove) {
     Scene lamp = driven(room, there_and_back);
     lamp.animation->ranges.clear();
     lamp.animation->lights = {{0, 1}};
-    EXPECT_TRUE(scene_facts(lamp).lights.moving);
-    EXPECT_FALSE(scene_facts(lamp).motion.geometry);
+    EXPECT_TRUE(scene_analysis(lamp).lights.moving);
+    EXPECT_FALSE(scene_analysis(lamp).motion.geometry);
     expect_proven(lamp, {true, false, false}, "moving light");
     lamp.lights[0].intensity = glm::vec3(0.0f);
-    EXPECT_FALSE(scene_facts(lamp).lights.moving);
+    EXPECT_FALSE(scene_analysis(lamp).lights.moving);
     expect_proven(lamp, {true, false, true}, "moving light without power");
 }
 
 // The second joint, with the last pair alone, turns by a quarter about x = 1.
-TEST(MotionFacts, OfSkinsAreThoseOfTheirJoints) {
+TEST(MotionAnalysis, OfSkinsAreThoseOfTheirJoints) {
     const std::vector<float> shares = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0,
                                        1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
     const Scene strip = test::strip_draft("JOINTS_0", "WEIGHTS_0", shares).load();
-    const MotionFacts facts = scene_facts(strip).motion;
-    EXPECT_TRUE(facts.geometry);
-    EXPECT_EQ(facts.moving_triangles, 2u);
-    EXPECT_NEAR(facts.moving_area, 0.5, 1e-6);  // of two squares
-    EXPECT_FALSE(facts.moving_emission);
-    EXPECT_NEAR(facts.travel, std::sqrt(2.0 / 5.0), 1e-6);
+    const MotionAnalysis analysis = scene_analysis(strip).motion;
+    EXPECT_TRUE(analysis.geometry);
+    EXPECT_EQ(analysis.moving_triangles, 2u);
+    EXPECT_NEAR(analysis.moving_area, 0.5, 1e-6);  // of two squares
+    EXPECT_FALSE(analysis.moving_emission);
+    EXPECT_NEAR(analysis.travel, std::sqrt(2.0 / 5.0), 1e-6);
 }
 
-TEST(SurfaceFacts, AreSumsOverTriangles) {
+TEST(SurfaceAnalysis, AreSumsOverTriangles) {
     Scene scene = test::plain_scene({0.2f, 0.4f, 0.8f});
     test::add_tile(scene, 0, 0);
     Material metal;
@@ -197,37 +197,37 @@ TEST(SurfaceFacts, AreSumsOverTriangles) {
     test::add_quad(scene, {glm::dvec3(0, 1, 0), {3, 1, 0}, {3, 2, 0}, {0, 2, 0}},
                    test::add_material(scene, metal));
     test::add_triangle(scene, {5, 0, 0}, {6, 0, 0}, {7, 0, 0});
-    const SurfaceFacts facts = scene_facts(scene).surfaces;
-    EXPECT_EQ(facts.triangles, 5u);
-    EXPECT_EQ(facts.degenerate, 1u);
-    EXPECT_NEAR(facts.area, 4.0, 1e-12);
+    const SurfaceAnalysis analysis = scene_analysis(scene).surfaces;
+    EXPECT_EQ(analysis.triangles, 5u);
+    EXPECT_EQ(analysis.degenerate, 1u);
+    EXPECT_NEAR(analysis.area, 4.0, 1e-12);
     const glm::dvec3 mean((0.2 + 1.5) / 4, (0.4 + 0.75) / 4, (0.8 + 3.0) / 4);
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(facts.mean_albedo[c], mean[c], 1e-7) << c;
-    EXPECT_NEAR(facts.smallest_albedo, 0.2, 1e-7);
-    EXPECT_NEAR(facts.largest_albedo, 1.0, 1e-7);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(analysis.mean_albedo[c], mean[c], 1e-7) << c;
+    EXPECT_NEAR(analysis.smallest_albedo, 0.2, 1e-7);
+    EXPECT_NEAR(analysis.largest_albedo, 1.0, 1e-7);
     const auto luminance = [](double r, double g, double b) {
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
     };
-    EXPECT_NEAR(facts.gloss, 0.75 * luminance(1.5, 0.75, 3.0) / luminance(1.7, 1.15, 3.8), 1e-6);
-    EXPECT_NEAR(facts.glossy_area, 0.75, 1e-12);
-    EXPECT_NEAR(facts.double_sided_area, 0.75, 1e-12);
-    EXPECT_NEAR(facts.smallest_edge, std::sqrt(2.0), 1e-12);
-    EXPECT_NEAR(facts.median_edge, std::sqrt(10.0), 1e-12);
-    EXPECT_NEAR(facts.largest_edge, std::sqrt(10.0), 1e-12);
-    EXPECT_FALSE(facts.textures);
-    EXPECT_FALSE(facts.cutouts);
+    EXPECT_NEAR(analysis.gloss, 0.75 * luminance(1.5, 0.75, 3.0) / luminance(1.7, 1.15, 3.8), 1e-6);
+    EXPECT_NEAR(analysis.glossy_area, 0.75, 1e-12);
+    EXPECT_NEAR(analysis.double_sided_area, 0.75, 1e-12);
+    EXPECT_NEAR(analysis.smallest_edge, std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(analysis.median_edge, std::sqrt(10.0), 1e-12);
+    EXPECT_NEAR(analysis.largest_edge, std::sqrt(10.0), 1e-12);
+    EXPECT_FALSE(analysis.textures);
+    EXPECT_FALSE(analysis.cutouts);
 
     // A dielectric's coat is white: 0.04 (1 - a).
     scene.materials[1].metallic = 0.0f;
-    EXPECT_NEAR(scene_facts(scene).surfaces.mean_albedo.x, (0.2 + 3.0 * (0.5 * 0.97 + 0.03)) / 4,
+    EXPECT_NEAR(scene_analysis(scene).surfaces.mean_albedo.x, (0.2 + 3.0 * (0.5 * 0.97 + 0.03)) / 4,
                 1e-7);
     scene.colors.assign(scene.positions.size(), glm::vec4(0.5f, 1.0f, 1.0f, 1.0f));
-    const SurfaceFacts coloured = scene_facts(scene).surfaces;
+    const SurfaceAnalysis coloured = scene_analysis(scene).surfaces;
     EXPECT_NEAR(coloured.mean_albedo.x, (0.1 + 3.0 * (0.25 * 0.97 + 0.03)) / 4, 1e-7);
     EXPECT_NEAR(coloured.smallest_albedo, 0.1, 1e-7);
     EXPECT_NEAR(coloured.largest_albedo, 0.97 + 0.03, 1e-7);
     scene.colors[0].r = 0.25f;
-    EXPECT_NEAR(scene_facts(scene).surfaces.smallest_albedo, 0.05, 1e-7);
+    EXPECT_NEAR(scene_analysis(scene).surfaces.smallest_albedo, 0.05, 1e-7);
 }
 
 // A tile with a texture of two texels, left and right.
@@ -246,39 +246,40 @@ Scene textured(const std::array<std::uint8_t, 8>& rgba) {
     return scene;
 }
 
-TEST(SurfaceFacts, ReadTextures) {
+TEST(SurfaceAnalysis, ReadTextures) {
     Scene scene = textured({255, 0, 51, 255, 255, 255, 51, 255});
-    SurfaceFacts facts = scene_facts(scene).surfaces;
-    EXPECT_TRUE(facts.textures);
-    EXPECT_NEAR(facts.mean_albedo.x, 0.5, 1e-7);
-    EXPECT_NEAR(facts.mean_albedo.y, 0.25, 1e-7);
-    EXPECT_NEAR(facts.mean_albedo.z, 0.1, 1e-7);
-    EXPECT_NEAR(facts.smallest_albedo, 0.0, 1e-7) << "of the darkest texel";
-    EXPECT_NEAR(facts.largest_albedo, 0.5, 1e-7) << "of the brightest texel";
+    SurfaceAnalysis analysis = scene_analysis(scene).surfaces;
+    EXPECT_TRUE(analysis.textures);
+    EXPECT_NEAR(analysis.mean_albedo.x, 0.5, 1e-7);
+    EXPECT_NEAR(analysis.mean_albedo.y, 0.25, 1e-7);
+    EXPECT_NEAR(analysis.mean_albedo.z, 0.1, 1e-7);
+    EXPECT_NEAR(analysis.smallest_albedo, 0.0, 1e-7) << "of the darkest texel";
+    EXPECT_NEAR(analysis.largest_albedo, 0.5, 1e-7) << "of the brightest texel";
     scene.materials.push_back(scene.materials[0]);
     scene.materials[0].base_texture.texture = -1;
-    EXPECT_FALSE(scene_facts(scene).surfaces.textures) << "of a material not in use";
-    EXPECT_NEAR(scene_facts(textured({0, 0, 0, 255, 255, 255, 255, 255})).surfaces.largest_albedo,
-                0.5, 1e-7);
-    facts = scene_facts(textured({9, 8, 7, 255, 9, 8, 7, 0})).surfaces;
-    EXPECT_FALSE(facts.textures);
-    EXPECT_NEAR(facts.smallest_albedo, 0.5 * 7 / 255, 1e-7);
+    EXPECT_FALSE(scene_analysis(scene).surfaces.textures) << "of a material not in use";
+    EXPECT_NEAR(
+        scene_analysis(textured({0, 0, 0, 255, 255, 255, 255, 255})).surfaces.largest_albedo, 0.5,
+        1e-7);
+    analysis = scene_analysis(textured({9, 8, 7, 255, 9, 8, 7, 0})).surfaces;
+    EXPECT_FALSE(analysis.textures);
+    EXPECT_NEAR(analysis.smallest_albedo, 0.5 * 7 / 255, 1e-7);
 
     scene = textured({9, 8, 7, 255, 9, 8, 7, 102});  // alpha 0.4
-    EXPECT_FALSE(scene_facts(scene).surfaces.cutouts);
+    EXPECT_FALSE(scene_analysis(scene).surfaces.cutouts);
     scene.materials[0].alpha_mode = AlphaMode::mask;
-    EXPECT_TRUE(scene_facts(scene).surfaces.cutouts);
+    EXPECT_TRUE(scene_analysis(scene).surfaces.cutouts);
     scene.materials[0].alpha_cutoff = 0.3f;
-    EXPECT_FALSE(scene_facts(scene).surfaces.cutouts);
+    EXPECT_FALSE(scene_analysis(scene).surfaces.cutouts);
     scene.colors.assign(4, glm::vec4(1.0f));
     scene.colors[2].a = 0.5f;
-    EXPECT_TRUE(scene_facts(scene).surfaces.cutouts);
+    EXPECT_TRUE(scene_analysis(scene).surfaces.cutouts);
     scene.colors.clear();
     scene.materials[0].base_color.a = 0.5f;
-    EXPECT_TRUE(scene_facts(scene).surfaces.cutouts);
+    EXPECT_TRUE(scene_analysis(scene).surfaces.cutouts);
 }
 
-TEST(LightFacts, AreSumsOverLights) {
+TEST(LightAnalysis, AreSumsOverLights) {
     Scene scene = test::tiles({{0, 0}, {2, 0}});
     scene.lights = {test::point_light({0, 1, 0}),
                     test::point_light({0, 1, 0}, 0.0f),
@@ -287,79 +288,79 @@ TEST(LightFacts, AreSumsOverLights) {
                     test::spot_light({0, 1, 0}, {0, -1, 0}, 0.3),
                     test::spot_light({0, 1, 0}, {0, -1, 0}, 0.4),
                     test::spot_light({0, 1, 0}, {0, -1, 0}, 0.5)};
-    LightFacts facts = scene_facts(scene).lights;
-    EXPECT_EQ(facts.points, 1u);
-    EXPECT_EQ(facts.directional, 2u);
-    EXPECT_EQ(facts.spots, 3u);
-    EXPECT_EQ(facts.emissive_triangles, 0u);
-    EXPECT_EQ(facts.emissive_power, 0.0);
-    EXPECT_FALSE(facts.environment);
+    LightAnalysis analysis = scene_analysis(scene).lights;
+    EXPECT_EQ(analysis.points, 1u);
+    EXPECT_EQ(analysis.directional, 2u);
+    EXPECT_EQ(analysis.spots, 3u);
+    EXPECT_EQ(analysis.emissive_triangles, 0u);
+    EXPECT_EQ(analysis.emissive_power, 0.0);
+    EXPECT_FALSE(analysis.environment);
 
     scene.materials.push_back(scene.materials[0]);
     scene.materials[1].emission = {1.0f, 2.0f, 3.0f};
     scene.triangles[3].material = 1;
     const double luminance = 0.2126 + 2.0 * 0.7152 + 3.0 * 0.0722;
-    facts = scene_facts(scene).lights;
-    EXPECT_EQ(facts.emissive_triangles, 1u);
-    EXPECT_NEAR(facts.emissive_area, 0.5, 1e-12);
-    EXPECT_NEAR(facts.emissive_power, pi * luminance * 0.5, 1e-6);
+    analysis = scene_analysis(scene).lights;
+    EXPECT_EQ(analysis.emissive_triangles, 1u);
+    EXPECT_NEAR(analysis.emissive_area, 0.5, 1e-12);
+    EXPECT_NEAR(analysis.emissive_power, pi * luminance * 0.5, 1e-6);
     scene.materials[1].double_sided = true;
-    EXPECT_NEAR(scene_facts(scene).lights.emissive_power, pi * luminance, 1e-6);
-    EXPECT_NEAR(scene_facts(scene).lights.emissive_area, 0.5, 1e-12);
+    EXPECT_NEAR(scene_analysis(scene).lights.emissive_power, pi * luminance, 1e-6);
+    EXPECT_NEAR(scene_analysis(scene).lights.emissive_area, 0.5, 1e-12);
 
     // The upper half of the sphere has (2,4,6), the lower one nothing.
     scene.environment = Environment{1, 2, {glm::vec3(1, 2, 3), glm::vec3(0)}, glm::vec3(2.0f)};
-    facts = scene_facts(scene).lights;
-    EXPECT_TRUE(facts.environment);
-    EXPECT_NEAR(facts.environment_mean, luminance, 1e-6);
+    analysis = scene_analysis(scene).lights;
+    EXPECT_TRUE(analysis.environment);
+    EXPECT_NEAR(analysis.environment_mean, luminance, 1e-6);
     scene.environment->factor = glm::vec3(0.0f);
-    EXPECT_FALSE(scene_facts(scene).lights.environment);
+    EXPECT_FALSE(scene_analysis(scene).lights.environment);
 }
 
-TEST(SceneFacts, OfGeneratedScenesAreKnown) {
+TEST(SceneAnalysis, OfGeneratedScenesAreKnown) {
     CorridorOptions closed;
     closed.door_angle = 0.0f;
     for (const Scene& scene : {cornell(), box(), corridor(closed), maze(), glossy_box()}) {
-        const SceneFacts facts = scene_facts(scene);
-        EXPECT_FALSE(facts.proof.surfaces_open) << scene.name;
-        EXPECT_FALSE(facts.proof.surfaces_apart) << scene.name;
-        EXPECT_FALSE(facts.proof.lights_open) << scene.name;
-        EXPECT_GT(facts.milliseconds, 0.0);
+        const SceneAnalysis analysis = scene_analysis(scene);
+        EXPECT_FALSE(analysis.proof.surfaces_open) << scene.name;
+        EXPECT_FALSE(analysis.proof.surfaces_apart) << scene.name;
+        EXPECT_FALSE(analysis.proof.lights_open) << scene.name;
+        EXPECT_GT(analysis.milliseconds, 0.0);
     }
-    const SceneFacts open = scene_facts(cornell()), sealed = scene_facts(box());
+    const SceneAnalysis open = scene_analysis(cornell()), sealed = scene_analysis(box());
     EXPECT_GT(open.openness, 0.05);  // the front is missing
     EXPECT_LT(open.openness, 0.3);
     EXPECT_EQ(sealed.openness, 0.0);
     EXPECT_EQ(open.lights.emissive_triangles, 2u);
     EXPECT_EQ(sealed.lights.spots, 1u);
     EXPECT_NEAR(sealed.size, std::sqrt(17.0), 1e-9);
-    EXPECT_GT(scene_facts(glossy_box()).surfaces.gloss, 0.0);
-    const SceneFacts walks = scene_facts(character());
+    EXPECT_GT(scene_analysis(glossy_box()).surfaces.gloss, 0.0);
+    const SceneAnalysis walks = scene_analysis(character());
     EXPECT_TRUE(walks.motion.geometry);
     EXPECT_GT(walks.motion.travel, 0.05);
     EXPECT_LT(walks.motion.moving_triangles, walks.surfaces.triangles);
 }
 
-TEST(SceneFacts, OfCollectedFilesAreKnown) {
+TEST(SceneAnalysis, OfCollectedFilesAreKnown) {
     const std::filesystem::path folder = CLGI_SCENES_DIR;
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no scenes in " << folder;
-    const auto of = [&](const char* file) { return scene_facts(io::load_gltf(folder / file)); };
-    const SceneFacts area = of("cornell/cornell-box.gltf"),
-                     spot = of("cornell/cornell-box-spot.glb");
+    const auto of = [&](const char* file) { return scene_analysis(io::load_gltf(folder / file)); };
+    const SceneAnalysis area = of("cornell/cornell-box.gltf"),
+                        spot = of("cornell/cornell-box-spot.glb");
     EXPECT_FALSE(area.proof.surfaces_open || area.lights.moving || area.motion.geometry);
     EXPECT_NEAR(area.lights.emissive_power,
                 pi * 0.130 * 0.105 * (17 * 0.2126 + 12 * 0.7152 + 4 * 0.0722), 1e-3);
     EXPECT_TRUE(spot.lights.moving);
     EXPECT_FALSE(spot.motion.geometry);
-    const SceneFacts man = of("animated/CesiumMan.glb");
+    const SceneAnalysis man = of("animated/CesiumMan.glb");
     EXPECT_TRUE(man.motion.geometry && man.surfaces.textures && !man.proof.surfaces_open);
     EXPECT_EQ(man.motion.moving_triangles, man.surfaces.triangles);
 }
 
-TEST(SceneFacts, RefuseABrokenScene) {
+TEST(SceneAnalysis, RefuseABrokenScene) {
     Scene scene = test::tiles({{0, 0}});
     scene.positions[1].y = NAN;
-    EXPECT_THROW(scene_facts(scene), InputError);
+    EXPECT_THROW(scene_analysis(scene), InputError);
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <clgi/advanced/bake_layout.hpp>
-#include <clgi/opencl.hpp>
+#include <clgi/advanced/static_bake.hpp>
 #include <clgi/light_atlas.hpp>
-#include <clgi/advanced/still_bake.hpp>
+#include <clgi/opencl.hpp>
 #include <string>
 
 namespace clgi::program {
@@ -39,19 +39,20 @@ CLI::Option* add_count(CLI::App& command, const std::string& name, T& value,
 
 // Whether so many VPLs can be baked at all, before they are placed: that takes long, and memory of
 // its own. Throws DeviceError that begins with the command's name.
-void need_room(const std::string& command, const cl::Device& device, const VplOptions& options);
+void check_capacity(const std::string& command, const cl::Device& device,
+                    const VplOptions& options);
 
 struct BakeLayout : clgi::BakeLayout {
     double seconds = 0.0;
 };
-struct StillBake : clgi::StillBake {
+struct StaticBake : clgi::StaticBake {
     double seconds = 0.0;
 };
 
 // Add the warnings of the atlas to the scene's, and print them unless quiet. The second is of a
 // scene in which things move.
 BakeLayout lay_out(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas, bool quiet);
-StillBake lay_out_still(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
-                        bool quiet);
+StaticBake lay_out_static(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
+                          bool quiet);
 
 }  // namespace clgi::program

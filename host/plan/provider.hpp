@@ -6,14 +6,14 @@
 
 namespace clgi {
 
-struct Carrier {
+struct Provider {
     const char* by;       // "nothing": the method cannot
     bool always = false;  // also where the effect is off
 };
 // Given what else is on in the plan.
-Carrier carrier_of(const Plan& plan, Method method, Effect effect);
+Provider provider_of(const Plan& plan, Method method, Effect effect);
 
-// Effects that are off by wish, and that the method renders all the same.
+// Effects that are off by request, and that the method renders all the same.
 std::vector<Effect> unavoidable(const Plan& plan, Method method);
 
 }  // namespace clgi

@@ -30,7 +30,7 @@ struct OpennessProof {
     bool environment_open = false;
 };
 
-struct LightFacts {
+struct LightAnalysis {
     std::size_t points = 0, spots = 0, directional = 0;  // with power: intensity above 0
     std::size_t dark_points = 0, dark_spots = 0, dark_directional = 0;  // without
     bool moving = false;                 // a clip moves a node that carries one of them
@@ -48,7 +48,7 @@ struct LightFacts {
 
 // Of all that triangles reflect, weighted by area. Textures count by nine points of each triangle,
 // by one in scenes of more than 30,000 triangles, with texels that a mask cuts out.
-struct SurfaceFacts {
+struct SurfaceAnalysis {
     std::size_t triangles = 0;
     double area = 0.0;             // m^2, both sides of double-sided ones are one
     glm::dvec3 mean_albedo{0.0};   // of diffuse and gloss together, per channel
@@ -65,7 +65,7 @@ struct SurfaceFacts {
     std::size_t degenerate = 0;  // triangles without area, to within the rounding of positions
 };
 
-struct MotionFacts {
+struct MotionAnalysis {
     bool geometry = false;             // some clip moves vertices of triangles
     std::size_t moving_triangles = 0;  // with a vertex that follows what a clip moves
     double moving_area = 0.0;          // their share of the area, as the scene's arrays have it
@@ -74,10 +74,10 @@ struct MotionFacts {
                           // over the diagonal of their bounds, at 3 to 25 times a clip
 };
 
-struct SceneFacts {
-    LightFacts lights;
-    SurfaceFacts surfaces;
-    MotionFacts motion;
+struct SceneAnalysis {
+    LightAnalysis lights;
+    SurfaceAnalysis surfaces;
+    MotionAnalysis motion;
     OpennessProof proof;
     double size = 0.0;  // m, diagonal of the bounds
 
@@ -102,11 +102,11 @@ struct SceneFacts {
     // pixels of shadow maps or leaves are larger.
     double thin = 0.0, thinnest = 0.0;
 
-    double milliseconds = 0.0;  // that reading the facts took
+    double milliseconds = 0.0;  // that reading the analysis took
 };
 
 // Throws InputError for a broken scene, as validate() does, and if a clip moves a vertex beyond
 // 1e18 m.
-CLGI_API SceneFacts scene_facts(const Scene& scene);
+CLGI_API SceneAnalysis scene_analysis(const Scene& scene);
 
 }  // namespace clgi

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <clgi/advanced/static_bake.hpp>
 #include <clgi/error.hpp>
-#include <clgi/advanced/still_bake.hpp>
 #include <optional>
 
 #include "scene/local_frame.hpp"
@@ -19,16 +19,17 @@ Bounds box_of_motion(const Scene& scene) {
 
 }  // namespace
 
-StillBake make_still_bake(const Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
-                          int most_points) {
-    StillBake out;
-    out.still = still_scene(scene);
-    if (out.still.triangles.empty())
+StaticBake make_static_bake(const Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
+                            int most_points) {
+    StaticBake out;
+    out.static_scene = static_scene(scene);
+    if (out.static_scene.triangles.empty())
         throw InputError("still-bake: nothing of the scene stands still");
-    if (out.still.triangles.size() == scene.triangles.size())
+    if (out.static_scene.triangles.size() == scene.triangles.size())
         throw InputError("still-bake: nothing of the scene moves");
-    out.layout = make_bake_layout(out.still.scene, vpls, atlas);
-    out.whole = atlas_of_whole(out.layout.atlas, out.still.triangles, scene.triangles.size());
+    out.layout = make_bake_layout(out.static_scene.scene, vpls, atlas);
+    out.whole =
+        atlas_of_whole(out.layout.atlas, out.static_scene.triangles, scene.triangles.size());
     out.volume = make_irradiance_volume(box_of_motion(scene), most_points);
     return out;
 }

@@ -15,11 +15,11 @@ namespace {
 
 // A picture of the animated room by the atlas, as a plan has it.
 test::Pixels by_atlas(const Scene& scene, const Camera& camera, double seconds) {
-    PlanWish wish = test::quick();
-    wish.animated = true;
-    wish.method = Method::light_atlas;
-    wish.build = test::usual_build();
-    Plan plan = test::plan_of(scene, camera, wish);
+    PlanRequest request = test::quick();
+    request.animated = true;
+    request.method = Method::light_atlas;
+    request.build = test::usual_build();
+    Plan plan = test::plan_of(scene, camera, request);
     plan.picture.emitters.shadow_size = 1024;
     plan.vpls.count = 800;
     plan.layout.size = 128;
@@ -68,10 +68,10 @@ TEST_P(StillPicture, IsThatOfThePathTracer) {
 TEST(StillPictures, FollowTheirLights) {
     const Scene scene = test::moving_box_room();
     const Camera& camera = scene.cameras[0];
-    PlanWish wish = test::quick();
-    wish.animated = true;
-    wish.method = Method::light_atlas;
-    Plan plan = test::plan_of(scene, camera, wish);
+    PlanRequest request = test::quick();
+    request.animated = true;
+    request.method = Method::light_atlas;
+    Plan plan = test::plan_of(scene, camera, request);
     plan.vpls.count = 200;
     plan.layout.size = 64;
     const Scene planned = planned_scene(scene, plan);
@@ -97,11 +97,11 @@ TEST(StillPictures, FollowTheirLights) {
 TEST(StillPictures, CostNothingWithoutMotion) {
     const Scene scene = test::moving_box_room();
     const auto cost = [&](const std::vector<Effect>& without) {
-        PlanWish wish = test::quick({}, without);
-        wish.animated = true;
-        wish.method = Method::light_atlas;
-        wish.shadow_size = wish.face_size = 64;
-        Plan plan = test::plan_of(scene, scene.cameras[0], wish);
+        PlanRequest request = test::quick({}, without);
+        request.animated = true;
+        request.method = Method::light_atlas;
+        request.shadow_size = request.face_size = 64;
+        Plan plan = test::plan_of(scene, scene.cameras[0], request);
         plan.vpls.count = 100;
         plan.layout.size = 64;
         const Scene planned = planned_scene(scene, plan);

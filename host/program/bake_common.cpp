@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "program/bake_room.hpp"
+#include "program/bake_common.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +41,8 @@ void add_emitter_flags(CLI::App& command, EmitterOptions& emitters) {
               "Directional lights that approximate the environment", 0, 4096);
 }
 
-void need_room(const std::string& command, const cl::Device& device, const VplOptions& options) {
+void check_capacity(const std::string& command, const cl::Device& device,
+                    const VplOptions& options) {
     const std::size_t samples = std::size_t{options.count} * options.samples_per_vpl;
     const std::size_t needed = light_atlas_least_bytes(options.count, samples);
     const std::size_t memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
@@ -70,14 +71,14 @@ BakeLayout lay_out(Scene& scene, const VplOptions& vpls, const AtlasOptions& atl
     return out;
 }
 
-StillBake lay_out_still(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
-                        bool quiet) {
+StaticBake lay_out_static(Scene& scene, const VplOptions& vpls, const AtlasOptions& atlas,
+                          bool quiet) {
     const Stopwatch watch;
-    StillBake out;
-    static_cast<clgi::StillBake&>(out) = make_still_bake(scene, vpls, atlas);
+    StaticBake out;
+    static_cast<clgi::StaticBake&>(out) = make_static_bake(scene, vpls, atlas);
     out.seconds = watch.seconds();
     for (const std::string& warning : out.whole.warnings) warn(scene, warning, quiet);
-    if (out.still.moving_emission)
+    if (out.static_scene.moving_emission)
         warn(scene, "what moves emits, but lights nothing indirectly", quiet);
     return out;
 }

@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <clgi/advanced/static_bake.hpp>
 #include <clgi/error.hpp>
 #include <clgi/procedural.hpp>
-#include <clgi/advanced/still_bake.hpp>
 #include <cmath>
 #include <limits>
 
@@ -18,19 +18,19 @@ namespace {
 
 using test::Bakery;
 
-TEST(StillScene, IsWithoutWhatAClipMoves) {
+TEST(StaticScene, IsWithoutWhatAClipMoves) {
     const Scene scene = test::moving_box_room();
-    const StillScene still = still_scene(scene);
-    EXPECT_EQ(still.scene.triangles.size(), scene.triangles.size() - 12);
-    for (std::size_t t = 0; t < still.triangles.size(); ++t) {
-        EXPECT_EQ(still.triangles[t], t < 24 ? t : t + 12);  // the box lies between others
+    const StaticScene fixed = static_scene(scene);
+    EXPECT_EQ(fixed.scene.triangles.size(), scene.triangles.size() - 12);
+    for (std::size_t t = 0; t < fixed.triangles.size(); ++t) {
+        EXPECT_EQ(fixed.triangles[t], t < 24 ? t : t + 12);  // the box lies between others
         for (int k = 0; k < 3; ++k)
-            EXPECT_EQ(still.scene.triangles[t].vertex[k],
-                      scene.triangles[still.triangles[t]].vertex[k]);
+            EXPECT_EQ(fixed.scene.triangles[t].vertex[k],
+                      scene.triangles[fixed.triangles[t]].vertex[k]);
     }
-    EXPECT_FALSE(still.scene.animation);
+    EXPECT_FALSE(fixed.scene.animation);
     // Both have the same units on the device.
-    const SceneFrame a = test::on_device(scene).frame(), b = test::on_device(still.scene).frame();
+    const SceneFrame a = test::on_device(scene).frame(), b = test::on_device(fixed.scene).frame();
     EXPECT_EQ(a.origin, b.origin);
     EXPECT_EQ(a.scale, b.scale);
     EXPECT_EQ(a.exposure, b.exposure);
@@ -42,29 +42,29 @@ TEST(StillScene, IsWithoutWhatAClipMoves) {
     for (std::uint32_t v = scene.triangles[24].vertex[0]; v < scene.triangles[36].vertex[0]; ++v)
         apart.positions[v] = scene.positions[v] + 7.0;
     const SceneFrame c = test::on_device(apart).frame();
-    const SceneFrame d = test::on_device(still_scene(apart).scene).frame();
+    const SceneFrame d = test::on_device(static_scene(apart).scene).frame();
     EXPECT_EQ(c.origin, d.origin);
     EXPECT_EQ(c.scale, d.scale);
     EXPECT_NE(c.scale, a.scale);
 
-    EXPECT_FALSE(still.moving_emission);
+    EXPECT_FALSE(fixed.moving_emission);
     Scene glows = scene;
     glows.materials[scene.triangles[24].material].emission = {0.0f, 0.1f, 0.0f};
-    EXPECT_TRUE(still_scene(glows).moving_emission);
-    EXPECT_TRUE(scene_facts(glows).motion.moving_emission);
-    EXPECT_FALSE(scene_facts(scene).motion.moving_emission);
+    EXPECT_TRUE(static_scene(glows).moving_emission);
+    EXPECT_TRUE(scene_analysis(glows).motion.moving_emission);
+    EXPECT_FALSE(scene_analysis(scene).motion.moving_emission);
 
     EXPECT_TRUE(moves(scene));
     Scene rests = scene;
     rests.animation.reset();
     EXPECT_FALSE(moves(rests));
-    EXPECT_THROW(make_still_bake(rests), InputError);
-    EXPECT_EQ(still_scene(rests).triangles.size(), scene.triangles.size());
+    EXPECT_THROW(make_static_bake(rests), InputError);
+    EXPECT_EQ(static_scene(rests).triangles.size(), scene.triangles.size());
 }
 
-TEST(StillScene, HasItsAtlasInTheWhole) {
+TEST(StaticScene, HasItsAtlasInTheWhole) {
     const Scene scene = test::moving_box_room();
-    const StillBake bake = make_still_bake(scene, {.count = 100}, {.size = 64});
+    const StaticBake bake = make_static_bake(scene, {.count = 100}, {.size = 64});
     const AtlasLayout &part = bake.layout.atlas, &whole = bake.whole;
     ASSERT_EQ(whole.triangle_chart.size(), scene.triangles.size());
     ASSERT_EQ(whole.uvs.size(), 3 * scene.triangles.size());
@@ -72,19 +72,19 @@ TEST(StillScene, HasItsAtlasInTheWhole) {
     for (std::size_t t = 0; t < scene.triangles.size(); ++t)
         without += whole.triangle_page[t] == ATLAS_NONE && whole.triangle_chart[t] == ATLAS_NONE;
     EXPECT_EQ(without, 12u);
-    for (std::size_t t = 0; t < bake.still.triangles.size(); ++t) {
-        const std::size_t to = bake.still.triangles[t];
+    for (std::size_t t = 0; t < bake.fixed.triangles.size(); ++t) {
+        const std::size_t to = bake.fixed.triangles[t];
         EXPECT_EQ(whole.triangle_chart[to], part.triangle_chart[t]);
         EXPECT_EQ(whole.triangle_page[to], part.triangle_page[t]);
         for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(whole.uvs[3 * to + k], part.uvs[3 * t + k]);
     }
     ASSERT_EQ(whole.texels.size(), part.texels.size());
     for (std::size_t i = 0; i < part.texels.size(); ++i)
-        EXPECT_EQ(whole.texels[i].triangle, bake.still.triangles[part.texels[i].triangle]);
+        EXPECT_EQ(whole.texels[i].triangle, bake.fixed.triangles[part.texels[i].triangle]);
     // The volume covers the way of the box, which is found if the scene does not say it.
     Scene silent = scene;
     silent.moving_bounds.reset();
-    EXPECT_EQ(make_still_bake(silent, {.count = 100}, {.size = 64}).volume.first,
+    EXPECT_EQ(make_static_bake(silent, {.count = 100}, {.size = 64}).volume.first,
               bake.volume.first);
     const IrradianceVolume& v = bake.volume;
     const glm::dvec3 low = v.first - 0.5 * v.spacing;
@@ -95,18 +95,18 @@ TEST(StillScene, HasItsAtlasInTheWhole) {
     }
 }
 
-TEST(StillScene, RefusesWhatDoesNotBelong) {
+TEST(StaticScene, RefusesWhatDoesNotBelong) {
     const Scene scene = test::moving_box_room();
-    const StillBake bake = make_still_bake(scene, {.count = 50}, {.size = 64});
+    const StaticBake bake = make_static_bake(scene, {.count = 50}, {.size = 64});
     const std::size_t count = scene.triangles.size();
-    std::vector<std::uint32_t> few = bake.still.triangles;
+    std::vector<std::uint32_t> few = bake.fixed.triangles;
     few.pop_back();
     EXPECT_THROW(atlas_of_whole(bake.layout.atlas, few, count), Error);
-    EXPECT_THROW(atlas_of_whole(bake.layout.atlas, bake.still.triangles, count - 1), Error);
+    EXPECT_THROW(atlas_of_whole(bake.layout.atlas, bake.fixed.triangles, count - 1), Error);
     Scene all = scene;  // nothing stands still
     for (SceneTriangle& triangle : all.triangles)
         triangle.vertex[0] = scene.triangles[24].vertex[0];
-    EXPECT_THROW(make_still_bake(all, {.count = 50}, {.size = 64}), InputError);
+    EXPECT_THROW(make_static_bake(all, {.count = 50}, {.size = 64}), InputError);
 }
 
 CLGI_IN_BOTH_MATHS(BakePoints);

@@ -10,7 +10,7 @@
 
 namespace clgi {
 
-struct StillScene {
+struct StaticScene {
     Scene scene;  // without animation and without parts, in the whole scene's frame on the device
     std::vector<std::uint32_t> triangles;  // [triangles of scene] which one of the whole it is
     bool moving_emission = false;          // a triangle that is not in it has a material that emits
@@ -22,6 +22,6 @@ CLGI_API bool moves(const Scene& scene);
 // The triangles of which no vertex follows what a clip moves. Lights, materials and the environment
 // are all there, so that light on the device has the same unit in both: lights are those of the
 // scene's arrays, and surfaces that move and emit are missing.
-CLGI_API StillScene still_scene(const Scene& scene);
+CLGI_API StaticScene static_scene(const Scene& scene);
 
 }  // namespace clgi

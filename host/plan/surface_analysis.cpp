@@ -77,7 +77,8 @@ std::vector<Reflectance> reflectances_of(const Scene& scene) {
 }
 
 // Areas and what they reflect, as sums; then as means and shares.
-void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos, SurfaceFacts& out) {
+void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos,
+               SurfaceAnalysis& out) {
     const std::vector<Reflectance> reflectances = reflectances_of(scene);
     double gloss = 0.0, least = std::numeric_limits<double>::infinity();
     for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
@@ -195,9 +196,9 @@ std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
     return out;
 }
 
-SurfaceFacts surface_facts(const Scene& scene, const std::vector<LocalTriangle>& triangles,
-                           const std::vector<TriangleAlbedo>& albedos) {
-    SurfaceFacts out;
+SurfaceAnalysis surface_analysis(const Scene& scene, const std::vector<LocalTriangle>& triangles,
+                                 const std::vector<TriangleAlbedo>& albedos) {
+    SurfaceAnalysis out;
     out.triangles = scene.triangles.size();
     out.vertices = scene.positions.size();
     out.degenerate = static_cast<std::size_t>(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plan/rungs.hpp"
+#include "plan/presets.hpp"
 
 #include <algorithm>
 
@@ -19,11 +19,11 @@ double indirect_share(const Plan& plan) {
 }
 
 SceneKind kind_of(const Plan& plan) {
-    const SceneFacts& facts = plan.facts;
+    const SceneAnalysis& analysis = plan.analysis;
     if (!plan.on(Effect::indirect_occlusion)) return SceneKind::convex;
     if (plan.probe && indirect_share(plan) > 1.0) return SceneKind::indirect;
-    if (facts.openness > much_leaves) return SceneKind::open;
-    if (facts.surfaces.triangles > many_triangles) return SceneKind::fine;
+    if (analysis.openness > much_leaves) return SceneKind::open;
+    if (analysis.surfaces.triangles > many_triangles) return SceneKind::fine;
     return SceneKind::furnished;
 }
 
@@ -43,12 +43,12 @@ const char* name_of(SceneKind kind) {
     return "";
 }
 
-const std::vector<Rung>& rungs() {
+const std::vector<Preset>& presets() {
     // Of pictures of 160x120 against the path tracer's indirect light, the largest of the scenes of
     // a kind (docs/effects.md). Convex: two empty rooms. Furnished: Cornell box, a furnished room,
     // the corridor. Finely modelled: box with the bunny. Open: a yard, the office, oriental-like.
     // Lit indirectly: the dark one of two chambers, the maze.
-    static const std::vector<Rung> out = {
+    static const std::vector<Preset> out = {
         {Method::direct, 0, 0, {0, 0, 0, 0, 0}},
         {Method::second_order, 0, 300, {0.741, 0.611, 0.791, 0.533, 0.729}},
         {Method::second_order, 0, 1000, {0.733, 0.611, 0.73, 0.488, 0.65}},

@@ -21,16 +21,16 @@ double indirect_share(const Plan& plan);
 SceneKind kind_of(const Plan& plan);
 const char* name_of(SceneKind kind);
 
-struct Rung {
+struct Preset {
     Method method;
     int directions;  // bins; atlas: texels, side of a page; 0: none
-    int places;      // leaves wished, or VPLs
+    int places;      // leaves requested, or VPLs
     // By kind: error of indirect light, over its share (expected_error.hpp); of transfer, of the
     // whole picture. Measured; 0: was not.
     double error[5];
 };
 
 // By method, each from quick to accurate.
-const std::vector<Rung>& rungs();
+const std::vector<Preset>& presets();
 
 }  // namespace clgi

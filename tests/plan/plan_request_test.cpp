@@ -1,0 +1,207 @@
+// What a request makes of a plan: predictions, no pictures.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <clgi/plan.hpp>
+#include <cmath>
+#include <functional>
+
+#include "device.hpp"
+#include "rooms.hpp"
+
+namespace clgi {
+namespace {
+
+TEST(Plan, SaysWhatIsWrongWithAWish) {
+    const SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    const auto refused = [&](const std::function<void(PlanRequest&)>& change) {
+        PlanRequest request;
+        change(request);
+        EXPECT_THROW(make_plan(test::device().device, analysis, request), Error);
+    };
+    refused([](PlanRequest& w) { w.width = 0; });
+    refused([](PlanRequest& w) { w.height = 16385; });
+    refused([](PlanRequest& w) { w.tolerance = -0.1; });
+    refused([](PlanRequest& w) { w.tolerance = NAN; });
+    refused([](PlanRequest& w) { w.seconds = 0.0; });
+    refused([](PlanRequest& w) { w.error = -1.0; });
+    refused([](PlanRequest& w) {
+        w.with = {Effect::further_bounces};
+        w.without = {Effect::first_bounce};
+    });
+    refused([](PlanRequest& w) {
+        w.with = {Effect::gloss};
+        w.without = {Effect::gloss};
+    });
+}
+
+TEST(Plan, FollowsWishesOfIndirectLight) {
+    const cl::Device& device = test::device().device;
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    analysis.surfaces.largest_albedo = 0.0;
+    PlanRequest request;
+    EXPECT_FALSE(make_plan(device, analysis, request).on(Effect::first_bounce));
+    for (const Effect effect :
+         {Effect::first_bounce, Effect::further_bounces, Effect::indirect_occlusion}) {
+        request.with = {effect};
+        const Plan plan = make_plan(device, analysis, request);
+        EXPECT_TRUE(plan.on(Effect::first_bounce));
+        EXPECT_TRUE(plan.on(Effect::further_bounces));
+        EXPECT_TRUE(plan.on(Effect::indirect_occlusion));
+    }
+    request.with = {Effect::first_bounce};
+    request.without = {Effect::further_bounces};
+    const Plan once = make_plan(device, analysis, request);
+    EXPECT_FALSE(once.on(Effect::further_bounces));
+    EXPECT_TRUE(once.on(Effect::indirect_occlusion));
+    EXPECT_NE(once.method, Method::antiradiance);  // all bounces come together there
+    analysis.proof.surfaces_open = true;
+    EXPECT_FALSE(make_plan(device, analysis, request).on(Effect::indirect_occlusion));
+    analysis.surfaces.largest_albedo = 0.5;
+    request.with = {};
+    request.without = {Effect::first_bounce};
+    const Plan direct = make_plan(device, analysis, request);
+    EXPECT_EQ(direct.method, Method::direct);
+    EXPECT_FALSE(direct.on(Effect::further_bounces));
+}
+
+// What a request leaves out is not there for what else is decided.
+TEST(Plan, DoesNotCountWhatIsLeftOut) {
+    const cl::Device& device = test::device().device;
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    PlanRequest request;
+    std::vector<Effect> kinds;
+    if (analysis.lights.points > 0) kinds.push_back(Effect::point_light);
+    if (analysis.lights.spots > 0) kinds.push_back(Effect::spot_light);
+    if (analysis.lights.emission) kinds.push_back(Effect::area_light);
+    ASSERT_FALSE(kinds.empty());
+    request.without = kinds;
+    const Plan dark = make_plan(device, analysis, request);
+    for (const Effect kind : kinds)
+        EXPECT_EQ(dark.effects[static_cast<std::size_t>(kind)].evidence, Evidence::requested);
+    for (const Effect effect : {Effect::direct_shadows, Effect::first_bounce}) {
+        EXPECT_FALSE(dark.on(effect));
+        EXPECT_EQ(dark.effects[static_cast<std::size_t>(effect)].evidence, Evidence::absent);
+    }
+    // With a lamp left, the sky is not alone.
+    analysis.lights = LightAnalysis();
+    analysis.lights.environment = true;
+    analysis.lights.points = 1;
+    analysis.openness = 0.9;
+    analysis.surfaces.triangles = 100000;
+    request = PlanRequest();
+    request.animated = true;
+    EXPECT_EQ(make_plan(device, analysis, request).method, Method::second_order);
+    request.without = {Effect::point_light};
+    EXPECT_EQ(make_plan(device, analysis, request).method, Method::dynamic_transfer);
+}
+
+TEST(Plan, CountsDarkLightsThatMayChange) {
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    analysis.lights = LightAnalysis();
+    analysis.lights.dark_points = 1;
+    analysis.proof.lights_open = true;
+    PlanRequest request;
+    EXPECT_EQ(make_plan(test::device().device, analysis, request).method, Method::direct);
+    request.lights_change = true;
+    const Plan plan = make_plan(test::device().device, analysis, request);
+    for (const Effect effect : {Effect::point_light, Effect::direct_shadows, Effect::first_bounce})
+        EXPECT_TRUE(plan.on(effect)) << name_of(effect);
+    EXPECT_NE(plan.method, Method::direct);
+}
+
+TEST(Plan, SaysWhatBringsEachEffect) {
+    const cl::Device& device = test::device().device;
+    const SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    const auto by = [&](Method method, Effect effect) {
+        PlanRequest request;
+        request.method = method;
+        return make_plan(device, analysis, request).effects[static_cast<std::size_t>(effect)].by;
+    };
+    EXPECT_EQ(by(Method::second_order, Effect::first_bounce), "VPLs");
+    EXPECT_EQ(by(Method::second_order, Effect::further_bounces), "nothing");
+    EXPECT_EQ(by(Method::light_atlas, Effect::further_bounces), "baked VPLs");
+    EXPECT_EQ(by(Method::antiradiance, Effect::indirect_occlusion), "antiradiance");
+    EXPECT_EQ(by(Method::light_atlas, Effect::indirect_occlusion), "hemicubes");
+    EXPECT_EQ(by(Method::direct, Effect::first_bounce), "nothing");
+    EXPECT_EQ(by(Method::direct, Effect::textures), "");  // off
+
+    PlanRequest request;
+    request.method = Method::antiradiance;
+    request.without = {Effect::indirect_occlusion};
+    EXPECT_EQ(make_plan(device, analysis, request).unavoidable,
+              std::vector<Effect>{Effect::indirect_occlusion});
+    for (const Method able : {Method::second_order, Method::light_atlas}) {
+        request.method = able;
+        EXPECT_TRUE(make_plan(device, analysis, request).unavoidable.empty());
+    }
+    request.method = Method::second_order;
+    // VPLs are placed through shadow maps.
+    request.without = {Effect::direct_shadows};
+    EXPECT_EQ(make_plan(device, analysis, request).unavoidable,
+              std::vector<Effect>{Effect::direct_shadows});
+}
+
+TEST(Plan, KnowsErrorsWhereTheyWereMeasuredAlone) {
+    const cl::Device& device = test::device().device;
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    PlanRequest request;
+    request.error = 0.5;
+    request.without = {Effect::first_bounce};
+    Plan plan = make_plan(device, analysis, request);
+    EXPECT_EQ(plan.method, Method::direct);
+    EXPECT_FALSE(plan.error);  // all indirect light is missing
+    EXPECT_FALSE(plan.meets_error);
+    analysis.surfaces.textures = true;
+    request.without = {Effect::textures};
+    EXPECT_FALSE(make_plan(device, analysis, request).error);
+    EXPECT_FALSE(make_plan(device, analysis, request).meets_error);
+    request.without = {Effect::cutouts};  // of which there are none
+    EXPECT_TRUE(make_plan(device, analysis, request).error);
+    EXPECT_TRUE(make_plan(device, analysis, request).meets_error);
+    request.without.clear();
+    analysis.surfaces.largest_albedo = 0.0;  // nothing is lit, so no shadow map is wrong
+    plan = make_plan(device, analysis, request);
+    EXPECT_FALSE(plan.on(Effect::direct_shadows));
+    EXPECT_EQ(plan.error, 0.0);
+    analysis.surfaces.largest_albedo = 0.5;
+    analysis.proof.surfaces_apart = true;
+    plan = make_plan(device, analysis, request);
+    ASSERT_TRUE(plan.error);
+    EXPECT_GT(*plan.error, 0.0);  // shadow maps err
+    analysis.proof.lights_open = true;
+    analysis.lights.emission = false;
+    plan = make_plan(device, analysis, request);
+    ASSERT_TRUE(plan.error);
+    EXPECT_EQ(*plan.error, 0.0);
+    EXPECT_TRUE(plan.meets_error);
+    // The sky's light by a few directions: nobody knows.
+    analysis.lights.environment = true;
+    request.method = Method::direct;
+    EXPECT_FALSE(make_plan(device, analysis, request).error);
+}
+
+TEST(Plan, TakesSettingsOfDirectLightFromTheWish) {
+    PlanRequest request;
+    request.seconds = 10.0;
+    const SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    EXPECT_NE(make_plan(test::device().device, analysis, request).picture.emitters.shadow_size,
+              300);
+    request.shadow_size = 300;
+    request.face_size = 70;
+    request.area_samples = 5;
+    for (const Method method : {Method::second_order, Method::antiradiance, Method::light_atlas,
+                                Method::dynamic_transfer}) {
+        request.method = method;
+        const Plan plan = make_plan(test::device().device, analysis, request);
+        for (const EmitterOptions& options :
+             {plan.picture.emitters, plan.second_order.emitters, plan.light_atlas.emitters,
+              plan.antiradiance.emitters, plan.transfer_view.picture.emitters}) {
+            EXPECT_EQ(options.shadow_size, 300);
+            EXPECT_EQ(options.face_size, 70);
+            EXPECT_EQ(options.area_samples, 5);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace clgi
