@@ -29,7 +29,8 @@ set(reach_shading core scene shading)
 foreach(method IN LISTS methods)
     set(reach_${method} core scene shading ${method})
 endforeach()
-set(reach_plan core scene shading ${methods} plan)
+set(reach_renderer core scene shading ${methods} renderer)
+set(reach_plan ${reach_renderer} plan)
 set(reach_clgi ${reach_plan})
 set(reach_io core scene io)
 set(reach_gl core scene shading gl)
@@ -41,7 +42,7 @@ set(reach_program ${reach_lab} gl program clgi)
 # Every public header of the library, by module; those of io, gl and mesh lie in their own folders.
 set(headers_core error opencl device programs advanced/export advanced/interval
     advanced/kernel_source advanced/kit/buffer_table advanced/kit/progress advanced/kit/recorder
-    advanced/pass advanced/planes advanced/slice passes/parallel advanced/sh shared/base
+    advanced/pass advanced/planes advanced/slice advanced/solver_status passes/parallel advanced/sh shared/base
     shared/gbuffer shared/halton shared/image shared/parallel shared/planes)
 set(headers_scene scene device_scene scene_animator scene_mover procedural advanced/adjacency
     advanced/animation advanced/static_scene passes/scene shared/scene)
@@ -58,11 +59,12 @@ set(headers_transfer dynamic_transfer advanced/blocker_levels advanced/dynamic_t
 set(headers_antiradiance antiradiance advanced/antiradiance_view advanced/direction_bins
     advanced/elements advanced/links advanced/moving_elements passes/antiradiance
     passes/antiradiance_gloss passes/moving_elements shared/antiradiance shared/moving_elements)
-set(headers_plan plan renderer advanced/effects advanced/analysis advanced/tuning)
+set(headers_renderer renderer)
+set(headers_plan plan advanced/effects advanced/analysis advanced/tuning)
 set(headers_reference reference)
 set(headers_clgi clgi)  # the umbrella
 
-set(library core scene shading ${methods} plan)
+set(library core scene shading ${methods} renderer plan)
 foreach(module IN ITEMS ${library} reference clgi)
     foreach(header IN LISTS headers_${module})
         set(module_of_${header} ${module})
@@ -82,7 +84,7 @@ function(module_of name out)
         endif()
     elseif(name MATCHES "^methods/([a-z_]+)/")
         set(module ${CMAKE_MATCH_1})
-    elseif(name MATCHES "^(core|scene|shading|plan|io|gl|mesh|reference|lab|program)/")
+    elseif(name MATCHES "^(core|scene|shading|renderer|plan|io|gl|mesh|reference|lab|program)/")
         set(module ${CMAKE_MATCH_1})
     endif()
     set(${out} "${module}" PARENT_SCOPE)

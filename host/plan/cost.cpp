@@ -7,14 +7,13 @@
 #include <cmath>
 
 #include "core/kit/ranges.hpp"
+#include "methods/light_atlas/estimate.hpp"
 #include "plan/method.hpp"
 #include "plan/sky.hpp"
 #include "plan/static_part.hpp"
 
 namespace clgi {
 namespace {
-
-constexpr double fitted_pairs = 5.0e9;  // pairs_per_second() of the device of the fits
 
 struct Amount {
     double ms = 0.0;
@@ -97,30 +96,16 @@ PlanCost added(const Plan& plan, const Amount& once, const Amount& moved, const 
     return out;
 }
 
-// Layout, transport and filling, with hemicubes.
-Amount drawn_bake(double vpls, double texels, double triangles) {
-    return {40.0 + vpls * (0.25 + 4e-5 * triangles) + 3e-5 * vpls * vpls + 1.3e-6 * vpls * texels +
-                2e-3 * triangles,
-            2.0 * vpls * vpls + texels * (vpls / 8.0 + 150.0)};
-}
-
-// The same without occlusion: VPLs near by take a time of their own for each texel.
-Amount open_bake(double vpls, double texels, double triangles) {
-    return {4.0 + vpls * (0.033 + 2e-6 * triangles) + 1.4e-5 * vpls * vpls +
-                texels * (1e-4 + 1.6e-7 * vpls) + 7e-3 * triangles,
-            2.0 * vpls * vpls + texels * 150.0};
-}
-
-PlanCost light_atlas(const Plan& plan) {
+PlanCost atlas(const Plan& plan) {
     const double vpls = plan.vpls.count;
     double texels = 0.75 * plan.layout.size * plan.layout.size;
     if (bakes_static_part(plan)) texels += most_volume_points * VOLUME_DIRECTIONS;
-    const Amount bake =
-        (plan.light_atlas.occlusion ? drawn_bake : open_bake)(vpls, texels, triangles(plan));
+    const auto bake =
+        light_atlas::bake_cost(vpls, texels, triangles(plan), plan.light_atlas.occlusion);
     const bool environment = has_sky(plan);
     const Amount maps = shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
                                     plan.light_atlas.emitters.shadows);
-    Amount before = bake, moved = maps;
+    Amount before{bake.ms, bake.bytes}, moved = maps;
     if (bakes_static_part(plan) && !plan.on(Effect::moving_lights)) {  // baked once, whatever moves
         before += maps;
         moved = {};
@@ -187,7 +172,7 @@ PlanCost cost_of(const cl::Device& device, const Plan& plan) {
             out = second_order(plan);
             break;
         case Method::light_atlas:
-            out = light_atlas(plan);
+            out = atlas(plan);
             break;
         case Method::antiradiance:
             out = antiradiance(plan);

@@ -90,6 +90,7 @@ void use_preset(Plan& plan, const Preset& preset) {
 void set(Plan& plan, const Preset& preset, int fineness) {
     const PlanRequest& request = plan.request;
     plan.method = preset.method;
+    plan.animated = request.animated;
     plan.picture = PictureOptions();
     change_emitters(plan, [&](EmitterOptions& options) {
         options.shadow_size = request.shadow_size.value_or(fineness * EmitterOptions().shadow_size);

@@ -94,7 +94,7 @@ Reflectance reflectance(float metallic, float roughness) {
     return out;
 }
 
-// Copies of a scene share it: environments do not change.
+// Copies of a scene share it until their environment is turned.
 struct DeviceScene::Cut {
     std::mutex mutex;
     int count = 0;
@@ -180,6 +180,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     decode_ = upload("the sRGB table", srgb_decode_table());
     if (scene.environment) {
         environment_ = with_picture(*scene.environment);
+        uploaded_rotation_ = environment_->rotation;
         cut_ = std::make_shared<Cut>();
         environment_texels_ = upload("environment texels", environment_->texels);
     }
@@ -227,6 +228,13 @@ std::vector<Light> DeviceScene::environment_lights(int count) const {
     cut_->lights = std::move(lights);
     cut_->count = count;
     return cut_->lights;
+}
+
+void DeviceScene::turn_environment(double angle) {
+    if (!environment_) throw Error("scene: turn_environment(): there is no environment");
+    if (!std::isfinite(angle)) throw Error("scene: turn_environment(): the angle is not finite");
+    environment_->rotation = static_cast<float>(uploaded_rotation_ + angle);
+    cut_ = std::make_shared<Cut>();
 }
 
 void DeviceScene::set_light(std::size_t index, const Light& light) {

@@ -10,6 +10,7 @@
 #include <clgi/advanced/kit/recorder.hpp>
 #include <clgi/advanced/links.hpp>
 #include <clgi/advanced/moving_elements.hpp>
+#include <clgi/advanced/solver_status.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/passes/antiradiance_gloss.hpp>
 #include <clgi/programs.hpp>
@@ -65,17 +66,13 @@ struct AntiradianceOptions {
     BuildOptions build;
 };
 
-struct AntiradianceStatus {
+// converged: the residual is below the bound. given_up: the iteration that was used last diverged,
+// and leaves receive nothing. non_finite: leaves, in all steps of the iteration that was used.
+struct AntiradianceStatus : SolverStatus {
     Iteration iteration = Iteration::symmetric;  // that was used last
     bool diverged = false;                       // the symmetric iteration did, and was given up
-    // The iteration that was used last diverged: it has no result. Leaves receive nothing and
-    // pictures show direct light alone.
-    bool given_up = false;
-    bool converged = false;         // the residual is below the bound
     bool lets_through = false;      // false: nothing can lie between; there is no antiradiance
     std::vector<double> residuals;  // of each step that was made, of both iterations
-    std::uint32_t non_finite = 0;   // leaves with numbers that are not finite, in all steps of
-                                    // the iteration that was used
 };
 
 // What an AntiradianceSolver of these options will allocate, and how long its run() will take,
@@ -115,6 +112,9 @@ public:
 
     // Reads the scene's lights again, after DeviceScene::set_light, for the next run().
     void lights_changed();
+
+    // Reads the scene's environment again, after DeviceScene::turn_environment, for the next run().
+    void environment_changed();
 
     // The scene's vertices moved (SceneAnimator, SceneMover): the next run() has elements and links
     // where they are. It begins after `wait`, the event of the move. Throws Error for a solver that

@@ -74,6 +74,10 @@ public:
     void set_light(std::size_t index, const Light& light);
     // The same of all lights, to those of a scene that has as many; Error for another number.
     void set_lights(const std::vector<Light>& lights);
+    // Turns the environment about +Y, radians, beside the rotation that it was uploaded with;
+    // solvers then need lights_changed(), antiradiance environment_changed(). Of this copy of the
+    // scene alone. Throws Error for an angle that is not finite and a scene without environment.
+    void turn_environment(double angle);
 
     // In the order of SCENE_ARGUMENTS in kernels/scene/buffers.clh.
     std::array<const cl::Buffer*, 9> kernel_arguments() const;
@@ -108,6 +112,7 @@ private:
     std::vector<std::uint32_t> triangle_order_, vertex_order_;
     std::size_t file_vertex_count_ = 0;
     std::optional<Environment> environment_;
+    float uploaded_rotation_ = 0.0f;  // of the environment
     struct Cut;
     std::shared_ptr<Cut> cut_;
     bool has_lobes_ = false;

@@ -9,6 +9,7 @@
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
 #include <clgi/advanced/mask_weights.hpp>
+#include <clgi/advanced/solver_status.hpp>
 #include <clgi/advanced/visible_sets.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/passes/masks.hpp>
@@ -44,13 +45,12 @@ struct DynamicTransferOptions {
 };
 
 // What masks, vectors and light found out, since the start.
-struct TransferStatus {
+// non_finite: packets of receivers whose light is not finite, and receivers for which the bounce
+// makes it so.
+struct TransferStatus : SolverStatus {
     std::uint32_t bad_receivers = 0;  // whose position or normal is not finite
     std::uint32_t bad_blockers = 0;   // triangles that are not finite; they block nothing
     std::uint32_t bad_texels = 0;     // floats of the environment that are not finite, read as 0
-    // Packets of receivers whose light is not finite, and receivers for which the bounce makes it
-    // so.
-    std::uint32_t non_finite = 0;
 };
 
 // What a DynamicTransferSolver of these will allocate, without look() and restrict(), and what

@@ -9,6 +9,7 @@
 #include <clgi/advanced/irradiance_volume.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
+#include <clgi/advanced/solver_status.hpp>
 #include <clgi/advanced/vpl_layout.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/passes/atlas.hpp>
@@ -72,10 +73,10 @@ struct LightAtlasOptions {
 };
 
 // What a bake found out. Power is in lumen, the three channels summed.
-struct LightAtlasStatus {
-    std::uint32_t non_finite = 0;  // packets of numbers that are not finite
-    std::uint32_t shots = 0;       // VPLs that shot, counted at every bounce
-    std::uint32_t sent = 0;        // VPLs that sent light to the texels in the last run
+// converged: what VPLs have not shot is at most the threshold's share of direct light.
+struct LightAtlasStatus : SolverStatus {
+    std::uint32_t shots = 0;  // VPLs that shot, counted at every bounce
+    std::uint32_t sent = 0;   // VPLs that sent light to the texels in the last run
     bool transport_kept = false;
     bool visibility_kept = false;  // which texels each VPL sees; without occlusion there is nothing
                                    // to keep
@@ -103,9 +104,18 @@ struct LightAtlasState {
     std::vector<float> filled;        // [stride of texels] sums of form factors
 };
 
-// Bytes that a solver's buffers take at the least, beside those for the texels: what to check
-// before so many VPLs and sample points are placed.
+// Bytes that a solver's buffers take at the least, beside those for the texels.
 CLGI_API std::size_t light_atlas_least_bytes(std::size_t vpls, std::size_t samples);
+
+// Throws DeviceError if so many VPLs cannot be baked at all: what to check before they are placed,
+// which takes long, and memory of its own.
+CLGI_API void check_bake_fits(const cl::Device& device, const VplOptions& vpls);
+
+// What a bake with all that precedes it will allocate and take, both about, before anything is laid
+// out: pages are taken for three quarters full.
+CLGI_API Estimate estimate(const cl::Device& device, const DeviceScene& scene,
+                           const VplOptions& vpls, const AtlasOptions& atlas,
+                           const LightAtlasOptions& options = {});
 
 // Owns its buffers, works on the given queue (in order or not), never finishes it. The scene must
 // outlive the solver; the layouts are not needed afterwards. One thread at a time.
@@ -165,6 +175,7 @@ public:
     const SiteBuffers& sites() const;
     std::size_t bytes() const;  // of all buffers
     const std::vector<PassEvent>& events() const;
+    Interval interval() const;  // of the last run, on the queue
     const LightAtlasOptions& options() const;
 
 private:

@@ -4,26 +4,14 @@
 #pragma once
 
 #include <clgi/advanced/analysis.hpp>
-#include <clgi/advanced/atlas_layout.hpp>
-#include <clgi/advanced/dynamic_transfer_view.hpp>
 #include <clgi/advanced/effects.hpp>
 #include <clgi/advanced/export.hpp>
-#include <clgi/advanced/vpl_layout.hpp>
-#include <clgi/antiradiance.hpp>
-#include <clgi/device_scene.hpp>
-#include <clgi/dynamic_transfer.hpp>
-#include <clgi/light_atlas.hpp>
-#include <clgi/second_order.hpp>
+#include <clgi/renderer.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace clgi {
-
-enum class Method { direct, second_order, light_atlas, antiradiance, dynamic_transfer };
-// As in the program: "second-order". The other way round: none for any other word, such as "auto".
-CLGI_API const char* name_of(Method method);
-CLGI_API std::optional<Method> method_of(const std::string& name);
 
 // What is asked for.
 struct PlanRequest {
@@ -58,7 +46,10 @@ struct PlanCost {
     double total_ms() const { return once_ms + frame_ms; }
 };
 
-struct Plan {
+// The options of a Renderer, and why they are so.
+struct Plan : RendererOptions {
+    Plan() { method = Method::direct; }
+
     PlanRequest request;
     SceneAnalysis
         analysis;  // of the scene without the lights and the gloss that the request leaves out
@@ -66,7 +57,6 @@ struct Plan {
     EffectChoices effects;
     double bound = 0.0;  // what all effects that are left out for the tolerance change at most
 
-    Method method = Method::direct;
     std::string why;  // a sentence: the method
     // Off by request, but the method cannot do without: they are rendered all the same.
     std::vector<Effect> unavoidable;
@@ -78,16 +68,6 @@ struct Plan {
     std::string error_evidence;
     // As predicted; true where nothing was asked for, meets_error false where the error is unknown.
     bool meets_time = true, meets_error = true;
-
-    // Settings; those of other methods stay at their defaults.
-    PictureOptions picture;
-    SecondOrderOptions second_order;  // also of Method::direct
-    VplOptions vpls;
-    AtlasOptions layout;
-    LightAtlasOptions light_atlas;
-    AntiradianceOptions antiradiance;
-    DynamicTransferOptions transfer;
-    DynamicTransferViewOptions transfer_view;
 
     bool on(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
 };

@@ -7,6 +7,7 @@
 #include <clgi/advanced/interval.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
+#include <clgi/advanced/solver_status.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
@@ -39,8 +40,7 @@ struct SecondOrderOptions {
 };
 
 // What a render found out.
-struct RenderStatus {
-    std::uint32_t non_finite = 0;       // packets sanitised since the buffers were allocated
+struct RenderStatus : SolverStatus {
     std::uint32_t refined_pixels = 0;   // lit in full by the discontinuity test
     double low_resolution_share = 0.0;  // of all pixels, [0,1]
 };

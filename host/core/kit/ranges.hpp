@@ -13,6 +13,9 @@ namespace clgi {
 // and lanes. An estimate() of a frame builds on it.
 double pairs_per_second(const cl::Device& device);
 
+// That of the device on which predicted times were fitted.
+constexpr double fitted_pairs = 5.0e9;
+
 struct Share {
     std::size_t worker;
     Range range;

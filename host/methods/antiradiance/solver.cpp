@@ -73,11 +73,7 @@ void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& betw
     put(links.senders, between.senders);
     put(links.bins, between.bins);
     put(links.form_factors, between.form_factors);
-    std::vector<glm::vec4> sky;
-    const double exposure = scene.frame().exposure;
-    for (const glm::dvec3& radiance : sky_row(file.environment, bins))
-        sky.emplace_back(glm::vec3(radiance / exposure), 0.0f);
-    put(rows.sky, sky);
+    write_sky(file.environment);
     put(surface.roots, made.roots);
     put(surface.patches, made.patches);
     put(surface.first_leaves, made.first_leaves);
@@ -89,6 +85,14 @@ void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& betw
     write_gloss();
     if (motion) motion->write(record, surface.patches);
     place_points();
+}
+
+void AntiradianceSolver::State::write_sky(const std::optional<Environment>& environment) {
+    std::vector<glm::vec4> sky;
+    const double exposure = scene.frame().exposure;
+    for (const glm::dvec3& radiance : sky_row(environment, bins))
+        sky.emplace_back(glm::vec3(radiance / exposure), 0.0f);
+    put(rows.sky, sky);
 }
 
 void AntiradianceSolver::State::place_points() {
@@ -123,6 +127,11 @@ void AntiradianceSolver::lights_changed() {
         throw Error("antiradiance: a light needs more views than before; make another solver");
     s.record.forget_failed();
     s.emitters.write(s.record);
+}
+
+void AntiradianceSolver::environment_changed() {
+    state_->record.forget_failed();
+    state_->write_sky(state_->scene.environment());
 }
 
 void AntiradianceSolver::geometry_changed(const WaitList& wait) {

@@ -189,7 +189,7 @@ bool AntiradianceSolver::State::iterate(const Progress& progress) {
 
 bool AntiradianceSolver::State::run(const Progress& progress) {
     record.begin(std::exchange(moves, {}), progress);
-    found = {};
+    found = {{false}};
     if (moved) follow_geometry();
     light_leaves();
     found.given_up = !iterate(progress) && !record.cancelled();

@@ -26,6 +26,8 @@ struct AntiradianceSolver::State : AntiradianceBuffers {
         if (!values.empty()) record.write(buffer, values.data(), values.size() * sizeof(T));
     }
 
+    void write_sky(const std::optional<Environment>& environment);
+
     // Of glossy leaves; nothing where there are none.
     void write_gloss();
     void make_lobes();
@@ -60,7 +62,7 @@ struct AntiradianceSolver::State : AntiradianceBuffers {
     LightPasses lights;
     ParallelPasses parallel;
     mutable Recorder record;
-    AntiradianceStatus found;
+    AntiradianceStatus found{{false}};
     std::unique_ptr<AntiradianceMotion> motion;  // null: nothing moves
     bool moved = false;                          // since the last run
     WaitList moves;                              // that the next run waits for

@@ -75,6 +75,7 @@ LightAtlasStatus LightAtlasSolver::status() const {
     out.transport_kept = s.b.kept;
     out.visibility_kept = s.b.seen_kept;
     if (s.ended) out.sent = s.record.read_word(s.b.sites.listed);
+    out.converged = s.ended;
     if (s.direct.empty()) return out;
     const std::size_t stride = s.b.sites.stride;
     const auto planes = read(s.queue, s.b.sites.planes, SITE_PLANES * stride);
@@ -96,6 +97,7 @@ LightAtlasStatus LightAtlasSolver::status() const {
             out.power_received += area * (all - direct);
             out.power_lost += shot * (1.0 - balance[BALANCE_REACH * stride + i]);
         }
+    out.converged = s.ended && out.power_left <= s.options.threshold * out.power_direct;
     return out;
 }
 
@@ -128,6 +130,7 @@ const cl::Buffer& LightAtlasSolver::texel_planes() const { return state_->b.texe
 const SiteBuffers& LightAtlasSolver::sites() const { return state_->b.sites; }
 std::size_t LightAtlasSolver::bytes() const { return state_->bytes; }
 const std::vector<PassEvent>& LightAtlasSolver::events() const { return state_->record.events(); }
+Interval LightAtlasSolver::interval() const { return state_->record.interval(); }
 const LightAtlasOptions& LightAtlasSolver::options() const { return state_->options; }
 
 }  // namespace clgi

@@ -1,0 +1,123 @@
+// Each method as the renderer sees it: its solver, what shows its light, and what follows a change.
+// All have the same members, so that the renderer has one line for each.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/advanced/irradiance_volume.hpp>
+#include <clgi/renderer.hpp>
+
+namespace clgi::renderer {
+
+// What methods are made from.
+struct Setup {
+    const Programs& programs;
+    const cl::CommandQueue& queue;
+    const Scene& scene;
+    DeviceScene& device;
+    const RendererOptions& options;
+};
+
+struct Radiance {
+    const cl::Buffer& planes;
+    std::uint32_t stride;
+};
+
+// Second-order illumination, and direct light alone.
+class SecondOrder {
+public:
+    explicit SecondOrder(const Setup& setup);
+    bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
+    void lights_changed() { solver.lights_changed(); }
+    void geometry_changed(const WaitList& wait);
+    void environment_changed() { lights_changed(); }
+    cl::Event render(const Camera& camera, const WaitList& wait);
+    void add_passes(std::vector<PassEvent>& passes) const;
+    Radiance radiance() const { return {solver.radiance(), solver.stride()}; }
+    const EmitterSet& emitters() const { return solver.emitters(); }
+    RendererStatus status() const;
+    std::size_t bytes() const { return solver.bytes(); }
+
+    SecondOrderSolver solver;
+
+private:
+    WaitList moves_;
+};
+
+// A light atlas: of the scene, or of what never moves with a volume for what does.
+class LightAtlas {
+public:
+    explicit LightAtlas(const Setup& setup);
+    bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
+    void lights_changed();
+    void geometry_changed(const WaitList& wait);
+    void environment_changed() { lights_changed(); }
+    cl::Event render(const Camera& camera, const WaitList& wait);
+    void add_passes(std::vector<PassEvent>& passes) const;
+    Radiance radiance() const { return {view_->picture().radiance(), view_->picture().stride()}; }
+    const EmitterSet& emitters() const { return view_->picture().emitters(); }
+    RendererStatus status() const;
+    std::size_t bytes() const;
+
+    BakeSummary summary;
+    std::unique_ptr<LightAtlasSolver> solver;
+
+private:
+    const DeviceScene& whole_;
+    std::unique_ptr<DeviceScene> static_part_;  // none: the scene itself is baked
+    std::unique_ptr<LightAtlasView> view_;
+    std::vector<std::string> warnings_;
+    double least_change_;
+    bool updates_ = false;  // only lights have changed since the last bake
+    WaitList moves_;
+};
+
+class Antiradiance {
+public:
+    explicit Antiradiance(const Setup& setup);
+    bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
+    void lights_changed();
+    void geometry_changed(const WaitList& wait);
+    void environment_changed();
+    cl::Event render(const Camera& camera, const WaitList& wait);
+    void add_passes(std::vector<PassEvent>& passes) const;
+    Radiance radiance() const { return {view.picture().radiance(), view.picture().stride()}; }
+    const EmitterSet& emitters() const { return view.picture().emitters(); }
+    RendererStatus status() const;
+    std::size_t bytes() const { return solver.bytes() + view.bytes(); }
+
+    AntiradianceSolver solver;
+    AntiradianceView view;
+
+private:
+    WaitList moves_;
+};
+
+class Transfer {
+public:
+    explicit Transfer(const Setup& setup);
+    bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
+    void lights_changed();
+    void geometry_changed(const WaitList& wait);
+    void environment_changed() { lights_changed(); }
+    cl::Event render(const Camera& camera, const WaitList& wait);
+    void add_passes(std::vector<PassEvent>& passes) const;
+    Radiance radiance() const { return {view.picture().radiance(), view.picture().stride()}; }
+    const EmitterSet& emitters() const { return view.picture().emitters(); }
+    RendererStatus status() const;
+    std::size_t bytes() const { return solver.bytes() + view.bytes(); }
+
+    DynamicTransferSolver solver;
+    DynamicTransferView view;
+
+private:
+    bool moved_ = true;  // vectors are of another pose
+    WaitList moves_;
+};
+
+// Options of the method's solver with what is common to all methods.
+SecondOrderOptions second_order_options(const RendererOptions& options);
+LightAtlasOptions light_atlas_options(const RendererOptions& options);
+AntiradianceOptions antiradiance_options(const RendererOptions& options);
+DynamicTransferOptions transfer_options(const RendererOptions& options);
+
+}  // namespace clgi::renderer

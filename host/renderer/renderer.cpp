@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/renderer.hpp>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <variant>
+
+#include "renderer/methods.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr std::pair<Method, const char*> names[] = {{Method::direct, "direct"},
+                                                    {Method::second_order, "second-order"},
+                                                    {Method::light_atlas, "atlas"},
+                                                    {Method::antiradiance, "antiradiance"},
+                                                    {Method::dynamic_transfer, "transfer"}};
+
+using Made =
+    std::variant<std::monostate, std::unique_ptr<renderer::SecondOrder>,
+                 std::unique_ptr<renderer::LightAtlas>, std::unique_ptr<renderer::Antiradiance>,
+                 std::unique_ptr<renderer::Transfer>>;
+
+Made make(const renderer::Setup& setup) {
+    switch (setup.options.method) {
+        case Method::light_atlas:
+            return std::make_unique<renderer::LightAtlas>(setup);
+        case Method::antiradiance:
+            return std::make_unique<renderer::Antiradiance>(setup);
+        case Method::dynamic_transfer:
+            return std::make_unique<renderer::Transfer>(setup);
+        default:
+            return std::make_unique<renderer::SecondOrder>(setup);
+    }
+}
+
+void check(const RendererOptions& options) {
+    const auto refuse = [](bool wrong, const char* why) {
+        if (wrong) throw Error(std::string("renderer: ") + why);
+    };
+    refuse(
+        options.method == Method::light_atlas && options.light_atlas.build.storage == Storage::half,
+        "a bake has full storage alone, because it sums the light of thousands of VPLs");
+    refuse(!(options.least_change >= 0.0) || !std::isfinite(options.least_change),
+           "least_change is negative or not finite");
+}
+
+}  // namespace
+
+const char* name_of(Method method) {
+    for (const auto& [which, name] : names)
+        if (which == method) return name;
+    return "";
+}
+
+std::optional<Method> method_of(const std::string& name) {
+    for (const auto& [which, word] : names)
+        if (name == word) return which;
+    return std::nullopt;
+}
+
+struct Renderer::State {
+    State(const Programs& all, const cl::CommandQueue& on, const Scene& file, DeviceScene& of,
+          const RendererOptions& wanted)
+        : programs(all), queue(on), scene(&file), device(&of), options(wanted) {
+        check(options);
+    }
+
+    State(const cl::CommandQueue& on, const Scene& file, const RendererOptions& wanted)
+        : programs(on.getInfo<CL_QUEUE_CONTEXT>(), on.getInfo<CL_QUEUE_DEVICE>()),
+          queue(on),
+          own_scene(file),
+          own_device(std::in_place, programs.context(), programs.device(), file),
+          scene(&*own_scene),
+          device(&*own_device),
+          options(wanted) {
+        check(options);
+    }
+
+    // Calls with the method, which is made where it is not yet.
+    template <typename Call>
+    decltype(auto) with(Call&& call) {
+        build();
+        return of(std::forward<Call>(call));
+    }
+
+    template <typename Call>
+    auto of(Call&& call) const -> decltype(call(std::declval<renderer::SecondOrder&>())) {
+        return std::visit(
+            [&](const auto& method) -> decltype(call(std::declval<renderer::SecondOrder&>())) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(method)>, std::monostate>)
+                    throw Error("renderer: nothing was rendered yet");
+                else
+                    return call(*method);
+            },
+            made);
+    }
+
+    void build() {
+        if (made.index() > 0) return;
+        made = make({programs, queue, *scene, *device, options});
+        own_scene.reset();
+        scene = nullptr;
+    }
+
+    bool prepare(const Progress& progress) {
+        passes.clear();
+        const bool done = with([&](auto& method) { return method.prepare(progress, passes); });
+        // A method that gave up has done what it can: it is not tried again before a change.
+        prepared = done || of([](auto& method) { return method.status().given_up; });
+        return done;
+    }
+
+    template <typename Change>
+    void changed(const Change& change) {
+        if (made.index() == 0) return;  // it is made from what is there then
+        of(change);
+        prepared = false;
+    }
+
+    void begin_picture() {
+        if (!prepared) prepare(nullptr);
+        if (shown) passes.clear();
+        shown = true;
+    }
+
+    Programs programs;
+    cl::CommandQueue queue;
+    std::optional<Scene> own_scene;  // until the method is made
+    std::optional<DeviceScene> own_device;
+    const Scene* scene;
+    DeviceScene* device;
+    RendererOptions options;
+    Made made;
+    bool prepared = false;
+    bool shown = false;             // a picture since what `passes` holds was prepared
+    std::vector<PassEvent> passes;  // of what was prepared, then of the picture
+};
+
+Renderer::Renderer(const cl::CommandQueue& queue, const Scene& scene,
+                   const RendererOptions& options)
+    : state_(std::make_unique<State>(queue, scene, options)) {}
+
+Renderer::Renderer(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+                   DeviceScene& device_scene, const RendererOptions& options)
+    : state_(std::make_unique<State>(programs, queue, scene, device_scene, options)) {}
+
+Renderer::~Renderer() = default;
+
+Estimate Renderer::estimate() const {
+    const State& s = *state_;
+    if (!s.scene) throw Error("renderer: estimate() comes before build()");
+    const cl::Device& device = s.programs.device();
+    switch (s.options.method) {
+        case Method::light_atlas:
+            return clgi::estimate(device, *s.device, s.options.vpls, s.options.layout,
+                                  renderer::light_atlas_options(s.options));
+        case Method::antiradiance:
+            return clgi::estimate(device, *s.scene, *s.device,
+                                  renderer::antiradiance_options(s.options));
+        case Method::dynamic_transfer:
+            return clgi::estimate(device, *s.scene, *s.device,
+                                  renderer::transfer_options(s.options));
+        default:
+            return clgi::estimate(device, *s.device, renderer::second_order_options(s.options));
+    }
+}
+
+void Renderer::build() { state_->build(); }
+
+bool Renderer::prepare(const Progress& progress) {
+    state_->shown = false;
+    return state_->prepare(progress);
+}
+
+void Renderer::lights_changed() {
+    state_->changed([](auto& method) { method.lights_changed(); });
+}
+
+void Renderer::geometry_changed(const WaitList& wait) {
+    state_->changed([&](auto& method) { method.geometry_changed(wait); });
+}
+
+void Renderer::environment_changed() {
+    state_->changed([](auto& method) { method.environment_changed(); });
+}
+
+cl::Event Renderer::render(const Camera& camera, const WaitList& wait) {
+    State& s = *state_;
+    s.begin_picture();
+    const cl::Event done = s.of([&](auto& method) { return method.render(camera, wait); });
+    s.of([&](auto& method) { method.add_passes(s.passes); });
+    return done;
+}
+
+cl::Event Renderer::render(const Camera& camera, const GBuffer& given, const WaitList& wait) {
+    State& s = *state_;
+    s.build();
+    SecondOrderSolver* solver = second_order();
+    if (!solver)
+        throw Error(std::string("renderer: a given G-buffer is lit by second-order illumination "
+                                "alone, not by ") +
+                    name_of(s.options.method));
+    s.begin_picture();
+    const cl::Event done = solver->render(camera, given, wait);
+    s.of([&](auto& method) { method.add_passes(s.passes); });
+    return done;
+}
+
+const cl::Buffer& Renderer::radiance() const {
+    return state_->of([](auto& method) { return method.radiance(); }).planes;
+}
+
+std::uint32_t Renderer::stride() const {
+    return state_->of([](auto& method) { return method.radiance(); }).stride;
+}
+
+std::array<std::vector<float>, 3> Renderer::read_radiance() const {
+    const State& s = *state_;
+    const PictureOptions& picture = s.options.picture;
+    status();  // the last picture is complete
+    std::array<std::vector<float>, 3> out;
+    for (std::size_t c = 0; c < out.size(); ++c) {
+        out[c].resize(static_cast<std::size_t>(picture.width) * picture.height);
+        s.queue.enqueueReadBuffer(radiance(), CL_TRUE, c * stride() * sizeof(float),
+                                  out[c].size() * sizeof(float), out[c].data());
+    }
+    return out;
+}
+
+RendererStatus Renderer::status() const {
+    return state_->of([](auto& method) { return method.status(); });
+}
+
+const std::vector<PassEvent>& Renderer::times() const { return state_->passes; }
+
+std::size_t Renderer::bytes() const {
+    return state_->of([](auto& method) { return method.bytes(); });
+}
+
+std::size_t Renderer::bytes_with_scene() const { return bytes() + scene().bytes(); }
+
+DeviceScene& Renderer::scene() { return *state_->device; }
+const DeviceScene& Renderer::scene() const { return *state_->device; }
+const RendererOptions& Renderer::options() const { return state_->options; }
+
+const EmitterSet& Renderer::emitters() const {
+    return *state_->of([](auto& method) { return &method.emitters(); });
+}
+
+SecondOrderSolver* Renderer::second_order() const {
+    const auto* method = std::get_if<std::unique_ptr<renderer::SecondOrder>>(&state_->made);
+    return method ? &(*method)->solver : nullptr;
+}
+
+LightAtlasSolver* Renderer::light_atlas() const {
+    const auto* method = std::get_if<std::unique_ptr<renderer::LightAtlas>>(&state_->made);
+    return method ? (*method)->solver.get() : nullptr;
+}
+
+AntiradianceSolver* Renderer::antiradiance() const {
+    const auto* method = std::get_if<std::unique_ptr<renderer::Antiradiance>>(&state_->made);
+    return method ? &(*method)->solver : nullptr;
+}
+
+DynamicTransferSolver* Renderer::dynamic_transfer() const {
+    const auto* method = std::get_if<std::unique_ptr<renderer::Transfer>>(&state_->made);
+    return method ? &(*method)->solver : nullptr;
+}
+
+DynamicTransferView* Renderer::transfer_view() const {
+    const auto* method = std::get_if<std::unique_ptr<renderer::Transfer>>(&state_->made);
+    return method ? &(*method)->view : nullptr;
+}
+
+std::optional<BakeSummary> Renderer::bake() const {
+    const auto* method = std::get_if<std::unique_ptr<renderer::LightAtlas>>(&state_->made);
+    if (!method) return std::nullopt;
+    return (*method)->summary;
+}
+
+}  // namespace clgi
