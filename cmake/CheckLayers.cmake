@@ -59,7 +59,7 @@ set(headers_transfer dynamic_transfer advanced/blocker_levels advanced/dynamic_t
 set(headers_antiradiance antiradiance advanced/antiradiance_view advanced/direction_bins
     advanced/elements advanced/links advanced/moving_elements passes/antiradiance
     passes/antiradiance_gloss passes/moving_elements shared/antiradiance shared/moving_elements)
-set(headers_renderer renderer)
+set(headers_renderer options renderer)
 set(headers_plan plan advanced/effects advanced/analysis advanced/tuning)
 set(headers_reference reference)
 set(headers_clgi clgi)  # the umbrella

@@ -4,7 +4,7 @@
 
 #include <clgi/advanced/kit/picture.hpp>
 #include <clgi/io/image.hpp>
-#include <clgi/second_order.hpp>
+#include <clgi/renderer.hpp>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +14,9 @@ namespace clgi::lab {
 io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver);
 
 io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture);
+
+// The last picture of a renderer. Waits for it.
+io::Image radiance_picture(const Renderer& renderer);
 
 // A factor that leaves all but three in a hundred of the pixels that are not black below white.
 float preview_exposure(const io::Image& picture);

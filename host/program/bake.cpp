@@ -12,13 +12,13 @@
 #include "lab/baked_atlas.hpp"
 #include "lab/reference_picture.hpp"
 #include "program/animation.hpp"
-#include "program/bake_common.hpp"
 #include "program/bake_gltf.hpp"
 #include "program/bake_stats.hpp"
 #include "program/commands.hpp"
-#include "program/percent.hpp"
+#include "program/option_flags.hpp"
 #include "program/picture.hpp"
 #include "program/session.hpp"
+#include "program/stopwatch.hpp"
 #include "program/version.hpp"
 
 namespace clgi::program {
@@ -30,12 +30,7 @@ struct BakeFlags {
     PictureFlags picture;
     EnvironmentFlags environment;
     AnimationFlags animation;
-    VplOptions vpls;
-    AtlasOptions atlas;
-    std::string uvs = "auto";
-    std::string threshold;
-    std::string filling = "gather";
-    LightAtlasOptions bake;
+    RendererOptions options;  // vpls, layout and light_atlas of them
     bool progressive = false;
     bool dilate = false;
     bool stitch = false;
@@ -45,26 +40,10 @@ struct BakeFlags {
     int scene_index = -1;
 };
 
-AtlasUvs uvs_of(const std::string& text) {
-    if (text == "0") return AtlasUvs::set_0;
-    if (text == "1") return AtlasUvs::set_1;
-    return text == "charts" ? AtlasUvs::charts : AtlasUvs::automatic;
-}
-
 // All that the bits of a bake depend on.
 std::string key_of(const BakeFlags& flags, const Scene& scene, const cl::Device& device) {
-    const LightAtlasOptions& bake = flags.bake;
-    const EmitterOptions& emitters = bake.emitters;
-    return fmt::format(
-               "{} {} {} | {} {} {} | {} {} {} {} {} | {} {} {} {} {} {} {} {} {} {} | {} {} {} {}",
-               CLGI_VERSION, lab::scene_key(scene), describe(device), flags.vpls.count,
-               flags.vpls.samples_per_vpl, flags.vpls.gap_density, flags.atlas.size, flags.uvs,
-               flags.atlas.padding, flags.atlas.texels_per_metre, flags.atlas.most_pages,
-               bake.bounces, bake.threshold, bake.one_at_a_time, bake.exchange_samples,
-               bake.hemicube_size, flags.filling, bake.refine, bake.mesh, bake.kernel, bake.direct,
-               emitters.shadow_size, emitters.face_size, emitters.area_samples,
-               emitters.environment_lights) +
-           build_flags(flags.device);
+    return fmt::format("{} {} {} {}", CLGI_VERSION, lab::scene_key(scene), describe(device),
+                       option_text(flags.options, of_bakes));
 }
 
 // Bakes from the start, or from where the file says. Keeps in the file what Ctrl-C cut short, and
@@ -102,7 +81,7 @@ void check(const BakeFlags& flags) {
         throw Error(
             "bake: no output; -o FILE.exr, --png FILE.png, --gltf FILE.glb or --unwrapped FILE.glb "
             "needed");
-    if (flags.gltf.lights && flags.bake.direct)
+    if (flags.gltf.lights && flags.options.light_atlas.direct)
         throw Error("bake: --gltf-lights with --direct would show direct light twice");
     if (flags.gltf.lit.empty() && (flags.gltf.lights || flags.gltf.detail > 0))
         throw Error("bake: --gltf-lights and --gltf-detail go only with --gltf");
@@ -114,7 +93,7 @@ void check(const BakeFlags& flags) {
 void save_atlas(const BakeFlags& flags, const AtlasLayout& atlas,
                 const std::vector<glm::vec3>& irradiance) {
     if (flags.picture.exr.empty() && flags.picture.png.empty()) return;
-    const std::string effects = flags.bake.direct ? "direct,indirect" : "indirect";
+    const std::string effects = flags.options.light_atlas.direct ? "direct,indirect" : "indirect";
     save_picture(lab::baked_image(atlas, irradiance, effects, flags.dilate), flags.picture);
 }
 
@@ -125,13 +104,14 @@ void bake_drafts(const BakeFlags& flags, const Session& session, const Programs&
                  const Scene& scene, const DeviceScene& device_scene, const BakeLayout& layout) {
     constexpr std::uint32_t fewest = 50;
     std::vector<std::uint32_t> counts;
-    for (std::uint32_t n = flags.vpls.count / 4; n >= fewest; n /= 4) counts.push_back(n);
+    for (std::uint32_t n = flags.options.vpls.count / 4; n >= fewest; n /= 4) counts.push_back(n);
     for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
         const Stopwatch watch;
-        VplOptions few = flags.vpls;
+        VplOptions few = flags.options.vpls;
         few.count = *count;
         LightAtlasSolver solver(programs, session.queue, device_scene,
-                                place_vpls(scene, layout.patches, few), layout.atlas, flags.bake);
+                                place_vpls(scene, layout.patches, few), layout.atlas,
+                                flags.options.light_atlas);
         if (!solver.run(progress_bar(fmt::format("{} VPLs", few.count), flags.device.quiet)))
             throw Interrupted();
         save_atlas(flags, layout.atlas, solver.irradiance());
@@ -143,24 +123,30 @@ void bake_drafts(const BakeFlags& flags, const Session& session, const Programs&
 void run_bake(BakeFlags flags) {
     check(flags);
     flags.picture.full = true;  // daylight, in lux, is beyond the range of half
-    if (!flags.threshold.empty())
-        flags.bake.threshold =
-            static_cast<float>(parse_percent("bake", "--threshold", flags.threshold));
-    flags.bake.filling = flags.filling == "project" ? Filling::project : Filling::gather;
-    flags.atlas.uvs = uvs_of(flags.uvs);
-    flags.bake.build = build_of(flags.device);
+    if (flags.device.storage == "half")
+        throw Error(
+            "bake: --storage half: a bake has full storage alone, because it sums the light of "
+            "thousands of VPLs");
+    LightAtlasOptions& options = flags.options.light_atlas;
+    options.build = flags.options.picture.build = build_of(flags.device);
     Scene scene =
         open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
     pose_scene("bake", flags.animation, scene);
     const Session session = open_session(flags.device);
-    check_capacity("bake", session.device, flags.vpls);
+    check_bake_fits(session.device, flags.options.vpls);
 
-    const BakeLayout layout = lay_out(scene, flags.vpls, flags.atlas, flags.device.quiet);
+    const Stopwatch laying_out;
+    const BakeLayout layout = make_bake_layout(scene, flags.options.vpls, flags.options.layout);
+    const double layout_seconds = laying_out.seconds();
+    for (const std::string& warning : layout.atlas.warnings) {
+        notice(flags.device.quiet, "warning: " + warning);
+        scene.warnings.push_back(warning);
+    }
     const Stopwatch build;
     const DeviceScene device_scene(session.context, session.device, scene);
     const Programs programs(session.context, session.device);
     LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, layout.atlas,
-                            flags.bake);
+                            options);
     const double build_seconds = build.seconds();
     catch_interrupts();
     if (flags.progressive) bake_drafts(flags, session, programs, scene, device_scene, layout);
@@ -176,7 +162,7 @@ void run_bake(BakeFlags flags) {
         save_bake_gltf(scene, layout.atlas, irradiance, flags.picture.exposure, flags.gltf);
     if (!flags.stats.empty())
         save_bake_stats({scene, layout, solver, atlas_seams(scene, layout.atlas, irradiance), gltf,
-                         build_seconds, bake_seconds, resumed_at},
+                         layout_seconds, build_seconds, bake_seconds, resumed_at},
                         flags.stats);
     if (!flags.resume.empty()) {
         std::error_code ignored;
@@ -190,66 +176,7 @@ void run_bake(BakeFlags flags) {
          {flags.picture.exr, flags.picture.png, flags.gltf.lit, flags.gltf.unwrapped})
         if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
     fmt::print("{}: {} texels lit by {} VPLs, {:.2f} s\n", files, layout.atlas.texels.size(),
-               layout.vpls.vpls.size(), layout.seconds + bake_seconds);
-}
-
-void add_method_flags(CLI::App& command, BakeFlags& flags) {
-    add_count(command, "--vpls", flags.vpls.count, "Virtual point lights (VPLs)", 1, 1 << 20);
-    add_count(command, "--samples-per-vpl", flags.vpls.samples_per_vpl,
-              "Sample points of a VPL that receive direct light and send it on near by", 1, 4096);
-    command
-        .add_option("--gap-density", flags.vpls.gap_density,
-                    "VPLs on narrow surfaces, between which light passes through gaps: so many "
-                    "times as dense at most; 1: as elsewhere")
-        ->type_name("X")
-        ->check(CLI::Range(1.0, 1000.0));
-    add_count(
-        command, "--exchange-samples", flags.bake.exchange_samples,
-        "Those of them that tell how much of a VPL another one sees; 0: 4 to 16, fewer for more "
-        "VPLs",
-        0, 4096);
-    add_bake_flags(command, "", flags.bake, flags.atlas);
-    command
-        .add_option(
-            "--threshold", flags.threshold,
-            "With --bounces 0: largest unshot power of a VPL, of the mean direct power of VPLs")
-        ->type_name("X")
-        ->default_str("0.1%");
-    command.add_flag(
-        "--progressive", flags.progressive,
-        "Save -o and --png with fewer VPLs first, then with four times as many, and so on");
-    command.add_flag("--one-at-a-time", flags.bake.one_at_a_time,
-                     "With --bounces 0: shoot the strongest VPL alone, as in the paper");
-    command
-        .add_option("--filling", flags.filling,
-                    "How texels get light: gather, or project as in the paper")
-        ->type_name("HOW")
-        ->check(CLI::IsMember({"gather", "project"}));
-    add_count(command, "--mesh", flags.bake.mesh,
-              "With --filling project: triangles of the mesh over a hemicube's face", 8, 131072);
-    command
-        .add_option("--kernel", flags.bake.kernel,
-                    "With --filling project: pixels to each side for soft shadows; 0: hard ones")
-        ->type_name("K")
-        ->check(CLI::Range(0, 64));
-    command.add_flag("--direct", flags.bake.direct, "Direct light in the atlas too");
-}
-
-void add_atlas_flags(CLI::App& command, BakeFlags& flags) {
-    command.add_option("--uvs", flags.uvs, "Where texels are: auto, 0, 1 (UV sets) or charts")
-        ->type_name("WHAT")
-        ->check(CLI::IsMember({"auto", "0", "1", "charts"}));
-    command
-        .add_option("--texels-per-metre", flags.atlas.texels_per_metre,
-                    "Density of charts; 0: what fills the pages")
-        ->type_name("X")
-        ->check(CLI::Range(0.0, 1e6));
-    add_count(command, "--pages", flags.atlas.most_pages, "Pages at most, for charts", 1, 64);
-    add_count(command, "--padding", flags.atlas.padding, "Empty texels around a chart", 1, 64);
-    command.add_flag("--dilate", flags.dilate,
-                     "Fill texels that are covered in part, and those around charts");
-    command.add_flag("--stitch", flags.stitch,
-                     "Make light agree where charts cut a smooth surface");
+               layout.vpls.vpls.size(), layout_seconds + bake_seconds);
 }
 
 }  // namespace
@@ -272,9 +199,14 @@ void add_bake(CLI::App& app) {
         ->type_name("STOPS")
         ->default_str("from the light");
     add_bake_gltf_flags(*command, flags->gltf);
-    add_method_flags(*command, *flags);
-    add_atlas_flags(*command, *flags);
-    add_emitter_flags(*command, flags->bake.emitters);
+    add_option_flags(*command, flags->options, of_bakes, {"math"});
+    command->add_flag("--progressive", flags->progressive,
+                      "Save -o and --png with fewer VPLs first, then with four times as many, and "
+                      "so on");
+    command->add_flag("--dilate", flags->dilate,
+                      "Fill texels that are covered in part, and those around charts");
+    command->add_flag("--stitch", flags->stitch,
+                      "Make light agree where charts cut a smooth surface");
     add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
     add_animation_flags(*command, flags->animation);

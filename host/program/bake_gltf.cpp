@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "lab/preview.hpp"
-#include "program/bake_common.hpp"
+#include "program/count_flag.hpp"
 
 namespace clgi::program {
 namespace {

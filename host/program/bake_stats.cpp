@@ -53,7 +53,7 @@ void save_bake_stats(const BakeRecord& record, const std::filesystem::path& path
           {"lost", status.power_lost},
           {"left", status.power_left}}},
         {"seconds",
-         {{"layout", layout.seconds},
+         {{"layout", record.layout_seconds},
           {"build", record.build_seconds},
           {"bake", record.bake_seconds}}},
         {"passes", passes_json(record.solver.events())},

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "program/bake_common.hpp"
 #include "program/bake_gltf.hpp"
 
 namespace clgi::program {
@@ -17,6 +16,7 @@ struct BakeRecord {
     const LightAtlasSolver& solver;
     AtlasSeams seams;
     std::optional<LitGltf> gltf;  // none: no such file
+    double layout_seconds = 0.0;  // patches, VPLs and texels
     double build_seconds = 0.0;   // kernels and buffers
     double bake_seconds = 0.0;
     std::uint32_t resumed_at = 0;  // VPLs that had lit the texels before

@@ -3,19 +3,32 @@
 
 namespace clgi::program {
 
-std::vector<std::string> direct_effects(const DeviceScene& scene, const EmitterSet& emitters) {
+std::vector<std::string> effects_of(const Renderer& renderer) {
+    const DeviceScene& scene = renderer.scene();
+    const Method method = renderer.options().method;
+    const bool direct = renderer.options().picture.direct;
     std::vector<std::string> out;
-    if (!emitters.emitters.empty()) out.push_back("direct");
-    if (scene.has_lobes()) out.push_back("glossy-direct");
-    if (!scene.emissive().empty()) out.push_back("emission");
-    return out;
-}
-
-std::vector<std::string> all_effects(const DeviceScene& scene, const Picture& picture, bool sky) {
-    std::vector<std::string> out;
-    if (picture.options().direct) out = direct_effects(scene, picture.emitters());
-    if (sky && scene.environment()) out.push_back("environment");
-    out.push_back("indirect");
+    const auto add = [&](bool is, const char* name) {
+        if (is) out.emplace_back(name);
+    };
+    add(direct && !renderer.emitters().emitters.empty(), "direct");
+    add(direct && scene.has_lobes(), "glossy-direct");
+    add(direct && !scene.emissive().empty(), "emission");
+    // Antiradiance has the sky's light in its bins, also without direct light.
+    const bool sky = scene.environment() && (direct || method == Method::antiradiance);
+    add(sky, "environment");
+    if (const SecondOrderSolver* solver = renderer.second_order()) {
+        const bool lit = solver->options().indirect && solver->emitters().vpl_count > 0;
+        add(lit, "one-bounce");
+        add(lit && solver->options().negative_vpls > 0, "negative-lights");
+    } else if (const DynamicTransferSolver* transfer = renderer.dynamic_transfer()) {
+        add(sky && transfer->glossy(), "glossy-environment");
+        add(sky && transfer->options().bounces > 0, "one-bounce");
+    } else {
+        out.emplace_back("indirect");
+    }
+    if (const AntiradianceSolver* solver = renderer.antiradiance())
+        add(solver->gloss().count > 0, "glossy-indirect");
     return out;
 }
 

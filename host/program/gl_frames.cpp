@@ -25,23 +25,24 @@ std::vector<cl_context_properties> GlFrames::properties(const cl::Device& device
     return gl::sharing_properties(device);
 }
 
-void GlFrames::open(const cl::CommandQueue& queue, const DeviceScene& scene,
-                    const BuildOptions& build) {
+void GlFrames::open(const cl::CommandQueue& queue, const Renderer& renderer) {
+    const DeviceScene& scene = renderer.scene();
     state_->queue = queue;
     state_->scene = &scene;
     state_->renderer.emplace(queue, scene);
     state_->import.emplace(queue.getInfo<CL_QUEUE_CONTEXT>(), queue.getInfo<CL_QUEUE_DEVICE>(),
-                           build);
+                           renderer.second_order()->options().build);
 }
 
-cl::Event GlFrames::render(SecondOrderSolver& solver, const Camera& camera) {
+cl::Event GlFrames::render(Renderer& renderer, const Camera& camera) {
+    const SecondOrderSolver& solver = *renderer.second_order();
     const View view =
         make_view(camera, state_->scene->frame(), solver.options().width, solver.options().height);
     state_->renderer->draw(view);
     // On a queue in order the last frame has been lit before its G-buffer is written anew.
     const cl::Event ready = state_->import->convert(state_->queue, view, *state_->scene,
                                                     state_->renderer->textures(), solver.gbuffer());
-    return solver.render(camera, solver.gbuffer(), {ready});
+    return renderer.render(camera, solver.gbuffer(), {ready});
 }
 
 const std::string& GlFrames::renderer() const { return state_->context.description(); }

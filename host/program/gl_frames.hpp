@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/second_order.hpp>
+#include <clgi/renderer.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,11 +22,11 @@ public:
     // The properties that an OpenCL context needs to share textures; empty if the device cannot.
     std::vector<cl_context_properties> properties(const cl::Device& device) const;
 
-    // Copies the scene to OpenGL. The queue is in order; `build` is the solver's.
-    void open(const cl::CommandQueue& queue, const DeviceScene& scene, const BuildOptions& build);
+    // Copies the scene of a renderer to OpenGL. The queue is in order.
+    void open(const cl::CommandQueue& queue, const Renderer& renderer);
 
-    // Draws the view, converts it to the solver's G-buffer and enqueues the lighting.
-    cl::Event render(SecondOrderSolver& solver, const Camera& camera);
+    // Draws the view, converts it to the renderer's G-buffer and enqueues the lighting.
+    cl::Event render(Renderer& renderer, const Camera& camera);
 
     const std::string& renderer() const;  // "surfaceless: llvmpipe ..., OpenGL 4.5"
     const std::string& path() const;      // "zero copy: ...", "copied: ..."

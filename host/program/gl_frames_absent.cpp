@@ -19,8 +19,8 @@ GlFrames::~GlFrames() = default;
 
 // The constructor threw: none of these is ever reached.
 std::vector<cl_context_properties> GlFrames::properties(const cl::Device&) const { return {}; }
-void GlFrames::open(const cl::CommandQueue&, const DeviceScene&, const BuildOptions&) {}
-cl::Event GlFrames::render(SecondOrderSolver&, const Camera&) { return {}; }
+void GlFrames::open(const cl::CommandQueue&, const Renderer&) {}
+cl::Event GlFrames::render(Renderer&, const Camera&) { return {}; }
 const std::string& GlFrames::renderer() const { return state_->text; }
 const std::string& GlFrames::path() const { return state_->text; }
 std::uint32_t GlFrames::non_finite() const { return 0; }

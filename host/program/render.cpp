@@ -1,208 +1,252 @@
-// clgi render SCENE -o out.exr [--png out.png]: from glTF to picture.
+// clgi render SCENE -o out.exr [--png out.png]: from glTF to picture, by any method.
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <clgi/clgi.hpp>
-#include <limits>
+#include <algorithm>
+#include <clgi/advanced/static_scene.hpp>
 #include <memory>
 #include <optional>
 
-#include "core/opencl/timing.hpp"
+#include "lab/coarse_mesh.hpp"
 #include "lab/preview.hpp"
-#include "program/ask.hpp"
-#include "program/bake_common.hpp"
+#include "lab/replicates.hpp"
+#include "lab/timing.hpp"
 #include "program/commands.hpp"
+#include "program/count_flag.hpp"
 #include "program/effects.hpp"
 #include "program/gl_frames.hpp"
 #include "program/motion.hpp"
-#include "program/render_flags.hpp"
+#include "program/render_plan.hpp"
 #include "program/stats.hpp"
-#include "program/threshold.hpp"
+#include "program/stopwatch.hpp"
 
 namespace clgi::program {
 namespace {
 
-void parse_low_res(const std::string& text, SecondOrderOptions& options) {
-    if (text.empty()) return;
-    const float threshold = parse_threshold("--low-res", text, {{"off", -1.0f}});
-    if (threshold < 0.0f)
-        options.low_resolution_step = 1;
-    else
-        options.discontinuity_threshold = threshold;
+constexpr unsigned all_methods =
+    of_direct | of_second_order | of_light_atlas | of_antiradiance | of_transfer;
+
+// Options that a plan keeps where flags set them.
+bool plan_keeps(const OptionRow& row) {
+    for (const char* name : {"shadow-size", "face-size", "area-samples", "math", "storage"})
+        if (row.name == name) return true;
+    return false;
 }
 
-std::vector<std::string> effects_of(const DeviceScene& scene, const SecondOrderSolver& solver) {
-    std::vector<std::string> out;
-    const SecondOrderOptions& options = solver.options();
-    const bool lit = options.indirect && solver.emitters().vpl_count > 0;
-    if (options.direct) out = direct_effects(scene, solver.emitters());
-    if (options.direct && scene.environment()) out.push_back("environment");
-    if (lit) out.push_back("one-bounce");
-    if (lit && options.negative_vpls > 0) out.push_back("negative-lights");
-    return out;
+bool is_given(const RenderFlags& flags, const std::string& name) {
+    return std::any_of(flags.given.begin(), flags.given.end(),
+                       [&](const OptionRow* row) { return row->name == name; });
 }
 
-void run_second_order(RenderFlags flags) {
-    check_picture("render", flags.picture, flags.options.width, flags.options.height);
-    parse_low_res(flags.low_res, flags.options);
-    const TuningTarget request = request_of("render", flags.ask);
-    const bool asked = request.frame_ms || request.error;
-    if (asked && flags.method == "direct")
-        throw Error(
-            "render: --method direct has no settings to find; it excludes --target-error and "
-            "--time-budget");
-    if (flags.gbuffer == "gl" && (asked || flags.replicates > 1))
-        throw Error("render: --gbuffer gl excludes --replicates, --target-error and --time-budget");
-    flags.options.direct = !flags.no_direct;
-    flags.options.indirect = flags.method != "direct";
-    flags.options.build = build_of(flags.device);
+// Options of second-order illumination choose it, and so does a G-buffer by OpenGL.
+void choose_method(RenderFlags& flags) {
+    const bool second_order = std::any_of(
+        flags.given.begin(), flags.given.end(),
+        [](const OptionRow* row) { return row->of(of_second_order) && !plan_keeps(*row); });
+    if (flags.method == "auto" && (second_order || flags.gbuffer != "cl" || flags.replicates > 1))
+        flags.method = "second-order";
+}
 
-    Scene scene = scene_of(flags);
-    check_camera("render", flags.camera, scene);
-    prepare_motion(flags, scene);
-    const Camera camera = scene.cameras[flags.camera];
-    std::optional<GlFrames> gl;
-    if (flags.gbuffer == "gl") gl.emplace();
-    const Session session =
-        gl ? open_session(flags.device,
-                          [&](const cl::Device& device) { return gl->properties(device); })
-           : session_of(flags);
+void check(const RenderFlags& flags) {
+    const std::string& method = flags.method;
+    const auto refuse = [](bool wrong, const std::string& why) {
+        if (wrong) throw Error("render: " + why);
+    };
+    const bool asked = !flags.ask.target_error.empty() || !flags.ask.time_budget.empty();
+    const bool second_order = method == "second-order" || method == "direct";
+    const bool planned = method == "auto";
+    check_methods("render", flags.given, method);
+    refuse(flags.plan_given && !planned,
+           "--tolerance, --with and --without go only with --method auto");
+    refuse(!second_order && flags.replicates > 1, "--replicates goes not with --method " + method);
+    refuse(!second_order && !planned && asked,
+           "--target-error and --time-budget go not with --method " + method);
+    refuse(flags.gbuffer != "cl" && !second_order, "--gbuffer gl goes not with --method " + method);
+    refuse(method == "direct" && asked,
+           "--method direct has no settings to find; it excludes --target-error and --time-budget");
+    refuse(flags.gbuffer == "gl" && (asked || flags.replicates > 1),
+           "--gbuffer gl excludes --replicates, --target-error and --time-budget");
+    refuse(flags.coarse > 0 && method != "transfer", "--coarse goes only with --method transfer");
+    refuse(is_given(flags, "rings") && flags.coarse == 0, "--rings goes only with --coarse");
+    refuse(method == "atlas" && flags.options.vpls.count < 1,
+           "--vpls is 0, at least 1 needed with --method atlas");
+}
 
-    const auto build_start = timing::Clock::now();
-    DeviceScene device_scene(session.context, session.device, scene);
-    SecondOrderSolver solver(session.queue, device_scene, flags.options);
-    if (gl) gl->open(session.queue, device_scene, solver.options().build);
-    Motion motion(flags, scene, device_scene, session.queue);
-    if (flags.fps && motion.at(0).lights) solver.lights_changed();  // builds its kernels
-    RenderRecord record;
-    record.build_ms = timing::milliseconds(timing::Clock::now() - build_start);
-
-    catch_interrupts();
-    const auto bar = progress_bar("render", flags.device.quiet);
-    // The first picture warms up and is not timed: some drivers compile on the first launch.
-    if (gl) {
-        gl->render(solver, camera).wait();
-        if (!bar(1.0)) throw Interrupted();
-    } else if (!solver.run(camera, [&](double done) { return bar(done); })) {
-        throw Interrupted();
+// Everything that a render is made of, from the flags to the last frame.
+class Render {
+public:
+    explicit Render(RenderFlags& flags) : flags_(flags), options_(flags.options) {
+        options_.picture.build = build_of(flags.device);
     }
-    const auto go_on = [](double) { return !interrupted(); };
-    if (asked) {
-        const auto found =
-            tune_second_order(session.queue, device_scene, solver, camera, request, go_on);
-        if (!found || !solver.run(camera, nullptr)) throw Interrupted();
-        record.ask = AskRecord{request, *found};
+
+    void run() {
+        const bool quiet = flags_.device.quiet;
+        const bool plans = flags_.method == "auto";
+        PictureOptions& picture = options_.picture;
+        check_picture("render", flags_.picture, picture.width, picture.height);
+        const TuningTarget target = plans ? TuningTarget() : request_of("render", flags_.ask);
+        const bool tunes = target.frame_ms || target.error;
+        scene_ = open_scene(flags_.scene, flags_.scene_index, flags_.environment, quiet,
+                            plans || flags_.method == "atlas");
+        check_camera("render", flags_.camera, scene_);
+        prepare_motion(flags_, scene_);
+        if (flags_.gbuffer == "gl") gl_.emplace();
+        session_ =
+            gl_ ? open_session(flags_.device,
+                               [&](const cl::Device& device) { return gl_->properties(device); })
+                : open_session(flags_.device);
+        const Programs programs(session_.context, session_.device);
+        if (plans) {
+            record_.planned = make_render_plan(flags_, session_, programs, scene_);
+            options_ = record_.planned->plan;
+        } else {
+            options_.method = *method_of(flags_.method);
+        }
+        options_.animated = flags_.fps.has_value();
+        if (flags_.fps) options_.clip = clip_of("render", scene_, flags_.animation);
+        if (flags_.coarse > 0)
+            options_.transfer.coarse =
+                lab::coarse_mesh(scene_, static_cast<std::size_t>(flags_.coarse));
+        camera_ = scene_.cameras[static_cast<std::size_t>(flags_.camera)];
+
+        const Stopwatch build;
+        DeviceScene device_scene(session_.context, session_.device, scene_);
+        Renderer renderer(programs, session_.queue, scene_, device_scene, options_);
+        renderer.build();
+        renderer_ = &renderer;
+        if (gl_) gl_->open(session_.queue, renderer);
+        Motion motion(flags_, scene_, device_scene, session_.queue);
+        moves_ = flags_.fps && moves(scene_);
+        record_.build_ms = 1e3 * build.seconds();
+        for (const std::string& warning : renderer.status().warnings)
+            notice(quiet, "warning: " + warning);
+
+        catch_interrupts();
+        warm_up(motion);
+        if (tunes) tune(target);
+        for (int frame = 0; frame < flags_.frames; ++frame) render(frame, motion);
+        if (flags_.replicates > 1)
+            replicate();
+        else if (!flags_.fps)
+            save(flags_.picture);
+        motion.report();
+        tell(motion);
     }
-    for (int frame = 0; frame < flags.frames; ++frame) {
-        Camera at = camera;
-        const auto step = [&] {
-            const Motion::Step moved = motion.at(frame);
-            at = moved.camera;
-            if (moved.lights) solver.lights_changed();
-        };
-        if (!flags.fps) step();
-        record.frame_ms.push_back(lab::time_frame(session.queue, [&] {
-            if (flags.fps) step();  // the frame's time has the pose in it
-            if (gl)
-                gl->render(solver, at);
+
+private:
+    // The first picture is not timed: some drivers compile on the first launch.
+    void warm_up(Motion& motion) {
+        if (flags_.fps) follow(motion.at(0), true);  // builds its kernels; links are made for poses
+        const Stopwatch watch;
+        const auto bar = progress_bar(options_.method == Method::light_atlas ? "bake" : "render",
+                                      flags_.device.quiet);
+        if (gl_) {
+            gl_->render(*renderer_, camera_).wait();
+            if (!bar(1.0)) throw Interrupted();
+            return;
+        }
+        prepare(bar);
+        record_.prepare_ms = 1e3 * watch.seconds();
+        if (!renderer_->run(camera_, bar) && !gave_up()) throw Interrupted();
+    }
+
+    bool gave_up() const { return renderer_->status().given_up; }
+
+    void prepare(const Progress& progress) {
+        if (!renderer_->prepare(progress) && !gave_up()) throw Interrupted();
+    }
+
+    void follow(const Motion::Step& step, bool vectors) {
+        if (step.lights) renderer_->lights_changed();
+        if (moves_ || (vectors && options_.method == Method::dynamic_transfer))
+            renderer_->geometry_changed();
+    }
+
+    // A frame's time has all in it that follows from the lights and the pose: of a bake, only what
+    // has changed.
+    void render(int frame, Motion& motion) {
+        const bool always = options_.method != Method::light_atlas;
+        const auto go_on = [](double) { return !interrupted(); };
+        record_.frame_ms.push_back(lab::time_frame(session_.queue, [&] {
+            const Motion::Step step = motion.at(frame);
+            follow(step, flags_.fps || frame == 0);
+            if (always || step.lights) prepare(go_on);
+            if (gl_)
+                gl_->render(*renderer_, step.camera);
             else
-                solver.render(at);
+                renderer_->render(step.camera);
         }));
-        record.passes.push_back(lab::pass_times(solver));
-        if (flags.fps)
-            save_picture(lab::radiance_picture(session.queue, solver),
-                         numbered(flags.picture, frame));
+        if (AntiradianceSolver* solver = renderer_->antiradiance())
+            exchanges_.add(frame, solver->status(), solver->options());
+        record_.passes.push_back(lab::pass_times(renderer_->times()));
+        if (flags_.fps) save(numbered(flags_.picture, frame));
         if (interrupted()) throw Interrupted();
     }
-    motion.report();
-    record.status = solver.status();
-    if (flags.replicates > 1) {
-        record.replicates = lab::replicate(session.queue, solver, camera, flags.replicates, go_on);
-        if (!record.replicates) throw Interrupted();
-        save_picture(record.replicates->mean, flags.picture);
-    } else if (!flags.fps) {
-        save_picture(lab::radiance_picture(session.queue, solver), flags.picture);
+
+    void tune(const TuningTarget& target) {
+        SecondOrderSolver& solver = *renderer_->second_order();
+        const auto go_on = [](double) { return !interrupted(); };
+        const auto found =
+            tune_second_order(session_.queue, renderer_->scene(), solver, camera_, target, go_on);
+        if (!found || !solver.run(camera_, nullptr)) throw Interrupted();
+        record_.ask = AskRecord{target, *found};
     }
 
-    if (record.status.non_finite > 0)
-        notice(
-            false,
-            fmt::format(
-                "warning: {} packets of pixels had numbers that were not finite and were replaced",
-                record.status.non_finite));
-    if (gl) {
-        record.gl_renderer = gl->renderer();
-        record.gl_path = gl->path();
-        notice(flags.device.quiet, fmt::format("OpenGL {}; {}", gl->renderer(), gl->path()));
-        if (const std::uint32_t texels = gl->non_finite())
-            notice(false, fmt::format("warning: {} texels of the G-buffer were not finite and "
-                                      "became background",
-                                      texels));
+    void replicate() {
+        record_.replicates =
+            lab::replicate(session_.queue, *renderer_->second_order(), camera_, flags_.replicates,
+                           [](double) { return !interrupted(); });
+        if (!record_.replicates) throw Interrupted();
+        save_picture(record_.replicates->mean, flags_.picture);
     }
-    const lab::Spread times = lab::spread(record.frame_ms);
-    if (record.ask) {
-        const std::string warning = ask_warning(*record.ask);
-        if (!warning.empty()) notice(false, warning);
-    }
-    if (!flags.device.quiet) {
-        fmt::print(
-            "{}: {:.1f} ms a frame ({} frames, {} VPLs and {} negative VPLs, {} "
-            "triangles)\n",
-            names_of(flags.picture), times.median, record.frame_ms.size(),
-            solver.emitters().vpl_count,
-            flags.options.indirect ? solver.options().negative_vpls : 0, scene.triangles.size());
-        if (record.ask) fmt::print("{}\n", ask_line(*record.ask, times.median));
-        if (record.replicates)
-            fmt::print(
-                "mean of {} replicates: standard error {:.3g} % of the mean, of one alone "
-                "{:.3g} %\n",
-                record.replicates->count, 100.0 * record.replicates->error,
-                100.0 * record.replicates->single_error);
-    }
-    if (!flags.stats.empty()) {
-        record.device = session.device;
-        record.build = flags.options.build;
-        record.gbuffer = flags.gbuffer;
-        record.method = flags.method;
-        record.triangles = scene.triangles.size();
-        record.lights = solver.emitters().emitters.size();
-        record.effects = effects_of(device_scene, solver);
-        record.bytes = device_scene.bytes() + solver.bytes() + motion.bytes();
-        record.warnings = scene.warnings;
-        record.planned = flags.planned;
-        save_stats(record, flags.stats);
-    }
-}
 
-void refuse(bool wrong, const std::vector<std::string>& given, const std::string& why) {
-    if (wrong && !given.empty()) throw Error("render: " + given.front() + " goes " + why);
-}
+    void save(const PictureFlags& files) { save_picture(lab::radiance_picture(*renderer_), files); }
 
-void check_flags(const RenderFlags& flags) {
-    const bool atlas = flags.method == "atlas", transfer = flags.method == "transfer";
-    const bool antiradiance = flags.method == "antiradiance", plans = flags.method == "auto";
-    const bool second_order = !atlas && !transfer && !antiradiance;
-    refuse(!second_order, flags.second_order_only, "not with --method " + flags.method);
-    refuse(!second_order, flags.asked, "not with --method " + flags.method);
-    refuse(!plans, flags.auto_only, "only with --method auto");
-    refuse(!atlas, flags.atlas_only, "only with --method atlas");
-    refuse(!transfer, flags.transfer_only, "only with --method transfer");
-    refuse(!antiradiance, flags.antiradiance_only, "only with --method antiradiance");
-    refuse(transfer, flags.not_transfer, "not with --method transfer");
-    refuse(antiradiance, flags.not_antiradiance, "not with --method antiradiance");
-}
+    // Warnings, a line of the result, and --stats.
+    void tell(const Motion& motion) {
+        record_.device = session_.device;
+        record_.bytes = renderer_->bytes_with_scene() + motion.bytes();
+        record_.gbuffer = flags_.gbuffer;
+        record_.exchanges = exchanges_;
+        record_.warnings = scene_.warnings;
+        fill(record_, *renderer_, scene_);
+        for (const std::string& warning : troubles(*renderer_, exchanges_))
+            notice(false, "warning: " + warning);
+        if (gl_) {
+            record_.gl_renderer = gl_->renderer();
+            record_.gl_path = gl_->path();
+            notice(flags_.device.quiet, fmt::format("OpenGL {}; {}", gl_->renderer(), gl_->path()));
+            if (const std::uint32_t texels = gl_->non_finite())
+                notice(false, fmt::format("warning: {} texels of the G-buffer were not finite and "
+                                          "became background",
+                                          texels));
+        }
+        if (record_.ask) {
+            const std::string warning = ask_warning(*record_.ask);
+            if (!warning.empty()) notice(false, warning);
+        }
+        if (!flags_.device.quiet)
+            fmt::print("{}: {}\n", names_of(flags_.picture), summary(record_, *renderer_));
+        if (!flags_.stats.empty()) save_stats(record_, flags_.stats);
+    }
+
+    RenderFlags& flags_;
+    RendererOptions& options_;
+    Scene scene_;
+    Session session_;
+    std::optional<GlFrames> gl_;
+    Renderer* renderer_ = nullptr;
+    Camera camera_;
+    bool moves_ = false;  // vertices do, between frames
+    AntiradianceFrames exchanges_;
+    RenderRecord record_;
+};
 
 void run_render(RenderFlags flags) {
-    // Flags of second-order illumination choose it, and so does a G-buffer by OpenGL.
-    if (flags.method == "auto" && (!flags.second_order_asked.empty() || flags.gbuffer != "cl"))
-        flags.method = "second-order";
-    check_flags(flags);
-    if (flags.method == "auto") plan_render(flags);
-    if (flags.method == "atlas") return run_atlas(std::move(flags));
-    if (flags.method == "transfer") return run_transfer(std::move(flags));
-    if (flags.method == "antiradiance") return run_antiradiance(std::move(flags));
-    run_second_order(std::move(flags));
+    choose_method(flags);
+    check(flags);
+    Render(flags).run();
 }
 
 }  // namespace
@@ -210,11 +254,11 @@ void run_render(RenderFlags flags) {
 void add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Render a glTF scene");
     const auto flags = std::make_shared<RenderFlags>();
-    SecondOrderOptions& options = flags->options;
     command->add_option("scene", flags->scene, ".gltf or .glb file")
         ->required()
         ->type_name("SCENE");
-    add_picture_flags(*command, flags->picture, options.width, options.height);
+    add_picture_flags(*command, flags->picture, flags->options.picture.width,
+                      flags->options.picture.height);
     command
         ->add_option(
             "--method", flags->method,
@@ -226,41 +270,16 @@ void add_render(CLI::App& app) {
         ->check(
             CLI::IsMember({"auto", "second-order", "atlas", "transfer", "antiradiance", "direct"}));
     add_place_options(*command, flags->scene_index, flags->camera);
-    command->add_option("--vpls", options.emitters.vpls, "VPLs of all emitters together")
-        ->type_name("N")
-        ->default_str(fmt::format("{}; atlas: {}", options.emitters.vpls, flags->atlas.vpls.count))
-        ->check(CLI::Range(0, 1 << 20));
-    command->add_option("--negative-vpls", options.negative_vpls, "Negative VPLs; 0: none")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1 << 20));
-    command
-        ->add_option("--low-res", flags->low_res,
-                     "Discontinuity threshold; off or 0: every pixel is gathered, inf: none")
-        ->type_name("off|T")
-        ->default_str(fmt::format("{}", options.discontinuity_threshold));
-    command
-        ->add_option("--low-res-step", options.low_resolution_step,
-                     "Pixels between low-resolution points")
-        ->type_name("N")
-        ->check(CLI::IsMember({2, 4}));
-    add_emitter_flags(*command, options.emitters);
     add_environment_flags(*command, flags->environment);
-    add_bake_flags(*command, "atlas: ", flags->atlas.bake, flags->atlas.layout);
-    command
-        ->add_option(
-            "--least-change", flags->atlas.least_change,
-            "atlas, with --spin-light: change of a VPL's power that lights texels anew, of "
-            "the mean power of VPLs")
-        ->type_name("X");
-    add_transfer_flags(*command, flags->transfer);
-    add_antiradiance_flags(*command, flags->antiradiance);
+    add_option_flags(*command, flags->options, all_methods, {"math", "storage"});
+    add_count(*command, "--coarse", flags->coarse,
+              "transfer: Triangles of a simplified mesh that blocks where it is far away; 0: none",
+              0, 1 << 26);
     command->add_option("--gbuffer", flags->gbuffer, "What rasterises the camera's view")
         ->type_name("WHAT")
         ->check(CLI::IsMember({"cl", "gl"}));
     add_ask_flags(*command, flags->ask);
     add_plan_flags(*command, flags->plan);
-    command->add_flag("--no-direct", flags->no_direct,
-                      "Leave out direct light, emission and the environment");
     add_animation_flags(*command, flags->animation);
     command->add_option("--frames", flags->frames, "Pictures to render and time; the last is kept")
         ->type_name("N")
@@ -284,32 +303,8 @@ void add_render(CLI::App& app) {
         ->default_str("none");
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {
-        flags->second_order_only =
-            given(*command, {"--negative-vpls", "--low-res", "--low-res-step", "--replicates"});
-        flags->second_order_asked = flags->second_order_only;
-        for (const std::string& flag :
-             given(*command, {"--vpls", "--environment-lights", "--no-direct"}))
-            flags->second_order_asked.push_back(flag);
-        flags->shadow_size_given = command->count("--shadow-size") > 0;
-        flags->face_size_given = command->count("--face-size") > 0;
-        flags->area_samples_given = command->count("--area-samples") > 0;
-        flags->asked = given(*command, {"--target-error", "--time-budget"});
-        flags->auto_only = given(*command, {"--tolerance", "--with", "--without"});
-        flags->atlas_only = given(*command, {"--bounces", "--atlas-size", "--hemicube-size",
-                                             "--refine", "--least-change"});
-        flags->transfer_only = given(
-            *command, {"--sh-order", "--mask", "--table", "--mask-block", "--sh-window", "--coarse",
-                       "--rings", "--per-pixel", "--probe-step", "--interreflections"});
-        flags->antiradiance_only =
-            given(*command, {"--bins", "--elements", "--iteration", "--iterations", "--residual",
-                             "--least-gloss", "--bin-share", "--spread", "--poses"});
-        flags->not_antiradiance = given(*command, {"--vpls", "--environment-lights"});
-        flags->not_transfer = given(*command, {"--vpls", "--no-direct", "--environment-lights"});
-        flags->atlas.bake.emitters = flags->options.emitters;
-        if (command->count("--shadow-size") == 0)
-            flags->atlas.bake.emitters.shadow_size = bake_emitters().shadow_size;
-        if (command->count("--vpls") > 0)
-            flags->atlas.vpls.count = static_cast<std::uint32_t>(flags->options.emitters.vpls);
+        flags->given = given_options(*command, all_methods);
+        flags->plan_given = !given(*command, {"--tolerance", "--with", "--without"}).empty();
         run_render(*flags);
     });
 }

@@ -7,7 +7,6 @@
 
 #include "io/atomic_file.hpp"
 #include "program/plan_text.hpp"
-#include "program/render_flags.hpp"
 #include "program/version.hpp"
 
 namespace clgi::program {
@@ -69,8 +68,8 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
     if (record.bake)
         out["bake"] = {
             {"vpls", record.bake->vpls},           {"texels", record.bake->texels},
-            {"pages", record.bake->pages},         {"atlas_size", record.bake->atlas_size},
-            {"layout_ms", record.bake->layout_ms}, {"bake_ms", record.bake->bake_ms}};
+            {"pages", record.bake->pages},         {"atlas_size", record.bake->size},
+            {"layout_ms", record.bake->layout_ms}, {"bake_ms", record.prepare_ms}};
     if (record.transfer)
         out["transfer"] = {{"receivers", record.transfer->receivers},
                            {"triangles", record.transfer->triangles},

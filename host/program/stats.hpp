@@ -3,7 +3,7 @@
 #pragma once
 
 #include <clgi/device_scene.hpp>
-#include <clgi/second_order.hpp>
+#include <clgi/renderer.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,19 +12,11 @@
 
 #include "lab/replicates.hpp"
 #include "lab/timing.hpp"
+#include "program/antiradiance_frames.hpp"
 #include "program/ask.hpp"
+#include "program/render_plan.hpp"
 
 namespace clgi::program {
-
-// What --method atlas did before the first picture.
-struct BakeSummary {
-    std::size_t vpls = 0;
-    std::size_t texels = 0;
-    int pages = 0;
-    int atlas_size = 0;      // texels, side of a page
-    double layout_ms = 0.0;  // on the host
-    double bake_ms = 0.0;
-};
 
 // What --method transfer works on.
 struct TransferSummary {
@@ -51,8 +43,6 @@ struct AntiradianceSummary {
     double linking_ms = 0.0;  // on the host
 };
 
-struct Planned;
-
 struct RenderRecord {
     cl::Device device;
     BuildOptions build;
@@ -70,12 +60,23 @@ struct RenderRecord {
     std::string gl_path;         // of gl: "copied: ..."
     std::optional<lab::Replicates> replicates;
     std::optional<AskRecord> ask;  // where a result was asked for
+    double prepare_ms = 0.0;       // what precedes the first picture, such as a bake
     std::optional<BakeSummary> bake;
     std::optional<TransferSummary> transfer;
     std::optional<AntiradianceSummary> antiradiance;
     std::shared_ptr<const Planned> planned;  // of --method auto
     std::vector<std::string> warnings;
+    AntiradianceFrames exchanges;  // of antiradiance
 };
+
+// What the record tells of the renderer and its scene after the last frame.
+void fill(RenderRecord& record, const Renderer& renderer, const Scene& scene);
+
+// What went wrong, a sentence each: numbers that were not finite, iterations without a result.
+std::vector<std::string> troubles(const Renderer& renderer, const AntiradianceFrames& exchanges);
+
+// "4.2 ms a frame (20 frames, 300 VPLs ...)".
+std::string summary(const RenderRecord& record, const Renderer& renderer);
 
 // Writes a temporary file and renames it. Throws InputError when it cannot be written.
 void save_stats(const RenderRecord& record, const std::filesystem::path& path);

@@ -12,13 +12,15 @@
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.hpp"
+#include "lab/coarse_mesh.hpp"
 #include "lab/timing.hpp"
 #include "lab/transfer_vectors.hpp"
 #include "program/animation.hpp"
-#include "program/bake_common.hpp"
 #include "program/commands.hpp"
+#include "program/count_flag.hpp"
+#include "program/option_flags.hpp"
 #include "program/session.hpp"
-#include "program/vector_flags.hpp"
+#include "program/stopwatch.hpp"
 #include "program/version.hpp"
 
 namespace clgi::program {
@@ -30,7 +32,9 @@ struct ExportFlags {
     std::string scene;
     DeviceFlags device;
     AnimationFlags animation;
-    VectorFlags vectors;
+    RendererOptions options;
+    int coarse = 0;  // triangles of the mesh that blocks far away; 0: the scene's own
+    bool rings_given = false;
     std::string exr;
     std::string gltf;
     std::string stats;
@@ -123,6 +127,16 @@ void save_vectors(const ExportFlags& flags, const Scene& scene, const lab::Trans
         io::save_glb(scene, flags.gltf, {lab::transfer_attributes(vectors), convention});
 }
 
+void warn_of(const TransferStatus& status) {
+    const auto say = [](std::uint32_t count, const char* what) {
+        if (count > 0) notice(false, fmt::format("warning: {} {}", count, what));
+    };
+    say(status.bad_receivers, "vertices had positions or normals that were not finite");
+    say(status.bad_blockers, "triangles were not finite and cast no shadow");
+    say(status.bad_texels, "numbers of the environment were not finite and were read as 0");
+    say(status.non_finite, "packets of vertices had numbers that were not finite");
+}
+
 // A name that says another format is a slip.
 void need_format(const std::string& file, const char* flag, const std::string& wanted) {
     std::string found = std::filesystem::path(file).extension().string();
@@ -140,8 +154,12 @@ void run_export(const ExportFlags& flags) {
     if (flags.exr.empty() && flags.gltf.empty())
         throw Error("transfer: no output; -o FILE.exr or --gltf FILE.glb needed");
     const Scene scene = open_geometry(flags);
-    const DynamicTransferOptions options =
-        vector_options("transfer", flags.vectors, scene, build_of(flags.device));
+    if (flags.rings_given && flags.coarse == 0)
+        throw Error("transfer: --rings goes only with --coarse");
+    DynamicTransferOptions options = flags.options.transfer;
+    options.build = build_of(flags.device);
+    if (flags.coarse > 0)
+        options.coarse = lab::coarse_mesh(scene, static_cast<std::size_t>(flags.coarse));
     const Session session = open_session(flags.device);
 
     const Stopwatch build;
@@ -191,7 +209,10 @@ void add_transfer(CLI::App& app) {
     command->add_option("--gltf", flags->gltf, "GLB of the scene with vectors as vertex attributes")
         ->type_name("FILE")
         ->default_str("none");
-    add_vector_flags(*command, "", flags->vectors);
+    add_option_flags(*command, flags->options, of_vectors);
+    add_count(*command, "--coarse", flags->coarse,
+              "Triangles of a simplified mesh that blocks where it is far away; 0: none", 0,
+              1 << 26);
     add_animation_flags(*command, flags->animation);
     command->add_option("--scene", flags->scene_index, "Index of the glTF scene")
         ->type_name("N")
@@ -200,7 +221,10 @@ void add_transfer(CLI::App& app) {
         ->type_name("FILE")
         ->default_str("none");
     add_device_flags(*command, flags->device);
-    command->callback([flags] { run_export(*flags); });
+    command->callback([flags, command] {
+        flags->rings_given = command->count("--rings") > 0;
+        run_export(*flags);
+    });
 }
 
 }  // namespace clgi::program

@@ -192,7 +192,7 @@ void Antiradiance::lights_changed() {
 }
 
 void Antiradiance::geometry_changed(const WaitList& wait) {
-    solver.geometry_changed(wait);
+    if (solver.moving_elements() > 0) solver.geometry_changed(wait);
     moves_ = joined(moves_, wait);
 }
 

@@ -38,9 +38,6 @@ void check(const RendererOptions& options) {
     const auto refuse = [](bool wrong, const char* why) {
         if (wrong) throw Error(std::string("renderer: ") + why);
     };
-    refuse(
-        options.method == Method::light_atlas && options.light_atlas.build.storage == Storage::half,
-        "a bake has full storage alone, because it sums the light of thousands of VPLs");
     refuse(!(options.least_change >= 0.0) || !std::isfinite(options.least_change),
            "least_change is negative or not finite");
 }
@@ -190,6 +187,21 @@ cl::Event Renderer::render(const Camera& camera, const WaitList& wait) {
     s.begin_picture();
     const cl::Event done = s.of([&](auto& method) { return method.render(camera, wait); });
     s.of([&](auto& method) { method.add_passes(s.passes); });
+    return done;
+}
+
+bool Renderer::run(const Camera& camera, const Progress& progress) {
+    State& s = *state_;
+    build();
+    if (SecondOrderSolver* solver = second_order()) {
+        s.begin_picture();
+        if (!solver->run(camera, progress)) return false;
+        s.of([&](auto& method) { method.add_passes(s.passes); });
+        return true;
+    }
+    const bool done = s.prepared || prepare(progress);
+    if (!s.prepared) return false;
+    render(camera).wait();
     return done;
 }
 

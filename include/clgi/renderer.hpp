@@ -108,7 +108,11 @@ public:
     // Enqueues a picture that begins after `wait`; its event completes when all of it has.
     cl::Event render(const Camera& camera, const WaitList& wait = {});
 
-    // The same from a given G-buffer (SecondOrderSolver::render). Throws Error for methods other
+    // prepare() and render(), waiting after each part to report. False as prepare(), and if
+    // progress cancelled.
+    bool run(const Camera& camera, const Progress& progress);
+
+    // A picture from a given G-buffer (SecondOrderSolver::render). Throws Error for methods other
     // than direct and second_order.
     cl::Event render(const Camera& camera, const GBuffer& given, const WaitList& wait = {});
 
