@@ -97,4 +97,19 @@ Image load_image(const fs::path& path, LoadReport* report) {
     return image;
 }
 
+Image radiance_image(int width, int height, std::array<std::vector<float>, 3> planes) {
+    Image image;
+    image.width = width;
+    image.height = height;
+    image.attributes = {{"clgi:quantity", "radiance"}, {"clgi:unit", "cd/m^2"}};
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    for (std::size_t c = 0; c < planes.size(); ++c) {
+        if (planes[c].size() != pixels)
+            throw Error("radiance_image: a plane has " + std::to_string(planes[c].size()) +
+                        " values, " + std::to_string(pixels) + " needed");
+        image.channels.push_back({std::string(1, "RGB"[c]), std::move(planes[c])});
+    }
+    return image;
+}
+
 }  // namespace clgi::io

@@ -44,15 +44,8 @@ io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture
                              picture.options().height, picture.stride());
 }
 io::Image radiance_picture(const Renderer& renderer) {
-    const PictureOptions& options = renderer.options().picture;
-    io::Image image;
-    image.width = options.width;
-    image.height = options.height;
-    image.attributes = {{"clgi:quantity", "radiance"}, {"clgi:unit", "cd/m^2"}};
-    auto planes = renderer.read_radiance();
-    for (std::size_t c = 0; c < planes.size(); ++c)
-        image.channels.push_back({std::string(1, "RGB"[c]), std::move(planes[c])});
-    return image;
+    const auto [width, height] = renderer.size();
+    return io::radiance_image(width, height, renderer.read_radiance());
 }
 
 float preview_exposure(const io::Image& picture) {

@@ -180,4 +180,21 @@ std::optional<SecondOrderTuning> tune_second_order(const cl::CommandQueue& queue
     return out;
 }
 
+bool tune(const cl::CommandQueue& queue, Renderer& renderer, Plan& plan, const Camera& camera,
+          const Progress& progress) {
+    renderer.build();
+    SecondOrderSolver* solver = renderer.second_order();
+    if (!solver || !solver->options().indirect || !plan.request.seconds)
+        return !progress || progress(1.0);
+    TuningTarget target;
+    target.frame_ms = 1e3 * *plan.request.seconds;
+    const auto found =
+        tune_second_order(queue, renderer.scene(), *solver, camera, target, progress);
+    if (!found) return false;
+    plan.second_order = solver->options();
+    plan.cost.frame_ms = found->frame_ms;
+    plan.meets_time = found->meets_time;
+    return true;
+}
+
 }  // namespace clgi

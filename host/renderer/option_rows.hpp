@@ -23,9 +23,13 @@ std::string text_of(T value) {
     if constexpr (std::is_floating_point_v<T>) {
         if (std::isinf(value)) return "inf";
     }
-    char text[32];
-    const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-    return {text, error == std::errc() ? end : text};
+    char text[400];
+    std::to_chars_result end{};
+    if constexpr (std::is_floating_point_v<T>)
+        end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed);
+    else
+        end = std::to_chars(text, text + sizeof text, value);
+    return {text, end.ptr};
 }
 
 inline double number_of(const std::string& name, const std::string& text) {

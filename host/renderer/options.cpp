@@ -97,7 +97,7 @@ std::vector<OptionRow> of_bake() {
         number(row("atlas-size", "N", atlas, "Texels, side of a page of the atlas", 1, 8192),
                [](O& o) -> int& { return o.layout.size; }),
         share(row("least-change", "X", of_light_atlas,
-                  "With --spin-light: change of a VPL's power that lights texels anew, of the mean "
+                  "with --spin-light: change of a VPL's power that lights texels anew, of the mean "
                   "power of VPLs"),
               [](O& o) -> double& { return o.least_change; }),
         number(row("vpls", "N", of_bakes, "Virtual point lights (VPLs)", 1, 1 << 20),

@@ -255,6 +255,9 @@ std::size_t Renderer::bytes_with_scene() const { return bytes() + scene().bytes(
 DeviceScene& Renderer::scene() { return *state_->device; }
 const DeviceScene& Renderer::scene() const { return *state_->device; }
 const RendererOptions& Renderer::options() const { return state_->options; }
+std::pair<int, int> Renderer::size() const {
+    return {state_->options.picture.width, state_->options.picture.height};
+}
 
 const EmitterSet& Renderer::emitters() const {
     return *state_->of([](auto& method) { return &method.emitters(); });

@@ -170,4 +170,10 @@ Light default_light(const Scene& scene) {
     return light;
 }
 
+void add_defaults(Scene& scene) {
+    if (scene.cameras.empty()) scene.cameras.push_back(default_camera(scene));
+    if (scene.lights.empty() && !has_emission(scene) && !scene.environment)
+        scene.lights.push_back(default_light(scene));
+}
+
 }  // namespace clgi

@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clgi {
@@ -130,6 +131,7 @@ public:
     DeviceScene& scene();
     const DeviceScene& scene() const;
     const RendererOptions& options() const;
+    std::pair<int, int> size() const;  // width and height of pictures
     const EmitterSet& emitters() const;  // of the picture's direct light
 
     // The method's own: null for others, and before build().

@@ -150,4 +150,8 @@ CLGI_API Light default_light(const Scene& scene);
 
 CLGI_API bool has_emission(const Scene& scene);
 
+// Adds default_camera() to a scene without camera, and default_light() to one without light,
+// emission and environment.
+CLGI_API void add_defaults(Scene& scene);
+
 }  // namespace clgi

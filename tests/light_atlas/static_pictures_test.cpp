@@ -28,12 +28,12 @@ test::Pixels by_atlas(const Scene& scene, const Camera& camera, double seconds) 
     const Scene planned = planned_scene(scene, plan);
     DeviceScene uploaded = test::on_device(planned);
     const cl::CommandQueue& queue = test::device().queue;
-    PlannedRenderer renderer(test::programs(), queue, planned, uploaded, plan);
+    Renderer renderer(test::programs(), queue, planned, uploaded, plan);
     SceneAnimator animator(queue, planned, uploaded);
     EXPECT_TRUE(renderer.prepare());
     const Animated step = animator.animate(0, seconds);
     renderer.render(camera, {step.done}).wait();
-    EXPECT_EQ(renderer.non_finite(), 0u);
+    EXPECT_EQ(renderer.status().non_finite, 0u);
     return test::shown_by(renderer);
 }
 
@@ -74,9 +74,10 @@ TEST(StillPictures, FollowTheirLights) {
     Plan plan = test::plan_of(scene, camera, request);
     plan.vpls.count = 200;
     plan.layout.size = 64;
+    plan.least_change = 0.0;  // all of the change
     const Scene planned = planned_scene(scene, plan);
     DeviceScene uploaded = test::on_device(planned);
-    PlannedRenderer renderer(test::programs(), test::device().queue, planned, uploaded, plan);
+    Renderer renderer(test::programs(), test::device().queue, planned, uploaded, plan);
     ASSERT_TRUE(renderer.prepare());
     renderer.render(camera).wait();
     const test::Pixels before = test::shown_by(renderer);
@@ -105,14 +106,14 @@ TEST(StillPictures, CostNothingWithoutMotion) {
         plan.vpls.count = 100;
         plan.layout.size = 64;
         const Scene planned = planned_scene(scene, plan);
-        const DeviceScene uploaded = test::on_device(planned);
+        DeviceScene uploaded = test::on_device(planned);
         const Programs own = test::own_programs();
-        PlannedRenderer renderer(own, test::device().queue, planned, uploaded, plan);
+        Renderer renderer(own, test::device().queue, planned, uploaded, plan);
         EXPECT_TRUE(renderer.prepare());
         renderer.render(scene.cameras[0]).wait();
         test::Cost out;
         out.kernels = own.built_kernels();
-        out.add(renderer.events());
+        out.add(renderer.times());
         out.bytes = renderer.bytes();
         return out;
     };

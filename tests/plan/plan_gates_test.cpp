@@ -68,11 +68,11 @@ std::optional<Pixels> picture(const Given& of, const PlanRequest& request, std::
     try {
         const Plan plan = test::plan_of(of.scene, of.camera, request);
         const Scene left = planned_scene(of.scene, plan);
-        const DeviceScene uploaded = test::on_device(left);
-        PlannedRenderer renderer(test::programs(), test::device().queue, left, uploaded, plan);
+        DeviceScene uploaded = test::on_device(left);
+        Renderer renderer(test::programs(), test::device().queue, left, uploaded, plan);
         EXPECT_TRUE(renderer.prepare());
         renderer.render(of.camera).wait();
-        EXPECT_EQ(renderer.non_finite(), 0u);
+        EXPECT_EQ(renderer.status().non_finite, 0u);
         return test::shown_by(renderer);
     } catch (const Error& error) {
         refused = error.what();

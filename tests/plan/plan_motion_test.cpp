@@ -87,14 +87,14 @@ Pixels at_time(const Scene& scene, const Camera& camera, const Plan& plan, doubl
     left.moving_bounds = motion_bounds(left, 0);
     DeviceScene uploaded = test::on_device(left);
     const cl::CommandQueue& queue = test::device().queue;
-    PlannedRenderer renderer(test::programs(), queue, left, uploaded, plan);
+    Renderer renderer(test::programs(), queue, left, uploaded, plan);
     SceneAnimator animator(queue, left, uploaded);
     EXPECT_TRUE(renderer.prepare());
     renderer.render(camera).wait();
     const Animated step = animator.animate(0, seconds);
     if (step.lights) renderer.lights_changed();
     renderer.render(camera, {step.done}).wait();
-    EXPECT_EQ(renderer.non_finite(), 0u);
+    EXPECT_EQ(renderer.status().non_finite, 0u);
     return test::shown_by(renderer);
 }
 

@@ -28,14 +28,14 @@ struct Rendered {
 Rendered render(const Scene& scene, const Camera& camera, const Plan& plan) {
     const cl::CommandQueue& queue = test::device().queue;
     const Scene left = planned_scene(scene, plan);
-    const DeviceScene uploaded = test::on_device(left);
-    PlannedRenderer renderer(test::programs(), queue, left, uploaded, plan);
+    DeviceScene uploaded = test::on_device(left);
+    Renderer renderer(test::programs(), queue, left, uploaded, plan);
     EXPECT_TRUE(renderer.prepare());
     renderer.render(camera).wait();
-    EXPECT_EQ(renderer.non_finite(), 0u);
+    EXPECT_EQ(renderer.status().non_finite, 0u);
     Rendered out;
     out.pixels = test::shown_by(renderer);
-    for (const PassEvent& pass : renderer.events()) out.passes.insert(pass.name);
+    for (const PassEvent& pass : renderer.times()) out.passes.insert(pass.name);
     out.bytes = renderer.bytes();
     return out;
 }
@@ -168,7 +168,7 @@ TEST(Plan, FollowsLightsThatChange) {
         changed.lights[0].position = {-0.4, 0.4, 0.3};
         const Plan plan = plan_of(scene, camera, request);
         DeviceScene uploaded = test::on_device(scene);
-        PlannedRenderer renderer(test::programs(), test::device().queue, scene, uploaded, plan);
+        Renderer renderer(test::programs(), test::device().queue, scene, uploaded, plan);
         EXPECT_TRUE(renderer.prepare());
         renderer.render(camera).wait();
         const Pixels before = test::shown_by(renderer);

@@ -181,15 +181,16 @@ TEST_F(Tune, GivesAPlanWhatItsTimeBuys) {
     request.seconds = 1e-6;
     request.method = Method::second_order;
     const Plan plan = make_plan(test::device().device, scene_analysis(scene_), request);
-    PlannedRenderer renderer(test::programs(), test::device().queue, scene_, device_, plan);
-    ASSERT_TRUE(renderer.tune(camera_));
-    const Plan& after = renderer.plan();
+    Renderer renderer(test::programs(), test::device().queue, scene_, device_, plan);
+    const cl::CommandQueue& queue = test::device().queue;
+    Plan after = plan;
+    ASSERT_TRUE(tune(queue, renderer, after, camera_));
     EXPECT_EQ(after.second_order.emitters.vpls, SecondOrderTuning::fewest_vpls);
     EXPECT_NE(plan.second_order.emitters.vpls, SecondOrderTuning::fewest_vpls);
     EXPECT_FALSE(after.meets_time);
     EXPECT_GT(after.cost.frame_ms, 0.0);
     EXPECT_NE(after.cost.frame_ms, plan.cost.frame_ms);
-    EXPECT_FALSE(renderer.tune(camera_, [](double) { return false; }));
+    EXPECT_FALSE(tune(queue, renderer, after, camera_, [](double) { return false; }));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ inline Pixels traced(const Scene& scene, const Camera& camera, int samples,
     return reference::PathTracer(scene).render(camera, tracing).radiance;
 }
 
-inline Pixels shown_by(const PlannedRenderer& renderer) {
+inline Pixels shown_by(const Renderer& renderer) {
     return vectors(device().queue, renderer.radiance(), renderer.stride(),
                    std::size_t{plan_width} * plan_height);
 }

@@ -6,6 +6,7 @@
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/kit/progress.hpp>
 #include <clgi/device_scene.hpp>
+#include <clgi/plan.hpp>
 #include <clgi/second_order.hpp>
 #include <optional>
 
@@ -53,5 +54,12 @@ struct SecondOrderTuning {
 CLGI_API std::optional<SecondOrderTuning> tune_second_order(
     const cl::CommandQueue& queue, const DeviceScene& scene, SecondOrderSolver& solver,
     const Camera& camera, const TuningTarget& request, const Progress& progress = nullptr);
+
+// A renderer of a plan of second-order illumination with a time: tunes its settings to that time, in
+// place of those that were predicted to take it. The plan then has them with the time that was
+// measured; its error stays that of the predicted settings. Does nothing for other plans. Waits.
+// False if progress cancelled.
+CLGI_API bool tune(const cl::CommandQueue& queue, Renderer& renderer, Plan& plan,
+                   const Camera& camera, const Progress& progress = nullptr);
 
 }  // namespace clgi

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <clgi/advanced/export.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,10 @@ struct CLGI_API Image {
 
     const Channel* find(const std::string& name) const;  // null when there is none
 };
+
+// Radiance in cd/m^2 as a picture, with its quantity and unit. planes: R, G and B, [height][width]
+// each, as Renderer::read_radiance() has them. Throws Error for planes of another size.
+CLGI_API Image radiance_image(int width, int height, std::array<std::vector<float>, 3> planes);
 
 enum class PixelType { half, full };
 
