@@ -31,7 +31,7 @@ public:
         : queue_(queue()) {
         const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
         cl::Program program(queue.getInfo<CL_QUEUE_CONTEXT>(),
-                            std::string(kernel_source(room + "/" + pass)));
+                            kernel_source(room + "/" + pass));
         program.build(device, compiler_options(device).c_str());
         kernel_ = cl::Kernel(program, (room + "_" + pass).c_str());
     }

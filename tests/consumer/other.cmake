@@ -26,7 +26,7 @@ if(SHARED)
     # Users see what the headers promise and nothing of what is inside.
     find_program(nm nm REQUIRED)
     execute_process(COMMAND "${nm}" -DC --defined-only "${build}/libclgi.so" OUTPUT_VARIABLE symbols)
-    foreach(inside IN ITEMS "clgi::build_room" "clgi::second_order::" "clgi::embedded_kernels")
+    foreach(inside IN ITEMS "clgi::build_room" "clgi::second_order::" "clgi::embedded_files")
         string(FIND "${symbols}" "${inside}" found)
         if(NOT found EQUAL -1)
             message(FATAL_ERROR "consumer: libclgi.so shows ${inside}")

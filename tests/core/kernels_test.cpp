@@ -95,5 +95,20 @@ TEST(Kernels, BuildForDepthAlone) { expect_content("-Werror -DCLGI_WIDTH=4 -DCLG
 
 TEST(Kernels, BuildWithFastMath) { expect_content("-Werror -DCLGI_WIDTH=4 -cl-fast-relaxed-math"); }
 
+// The library flattens its kernels itself: byte for byte what is installed.
+TEST(KernelSources, AreTheInstalledFiles) {
+    const auto files = kernel_files();
+    EXPECT_EQ(kernel_names().size(), files.size());
+    for (const auto& file : files) {
+        std::ostringstream text;
+        text << std::ifstream(file).rdbuf();
+        const std::string name =
+            file.parent_path().filename().string() + "/" + file.stem().string();
+        EXPECT_EQ(kernel_source(name), text.str()) << name;
+    }
+    EXPECT_THROW(kernel_source("image/no-such"), Error);
+    EXPECT_THROW(kernel_source("shared/base"), Error);
+}
+
 }  // namespace
 }  // namespace clgi

@@ -35,7 +35,7 @@ void KernelSlot::build() {
     std::call_once(once_, [&] {
         cl::Program program;
         try {
-            program = cl::Program(context_, std::string(kernel_source(file_)));
+            program = cl::Program(context_, kernel_source(file_));
             program.build(device_, options_.c_str());
             kernel_ = cl::Kernel(program, function_.c_str());
             most_items_ = kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_);

@@ -30,18 +30,6 @@ bool builds_from_threads(const cl::Device& device) {
 
 }  // namespace
 
-std::vector<std::string> kernel_names() {
-    std::vector<std::string> out;
-    for (unsigned i = 0; i < embedded_kernel_count; ++i) out.push_back(embedded_kernels[i].name);
-    return out;
-}
-
-const char* kernel_source(const std::string& name) {
-    for (unsigned i = 0; i < embedded_kernel_count; ++i)
-        if (name == embedded_kernels[i].name) return embedded_kernels[i].source;
-    throw Error("program: no embedded kernel is called " + name);
-}
-
 std::string compiler_options(const cl::Device& device, const BuildOptions& options) {
     std::string text = "-cl-std=CL1.2 -DCLGI_WIDTH=" + std::to_string(width_of(device, options));
     if (uses_atomics64(device, options)) text += " -DCLGI_ATOMIC64";
@@ -78,7 +66,7 @@ Programs::Programs(const cl::Context& context, const cl::Device& device)
 PassKernel Programs::kernel(const std::string& room, const std::string& pass,
                             const BuildOptions& options, const std::string& defines) const {
     const std::string file = room + "/" + pass;
-    kernel_source(file);  // throws when there is none
+    need_kernel(file);
     std::string text = compiler_options(device_, options);
     if (!defines.empty()) text += " " + defines;
     PassKernel out;

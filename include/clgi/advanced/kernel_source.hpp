@@ -14,7 +14,7 @@ CLGI_API std::vector<std::string> kernel_names();
 
 // The self-contained text of <room>/<pass>.cl, byte for byte that of share/clgi/kernels; its kernel
 // is <room>_<pass>. name: "image/gather". Throws Error for an unknown name.
-CLGI_API const char* kernel_source(const std::string& name);
+CLGI_API std::string kernel_source(const std::string& name);
 
 // The options that a room's passes are compiled with on this device. Throws Error for an invalid
 // packet width.
