@@ -7,7 +7,7 @@ import matplotlib
 matplotlib.use("agg")
 from matplotlib import pyplot as plt  # noqa: E402
 
-DPI = 100
+DPI = 96  # that of SVG in browsers
 INK, PALE = "#282828", "#dddddd"
 # Of Okabe and Ito: told apart by those who see no red or no green. Each with a marker of its own.
 SERIES = [("#0072b2", "o"), ("#009e73", "s"), ("#aa4499", "^"), ("#56b4e9", "v"), ("#e69f00", "P"),
