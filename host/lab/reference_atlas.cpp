@@ -74,20 +74,10 @@ io::Image cached_atlas(const reference::PathTracer& tracer, const AtlasPlaces& a
                        const std::filesystem::path& file, const std::string& scene,
                        const Progress& progress) {
     Hash hash;
-    hash.add(tracer_version);
-    for (const char c : scene + effects) hash.add(c);
-    hash.add(atlas.size);
-    hash.add(atlas.pages);
-    hash.add(atlas.texels);
-    for (const reference::Place& place : atlas.places) {
-        hash.add(place.position);
-        hash.add(place.normal);
-        hash.add(place.geometric);
-    }
-    hash.add(options.samples);
-    hash.add(options.target);
-    hash.add(options.seed);
-    hash.add(options.roulette_depth);
+    hash.add(tracer_version, scene, effects, atlas.size, atlas.pages, atlas.texels);
+    for (const reference::Place& place : atlas.places)
+        hash.add(place.position, place.normal, place.geometric);
+    hash.add(options.samples, options.target, options.seed, options.roulette_depth);
     return kept_image(file, "atlas " + hash.text(), [&] {
         const reference::Irradiance found = tracer.irradiance(atlas.places, options, progress);
         return found.cancelled ? io::Image() : atlas_image(atlas, found, effects);

@@ -149,8 +149,7 @@ private:
                     const Scene& scene, double from) {
         progress_.part(from, 0.2);
         Hash hash;
-        hash.add(tracer_version);
-        hash.add(setup_.reference_samples);
+        hash.add(tracer_version, setup_.reference_samples);
         SweepTruth truth{name, effects, {}, 0.0};
         truth.picture = kept_image(setup_.folder / ("reference-" + name + ".exr"),
                                    "vertices " + hash.text() + " " + scene_key(scene), [&] {
