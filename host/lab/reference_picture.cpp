@@ -20,17 +20,22 @@ std::string picture_key(const std::string& scene, const Camera& camera,
     return hash.text();
 }
 
+std::map<std::string, std::string> traced_attributes(const std::string& effects, int samples,
+                                                     double relative_error) {
+    return {{"clgi:effects", effects.empty() ? "all" : effects},
+            {"clgi:samples", std::to_string(samples)},
+            {"clgi:relative_error", fmt::format("{:.6g}", relative_error)}};
+}
+
 }  // namespace
 
 io::Image reference_image(const reference::Picture& picture, const std::string& effects) {
     io::Image out;
     out.width = picture.width;
     out.height = picture.height;
-    out.attributes = {{"clgi:quantity", "radiance"},
-                      {"clgi:unit", "cd/m^2"},
-                      {"clgi:effects", effects.empty() ? "all" : effects},
-                      {"clgi:samples", std::to_string(picture.samples)},
-                      {"clgi:relative_error", fmt::format("{:.6g}", picture.relative_error)}};
+    out.attributes = traced_attributes(effects, picture.samples, picture.relative_error);
+    out.attributes["clgi:quantity"] = "radiance";
+    out.attributes["clgi:unit"] = "cd/m^2";
     for (int c = 0; c < 3; ++c) {
         io::Image::Channel channel{std::string(1, "RGB"[c]), {}};
         for (const glm::vec3& radiance : picture.radiance) channel.values.push_back(radiance[c]);
@@ -38,6 +43,32 @@ io::Image reference_image(const reference::Picture& picture, const std::string& 
     }
     out.channels.push_back({"error.Y", picture.error});
     return out;
+}
+
+io::Image blank_irradiance(int width, int height, const std::vector<const char*>& planes) {
+    io::Image out;
+    out.width = width;
+    out.height = height;
+    out.attributes = {{"clgi:quantity", "irradiance"}, {"clgi:unit", "lux"}};
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    for (const char* name : planes)
+        out.channels.push_back({name, std::vector<float>(pixels, 0.0f)});
+    return out;
+}
+
+void set_rgb(io::Image& picture, std::size_t pixel, const glm::vec3& color) {
+    for (int c = 0; c < 3; ++c)
+        picture.channels[static_cast<std::size_t>(c)].values[pixel] = color[c];
+}
+
+io::Image irradiance_image(io::Image blank, const std::vector<std::uint32_t>& pixels,
+                           const reference::Irradiance& found, const std::string& effects) {
+    blank.attributes.merge(traced_attributes(effects, found.samples, found.relative_error));
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        set_rgb(blank, pixels[i], found.values[i]);
+        blank.channels.back().values[pixels[i]] = found.error[i];
+    }
+    return blank;
 }
 
 double stated_error(const io::Image& picture) {
