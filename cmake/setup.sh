@@ -18,6 +18,7 @@ clgi_packages=(
 )
 
 # Plots of sweeps, scale bars and sheets: 60 MB of downloads that a first picture does not need.
+# shellcheck disable=SC2034  # by those who source this
 clgi_plot_packages=(python3-matplotlib python3-jinja2)
 
 # Installs what is missing; does nothing, and needs no rights, when nothing is.
