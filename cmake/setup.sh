@@ -14,9 +14,12 @@ clgi_packages=(
     libembree-dev libtbb-dev                                                     # clgi::reference
     libcli11-dev libfmt-dev                                                      # the program
     pocl-opencl-icd                                                              # OpenCL on CPUs
-    gnuplot-nox                                                                  # plots of sweeps
     libgtest-dev oclgrind dpkg-dev                                               # tests
 )
+
+# Plots of sweeps, scale bars and sheets: 60 MB of downloads that a first picture does not need.
+# shellcheck disable=SC2034  # by those who source this
+clgi_plot_packages=(python3-matplotlib python3-jinja2)
 
 # Installs what is missing; does nothing, and needs no rights, when nothing is.
 clgi_install_packages() {

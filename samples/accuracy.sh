@@ -12,6 +12,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/../cmake/setup.sh"
 mesh=${1:+$(realpath -- "$1")}
 cd "$clgi_root"
 
+clgi_packages+=("${clgi_plot_packages[@]}")
 clgi_install_packages
 clgi_configure build -DCLGI_TESTS=OFF
 clgi_build build clgi_program

@@ -174,18 +174,18 @@ def race(options):
 
 def plot(options, rows):
     """out/race.svg: error against time, a pair of lines for each scene."""
-    data, curves = [], []
+    sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "host", "lab", "plots"))
+    from style import SERIES, canvas, save_svg
+    figure = canvas(800, 500)
+    axes = figure.add_axes((0.09, 0.11, 0.61, 0.85))
     for index, scene in enumerate(dict.fromkeys(row[0] for row in rows)):
-        for column, dashes in ((1, 1), (3, 2)):
-            label = scene + ("" if column == 1 else ", path tracer")
-            points = "\n".join(f"{row[column]} {100 * row[column + 1]}" for row in rows if row[0] == scene)
-            data.append(points + "\ne")
-            curves.append(f"'-' with linespoints lc {index + 1} dt {dashes} pt {5 if column == 1 else 6} "
-                          f"title '{label}'")
-    script = (f"set terminal svg size 800,500 background 'white'\nset output '{options.out}/race.svg'\n"
-              "set logscale xy\nset xlabel 'time of a picture, s'\nset ylabel 'error, %'\n"
-              "set key outside noenhanced\nset grid\nplot " + ", ".join(curves) + "\n" + "\n".join(data) + "\n")
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+        color, marker = SERIES[index % len(SERIES)]
+        for column, label, line in ((1, scene, "-"), (3, scene + ", path tracer", "--")):
+            times, errors = zip(*((row[column], 100 * row[column + 1]) for row in rows if row[0] == scene))
+            axes.plot(times, errors, line, color=color, marker=marker, label=label)
+    axes.set(xscale="log", yscale="log", xlabel="time of a picture, s", ylabel="error, %")
+    axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1), borderaxespad=0)
+    save_svg(figure, os.path.join(options.out, "race.svg"))
 
 
 def main():

@@ -20,6 +20,7 @@ if [[ ${1:-} == --all ]]; then
 fi
 
 build=$clgi_root/build
+clgi_packages+=("${clgi_plot_packages[@]}")
 clgi_install_packages
 clgi_configure "$build" -DCLGI_TESTS=ON "$@"
 clgi_build "$build"

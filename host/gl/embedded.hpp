@@ -1,4 +1,4 @@
-// The shaders that cmake/EmbedShaders.cmake compiles in.
+// The shaders that cmake/EmbedFiles.cmake compiles in.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "lab/baked_atlas.hpp"
 
+#include "lab/reference_picture.hpp"
+
 namespace clgi::lab {
 
 io::Image baked_image(const AtlasLayout& atlas, const std::vector<glm::vec3>& irradiance,
                       const std::string& effects, bool dilate) {
-    io::Image out;
-    out.width = atlas.size;
-    out.height = atlas.size * atlas.pages;
-    out.attributes = {{"clgi:quantity", "irradiance"},
-                      {"clgi:unit", "lux"},
-                      {"clgi:effects", effects},
-                      {"clgi:uv_set", std::to_string(atlas.uv_set)}};
-    const std::size_t texels =
-        static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
-    for (const char* name : {"R", "G", "B", "A"})
-        out.channels.push_back({name, std::vector<float>(texels, 0.0f)});
+    io::Image out = blank_irradiance(atlas.size, atlas.size * atlas.pages, {"R", "G", "B", "A"});
+    out.attributes["clgi:effects"] = effects;
+    out.attributes["clgi:uv_set"] = std::to_string(atlas.uv_set);
     const auto put = [&](std::size_t texel, const glm::vec3& value, float alpha) {
-        for (int c = 0; c < 3; ++c)
-            out.channels[static_cast<std::size_t>(c)].values[texel] = value[c];
+        set_rgb(out, texel, value);
         out.channels[3].values[texel] = alpha;
     };
     for (std::size_t i = 0; i < atlas.texels.size(); ++i)

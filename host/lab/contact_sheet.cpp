@@ -3,18 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
-#include "lab/lettering.hpp"
 #include "lab/preview.hpp"
 
 namespace clgi::lab {
 namespace {
-
-constexpr int columns = 3;
 
 std::string time_text(double milliseconds) {
     return milliseconds < 999.5 ? fmt::format("{:.3g} ms", milliseconds)
@@ -28,26 +25,6 @@ std::array<std::string, 2> caption_of(const SweepPoint& point) {
     if (samples != point.knobs.end()) cost += ", " + samples->second + " samples a pixel";
     return {fmt::format("{}: error {:.1f} %", point.method, 100.0 * point.error.front()), cost};
 }
-
-// Lengths in pixels, most of them in the height of the text.
-struct Layout {
-    explicit Layout(const Sweep& sweep, const std::vector<SheetPanel>& panels)
-        : text(std::max(9.0, sweep.width / 32.0)) {
-        double widest = sweep.width;
-        for (const SheetPanel& panel : panels)
-            for (const std::string& line : panel.caption)
-                widest = std::max(widest, text_width(line, text));
-        gap = lengths(1.0);
-        cell = static_cast<int>(std::ceil(widest));
-        below = lengths(4.4);
-    }
-    int lengths(double n) const { return static_cast<int>(std::lround(n * text)); }
-
-    double text;
-    int gap = 0;    // around all cells
-    int cell = 0;   // width
-    int below = 0;  // what captions add to the height of a picture
-};
 
 }  // namespace
 
@@ -71,46 +48,32 @@ Sheet contact_sheet(const Sweep& sweep, double milliseconds) {
     if (sweep.of != SweepOf::pictures)
         throw Error("contact_sheet: the sweep is of texels or vertices, one of pictures needed");
     const SweepTruth& truth = sweep.truths.front();
-    Sheet out;
-    out.panels.push_back({&truth.picture,
-                          {"ground truth, by path tracing",
-                           fmt::format("standard error {:.1f} %", 100.0 * truth.noise)}});
+    Sheet out = {{&truth.picture,
+                  {"ground truth, by path tracing",
+                   fmt::format("standard error {:.1f} %", 100.0 * truth.noise)}}};
     std::vector<std::string> methods = sweep.methods;
     methods.emplace_back(path_tracer_name);
     for (const std::string& method : methods)
         if (const SweepPoint* point = shown_point(sweep, method, milliseconds))
-            out.panels.push_back({&point->picture, caption_of(*point)});
-
-    const Layout layout(sweep, out.panels);
-    out.text = layout.text;
-    const int count = static_cast<int>(out.panels.size());
-    const int across = std::min(count, columns), down = (count + columns - 1) / columns;
-    for (int i = 0; i < count; ++i) {
-        SheetPanel& panel = out.panels[static_cast<std::size_t>(i)];
-        panel.left = layout.gap + i % columns * (layout.cell + layout.gap);
-        panel.top = layout.gap + i / columns * (sweep.height + layout.below);
-    }
-    out.width = layout.gap + across * (layout.cell + layout.gap);
-    out.height = layout.gap + down * (sweep.height + layout.below);
+            out.push_back({&point->picture, caption_of(*point)});
     return out;
 }
 
 Raster draw_sheet(const Sheet& sheet) {
-    Raster out(sheet.width, sheet.height, paper);
-    const float exposure = preview_exposure(*sheet.panels.front().picture);
-    for (const SheetPanel& panel : sheet.panels) {
-        Raster picture;
-        picture.width = panel.picture->width;
-        picture.height = panel.picture->height;
-        picture.rgba = preview(*panel.picture, exposure);
-        out.put(picture, panel.left, panel.top);
-        double top = panel.top + picture.height + 0.7 * sheet.text;
-        for (const std::string& line : panel.caption) {
-            draw_text(out, line, panel.left, top, sheet.text, ink);
-            top += 1.6 * sheet.text;
-        }
+    const Drawing drawing;
+    const float exposure = preview_exposure(*sheet.front().picture);
+    nlohmann::ordered_json panels;
+    Raster out;
+    for (const auto& [picture, caption] : sheet) {
+        const Raster panel{picture->width, picture->height, preview(*picture, exposure)};
+        const std::string name = fmt::format("{}.png", panels.size());
+        drawing.add(name, panel);
+        panels.push_back({{"picture", name}, {"lines", caption}});
+        out.width = panel.width;
+        out.height += panel.height;
+        out.rgba.insert(out.rgba.end(), panel.rgba.begin(), panel.rgba.end());
     }
-    return out;
+    return drawing.draw("sheet", panels).empty() ? drawing.picture("sheet.png") : out;
 }
 
 }  // namespace clgi::lab

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/raster.hpp"
+#include "lab/drawing.hpp"
 #include "lab/sweep.hpp"
 
 namespace clgi::lab {
@@ -18,22 +18,16 @@ const SweepPoint* shown_point(const Sweep& sweep, const std::string& method, dou
 
 struct SheetPanel {
     const io::Image* picture = nullptr;  // in the sweep
-    std::array<std::string, 2> caption;  // two lines, in letters of lettering.hpp
-    int left = 0, top = 0;               // of the picture in the sheet, pixels
+    std::array<std::string, 2> caption;  // two lines
 };
+using Sheet = std::vector<SheetPanel>;
 
-struct Sheet {
-    int width = 0, height = 0;
-    double text = 0.0;  // height of a digit, pixels
-    std::vector<SheetPanel> panels;
-};
-
-// Three columns: the first truth, a panel for each of the sweep's methods, in their order, and the
-// path tracer. Methods without such a point have no panel. Throws Error for a sweep that is not of
-// pictures.
+// The first truth, a panel for each of the sweep's methods, in their order, and the path tracer.
+// Methods without such a point have no panel. Throws Error for a sweep that is not of pictures.
 Sheet contact_sheet(const Sweep& sweep, double milliseconds);
 
-// All pictures with the exposure of the truth, on white paper.
+// All pictures with the exposure of the first, in three columns with their captions; below each
+// other and without captions where nothing can be drawn.
 Raster draw_sheet(const Sheet& sheet);
 
 }  // namespace clgi::lab

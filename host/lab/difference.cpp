@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "lab/difference.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "io/image_formats.hpp"
 #include "lab/hdr_flip.hpp"
@@ -88,19 +91,39 @@ DifferencePicture difference_picture(const io::Image& a, const io::Image& b,
     double size = options.scale;
     if (!(size > 0.0)) size = is_flip ? 1.0 : chosen_scale(values, pixels);
 
-    DifferencePicture picture{Raster(a.width, a.height, uncounted_color),
-                              scale_of(options.shown, size)};
+    DifferencePicture picture{{a.width, a.height, {}}, scale_of(options.shown, size)};
     const auto color_of = options.shown == Shown::difference ? diverging_color : sequential_color;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (pixels[i] == Pixel::does_not) continue;
         // Where nothing differs the scale is 0, and so are all values.
-        const Color color = pixels[i] == Pixel::nonfinite
+        const Color color = pixels[i] == Pixel::does_not ? uncounted_color
+                            : pixels[i] == Pixel::nonfinite
                                 ? nonfinite_color
                                 : color_of(size > 0.0 ? values[i] / size : 0.0);
-        std::copy(color.begin(), color.end(),
-                  picture.raster.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+        picture.raster.rgba.insert(picture.raster.rgba.end(), {color[0], color[1], color[2], 255});
     }
     return picture;
+}
+
+Raster with_scale_bar(const Raster& picture, const Scale& scale) {
+    const Drawing drawing;
+    drawing.add("picture.png", picture);
+    nlohmann::ordered_json data = {
+        {"from", scale.from}, {"to", scale.to}, {"caption", scale.caption}};
+    for (int i = 0; i < 256; ++i) data["colors"].push_back(scale.color(i / 255.0));
+    const std::string why = drawing.draw("scale_bar", data);
+    if (why.empty()) return drawing.picture("scaled.png");
+    fmt::print(stderr, "clgi: no scale bar: {}\n", why);
+    return picture;
+}
+
+double round_up(double value) {
+    if (!(value > 0.0)) return 0.0;
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double step : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+        // A quotient of decimal fractions may miss its own step by its last bits.
+        if (value <= step * power * (1.0 + 1e-12)) return step * power;
+    }
+    return 10.0 * power;
 }
 
 }  // namespace clgi::lab

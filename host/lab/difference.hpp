@@ -3,11 +3,13 @@
 #pragma once
 
 #include <clgi/io/image.hpp>
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "lab/color_map.hpp"
+#include "lab/drawing.hpp"
 #include "lab/mask.hpp"
-#include "lab/raster.hpp"
-#include "lab/scale_bar.hpp"
 
 namespace clgi::lab {
 
@@ -24,6 +26,14 @@ struct DifferenceOptions {
     const std::vector<float>* flip = nullptr;  // hdr_flip of the pictures, if it is there already
 };
 
+// What the colours of a picture mean.
+struct Scale {
+    double from = 0.0;  // the value at the left end of a bar
+    double to = 1.0;
+    std::function<Color(double)> color;  // of a value from 0, the left end, to 1
+    std::string caption;                 // what is measured
+};
+
 struct DifferencePicture {
     Raster raster;
     Scale scale;  // to: what has the full colour
@@ -34,5 +44,14 @@ struct DifferencePicture {
 // Throws InputError as compare does.
 DifferencePicture difference_picture(const io::Image& a, const io::Image& b,
                                      const DifferenceOptions& options = {});
+
+// The picture on white paper with a bar below it that has the numbers of its colours; a narrow
+// picture gets paper at both sides. Where no bar can be drawn, the picture alone, and a line on
+// stderr that says why.
+Raster with_scale_bar(const Raster& picture, const Scale& scale);
+
+// The smallest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not below
+// value, whose quarters have short labels; 0 for 0.
+double round_up(double value);
 
 }  // namespace clgi::lab

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "lab/reference_atlas.hpp"
 
-#include <fmt/format.h>
-
 #include <clgi/error.hpp>
 
 #include "lab/hash.hpp"
@@ -46,26 +44,11 @@ AtlasPlaces atlas_places(const Scene& scene, const AtlasLayout& layout) {
 
 io::Image atlas_image(const AtlasPlaces& atlas, const reference::Irradiance& irradiance,
                       const std::string& effects) {
-    io::Image out;
-    out.width = atlas.size;
-    out.height = atlas.size * atlas.pages;
-    out.attributes = {{"clgi:quantity", "irradiance"},
-                      {"clgi:unit", "lux"},
-                      {"clgi:effects", effects.empty() ? "all" : effects},
-                      {"clgi:samples", std::to_string(irradiance.samples)},
-                      {"clgi:relative_error", fmt::format("{:.6g}", irradiance.relative_error)},
-                      {"clgi:uv_set", std::to_string(atlas.uv_set)}};
-    const std::size_t texels =
-        static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
-    for (const char* name : {"R", "G", "B", "A", "error.Y"})
-        out.channels.push_back({name, std::vector<float>(texels, 0.0f)});
-    for (std::size_t i = 0; i < atlas.texels.size(); ++i) {
-        const std::size_t texel = atlas.texels[i];
-        for (int c = 0; c < 3; ++c)
-            out.channels[static_cast<std::size_t>(c)].values[texel] = irradiance.values[i][c];
-        out.channels[3].values[texel] = 1.0f;
-        out.channels[4].values[texel] = irradiance.error[i];
-    }
+    io::Image out = irradiance_image(
+        blank_irradiance(atlas.size, atlas.size * atlas.pages, {"R", "G", "B", "A", "error.Y"}),
+        atlas.texels, irradiance, effects);
+    out.attributes["clgi:uv_set"] = std::to_string(atlas.uv_set);
+    for (const std::uint32_t texel : atlas.texels) out.channels[3].values[texel] = 1.0f;
     return out;
 }
 
@@ -74,20 +57,10 @@ io::Image cached_atlas(const reference::PathTracer& tracer, const AtlasPlaces& a
                        const std::filesystem::path& file, const std::string& scene,
                        const Progress& progress) {
     Hash hash;
-    hash.add(tracer_version);
-    for (const char c : scene + effects) hash.add(c);
-    hash.add(atlas.size);
-    hash.add(atlas.pages);
-    hash.add(atlas.texels);
-    for (const reference::Place& place : atlas.places) {
-        hash.add(place.position);
-        hash.add(place.normal);
-        hash.add(place.geometric);
-    }
-    hash.add(options.samples);
-    hash.add(options.target);
-    hash.add(options.seed);
-    hash.add(options.roulette_depth);
+    hash.add(tracer_version, scene, effects, atlas.size, atlas.pages, atlas.texels);
+    for (const reference::Place& place : atlas.places)
+        hash.add(place.position, place.normal, place.geometric);
+    hash.add(options.samples, options.target, options.seed, options.roulette_depth);
     return kept_image(file, "atlas " + hash.text(), [&] {
         const reference::Irradiance found = tracer.irradiance(atlas.places, options, progress);
         return found.cancelled ? io::Image() : atlas_image(atlas, found, effects);

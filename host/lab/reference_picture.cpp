@@ -11,32 +11,20 @@
 namespace clgi::lab {
 namespace {
 
-void add_slot(Hash& hash, const TextureSlot& slot) {
-    hash.add(slot.texture);
-    hash.add(slot.uv_set);
-    hash.add(slot.transform);
-}
-
 std::string picture_key(const std::string& scene, const Camera& camera,
                         const reference::Options& options) {
     Hash hash;
-    hash.add(tracer_version);
-    for (const char c : scene) hash.add(c);
-    hash.add(camera.kind);
-    hash.add(camera.position);
-    hash.add(camera.right);
-    hash.add(camera.up);
-    hash.add(camera.forward);
-    hash.add(camera.vertical_fov);
-    hash.add(camera.half_height);
-    hash.add(camera.near);
-    hash.add(options.width);
-    hash.add(options.height);
-    hash.add(options.samples);
-    hash.add(options.target);
-    hash.add(options.seed);
-    hash.add(options.roulette_depth);
+    hash.add(tracer_version, scene, camera.kind, camera.position, camera.right, camera.up,
+             camera.forward, camera.vertical_fov, camera.half_height, camera.near, options.width,
+             options.height, options.samples, options.target, options.seed, options.roulette_depth);
     return hash.text();
+}
+
+std::map<std::string, std::string> traced_attributes(const std::string& effects, int samples,
+                                                     double relative_error) {
+    return {{"clgi:effects", effects.empty() ? "all" : effects},
+            {"clgi:samples", std::to_string(samples)},
+            {"clgi:relative_error", fmt::format("{:.6g}", relative_error)}};
 }
 
 }  // namespace
@@ -45,11 +33,9 @@ io::Image reference_image(const reference::Picture& picture, const std::string& 
     io::Image out;
     out.width = picture.width;
     out.height = picture.height;
-    out.attributes = {{"clgi:quantity", "radiance"},
-                      {"clgi:unit", "cd/m^2"},
-                      {"clgi:effects", effects.empty() ? "all" : effects},
-                      {"clgi:samples", std::to_string(picture.samples)},
-                      {"clgi:relative_error", fmt::format("{:.6g}", picture.relative_error)}};
+    out.attributes = traced_attributes(effects, picture.samples, picture.relative_error);
+    out.attributes["clgi:quantity"] = "radiance";
+    out.attributes["clgi:unit"] = "cd/m^2";
     for (int c = 0; c < 3; ++c) {
         io::Image::Channel channel{std::string(1, "RGB"[c]), {}};
         for (const glm::vec3& radiance : picture.radiance) channel.values.push_back(radiance[c]);
@@ -59,6 +45,32 @@ io::Image reference_image(const reference::Picture& picture, const std::string& 
     return out;
 }
 
+io::Image blank_irradiance(int width, int height, const std::vector<const char*>& planes) {
+    io::Image out;
+    out.width = width;
+    out.height = height;
+    out.attributes = {{"clgi:quantity", "irradiance"}, {"clgi:unit", "lux"}};
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    for (const char* name : planes)
+        out.channels.push_back({name, std::vector<float>(pixels, 0.0f)});
+    return out;
+}
+
+void set_rgb(io::Image& picture, std::size_t pixel, const glm::vec3& color) {
+    for (int c = 0; c < 3; ++c)
+        picture.channels[static_cast<std::size_t>(c)].values[pixel] = color[c];
+}
+
+io::Image irradiance_image(io::Image blank, const std::vector<std::uint32_t>& pixels,
+                           const reference::Irradiance& found, const std::string& effects) {
+    blank.attributes.merge(traced_attributes(effects, found.samples, found.relative_error));
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        set_rgb(blank, pixels[i], found.values[i]);
+        blank.channels.back().values[pixels[i]] = found.error[i];
+    }
+    return blank;
+}
+
 double stated_error(const io::Image& picture) {
     const auto found = picture.attributes.find("clgi:relative_error");
     return found == picture.attributes.end() ? 0.0 : std::atof(found->second.c_str());
@@ -66,44 +78,23 @@ double stated_error(const io::Image& picture) {
 
 std::string scene_key(const Scene& scene) {
     Hash hash;
-    hash.add(scene.positions);
-    hash.add(scene.normals);
-    hash.add(scene.uvs);
-    hash.add(scene.colors);
-    hash.add(scene.triangles);
+    hash.add(scene.positions, scene.normals, scene.uvs, scene.colors, scene.triangles);
     for (const Material& material : scene.materials) {
-        hash.add(material.base_color);
-        add_slot(hash, material.base_texture);
-        hash.add(material.metallic);
-        hash.add(material.roughness);
-        hash.add(material.emission);
-        add_slot(hash, material.emission_texture);
-        hash.add(material.alpha_mode);
-        hash.add(material.alpha_cutoff);
-        hash.add(material.double_sided);
+        const TextureSlot &base = material.base_texture, &emission = material.emission_texture;
+        hash.add(material.base_color, base.texture, base.uv_set, base.transform, material.metallic,
+                 material.roughness, material.emission, emission.texture, emission.uv_set,
+                 emission.transform, material.alpha_mode, material.alpha_cutoff,
+                 material.double_sided);
     }
-    for (const Texture& texture : scene.textures) {
-        hash.add(texture.rgba);
-        hash.add(texture.width);
-        hash.add(texture.wrap_s);
-        hash.add(texture.wrap_t);
-        hash.add(texture.nearest);
-        hash.add(texture.srgb);
-    }
-    for (const Light& light : scene.lights) {
-        hash.add(light.kind);
-        hash.add(light.position);
-        hash.add(light.direction);
-        hash.add(light.intensity);
-        hash.add(light.range);
-        hash.add(light.inner_angle);
-        hash.add(light.outer_angle);
-    }
+    for (const Texture& texture : scene.textures)
+        hash.add(texture.rgba, texture.width, texture.wrap_s, texture.wrap_t, texture.nearest,
+                 texture.srgb);
+    for (const Light& light : scene.lights)
+        hash.add(light.kind, light.position, light.direction, light.intensity, light.range,
+                 light.inner_angle, light.outer_angle);
     if (scene.environment) {
-        hash.add(scene.environment->texels);
-        hash.add(scene.environment->width);
-        hash.add(scene.environment->factor);
-        hash.add(scene.environment->rotation);
+        hash.add(scene.environment->texels, scene.environment->width, scene.environment->factor,
+                 scene.environment->rotation);
     }
     return hash.text();
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace clgi::lab {
 
@@ -15,6 +16,14 @@ inline constexpr int tracer_version = 2;
 
 // R, G, B and error.Y, with quantity, unit, effects, samples and relative error as attributes.
 io::Image reference_image(const reference::Picture& picture, const std::string& effects);
+
+// Planes of irradiance in lux, all 0: "R", "G", "B" first.
+io::Image blank_irradiance(int width, int height, const std::vector<const char*>& planes);
+void set_rgb(io::Image& picture, std::size_t pixel, const glm::vec3& color);
+
+// The same with what was found at some pixels, and its error in the plane error.Y, the last one.
+io::Image irradiance_image(io::Image blank, const std::vector<std::uint32_t>& pixels,
+                           const reference::Irradiance& found, const std::string& effects);
 
 // The relative error that such a picture states of itself; 0 when it states none.
 double stated_error(const io::Image& picture);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <clgi/reference.hpp>
 #include <iterator>
@@ -30,10 +29,7 @@ public:
           places_(atlas_places(setup.scene, layout_)) {}
 
     Sweep operator()() {
-        out_.of = SweepOf::atlas;
-        out_.scene = setup_.scene.name;
-        out_.device = describe(setup_.queue.getInfo<CL_QUEUE_DEVICE>());
-        out_.triangles = setup_.scene.triangles.size();
+        out_ = sweep_of(SweepOf::atlas, setup_);
         out_.width = layout_.size;
         out_.height = layout_.size * layout_.pages;
         out_.methods = {atlas_gather, atlas_project};
@@ -50,7 +46,11 @@ public:
         progress_.part(0.0, 0.3);
         find_truth(tracer);
         progress_.part(0.3, 0.2);
-        if (setup_.path_tracer) trace(tracer);
+        if (setup_.path_tracer)
+            trace_irradiance(
+                out_, setup_, out_.truths.front(), tracer, places_.places,
+                [&](const auto& found) { return atlas_image(places_, found, effects); }, counted_,
+                progress_);
         progress_.part(0.5, 0.5);
         if (setup_.solver) bake();
         mark_fronts(out_);
@@ -69,21 +69,13 @@ private:
         return found;
     }
 
-    reference::Options tracing(int samples, std::uint64_t seed) const {
-        reference::Options options;
-        options.effects = reference::parse_effects(effects);
-        options.samples = samples;
-        options.seed = seed;
-        return options;
-    }
-
     // Counted are texels that both the truth and the bakes have.
     void find_truth(const reference::PathTracer& tracer) {
         SweepTruth truth{"full", effects, {}, 0.0};
         truth.picture =
             !atlas_.reference.empty()
                 ? given_reference()
-                : cached_atlas(tracer, places_, tracing(setup_.reference_samples, 1), effects,
+                : cached_atlas(tracer, places_, tracing(effects, setup_.reference_samples), effects,
                                setup_.folder / "reference-atlas.exr", scene_key(setup_.scene),
                                [&](double done) { return progress_.goes_on(done); });
         if (truth.picture.channels.empty()) throw_cancelled();
@@ -100,27 +92,6 @@ private:
                 "needed",
                 atlas_.reference.string(), counted_.pixels, places_.texels.size()));
         out_.truths.push_back(std::move(truth));
-    }
-
-    void trace(const reference::PathTracer& tracer) {
-        const int most = setup_.quick ? 16 : 256;
-        double done = 0.0;
-        for (int samples = 1; samples <= most; samples *= 4) {
-            const double share = 0.75 * samples / most;  // of a sum of powers of four
-            const reference::Irradiance found = tracer.irradiance(
-                places_.places, tracing(samples, 77),  // not the truth's
-                [&](double part) { return progress_.goes_on(done + share * part); });
-            if (found.cancelled) throw_cancelled();
-            done += share;
-            SweepPoint point;
-            point.method = path_tracer_name;
-            point.series = out_.truths.front().name;
-            point.knobs = {{"spp", std::to_string(samples)}};
-            point.milliseconds = 1e3 * found.seconds;
-            point.picture = atlas_image(places_, found, effects);
-            judge(point, out_.truths, &counted_);
-            out_.points.push_back(std::move(point));
-        }
     }
 
     // What one bake costs, about: lookups of texels, drawing, and soft shadows of projections.

@@ -63,13 +63,6 @@ void add_series(const Sweep& sweep, const std::string& series,
                                   })));
 }
 
-std::string knobs_text(const SweepPoint& point) {
-    std::string out;
-    for (const auto& [name, value] : point.knobs)
-        out += (out.empty() ? "" : ", ") + name + " " + value;
-    return out;
-}
-
 Floor floor_of(const Sweep& sweep, const std::string& series, const std::string& knob,
                std::size_t truth) {
     const auto points = points_of(sweep, series);

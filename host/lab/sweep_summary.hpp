@@ -67,9 +67,6 @@ struct AtEqualError {
 std::vector<AtEqualError> at_equal_error(const Sweep& sweep, const std::string& slow,
                                          const std::string& quick, std::size_t truth);
 
-// "vpls 400, bounces all"
-std::string knobs_text(const SweepPoint& point);
-
 std::vector<std::string> summary(const Sweep& sweep);
 // What is particular to a kind of sweep; summary() has it.
 std::vector<std::string> pictures_summary(const Sweep& sweep);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <clgi/reference.hpp>
 #include <optional>
@@ -52,10 +51,7 @@ public:
 
     Sweep operator()() {
         const auto count = static_cast<int>(scene_.positions.size());
-        out_.of = SweepOf::vertices;
-        out_.scene = scene_.name;
-        out_.device = describe(setup_.queue.getInfo<CL_QUEUE_DEVICE>());
-        out_.triangles = scene_.triangles.size();
+        out_ = sweep_of(SweepOf::vertices, setup_);
         out_.width = std::min(count, most_columns);
         out_.height = (count + most_columns - 1) / most_columns;
         out_.methods = {transfer_fine, transfer_levels, transfer_sets};
@@ -113,49 +109,24 @@ private:
         smooth_.environment = picture_of_light(light_, smooth_texels);
     }
 
-    reference::Options tracing(int samples, std::uint64_t seed) const {
-        reference::Options options;
-        options.effects = reference::parse_effects(effects);
-        options.samples = samples;
-        options.seed = seed;
-        return options;
-    }
-
-    io::Image blank() const {
-        io::Image out;
-        out.width = out_.width;
-        out.height = out_.height;
-        out.attributes = {{"clgi:quantity", "irradiance"}, {"clgi:unit", "lux"}};
-        for (const char* name : {"R", "G", "B"})
-            out.channels.push_back({name, std::vector<float>(counted_.counts.size(), 0.0f)});
-        return out;
-    }
+    io::Image blank() const { return blank_irradiance(out_.width, out_.height, {"R", "G", "B"}); }
 
     io::Image image_of(const reference::Irradiance& found) const {
-        io::Image out = blank();
-        out.attributes["clgi:effects"] = effects;
-        out.attributes["clgi:samples"] = std::to_string(found.samples);
-        out.attributes["clgi:relative_error"] = fmt::format("{:.6g}", found.relative_error);
-        out.channels.push_back({"error.Y", std::vector<float>(counted_.counts.size(), 0.0f)});
-        for (std::size_t i = 0; i < vertices_.size(); ++i) {
-            for (int c = 0; c < 3; ++c)
-                out.channels[static_cast<std::size_t>(c)].values[vertices_[i]] = found.values[i][c];
-            out.channels[3].values[vertices_[i]] = found.error[i];
-        }
-        return out;
+        return irradiance_image(
+            blank_irradiance(out_.width, out_.height, {"R", "G", "B", "error.Y"}), vertices_, found,
+            effects);
     }
 
     void find_truth(const std::string& name, const reference::PathTracer& tracer,
                     const Scene& scene, double from) {
         progress_.part(from, 0.2);
         Hash hash;
-        hash.add(tracer_version);
-        hash.add(setup_.reference_samples);
+        hash.add(tracer_version, setup_.reference_samples);
         SweepTruth truth{name, effects, {}, 0.0};
         truth.picture = kept_image(setup_.folder / ("reference-" + name + ".exr"),
                                    "vertices " + hash.text() + " " + scene_key(scene), [&] {
                                        const reference::Irradiance found = tracer.irradiance(
-                                           places_, tracing(setup_.reference_samples, 1),
+                                           places_, tracing(effects, setup_.reference_samples),
                                            [&](double done) { return progress_.goes_on(done); });
                                        return found.cancelled ? io::Image() : image_of(found);
                                    });
@@ -178,21 +149,9 @@ private:
 
     void trace(const reference::PathTracer& tracer, IrradianceTruth truth, double from) {
         progress_.part(from, 0.1);
-        const int most = setup_.quick ? 16 : 256;
-        for (int samples = 1; samples <= most; samples *= 4) {
-            const reference::Irradiance found =
-                tracer.irradiance(places_, tracing(samples, 77),  // not the truth's
-                                  [&](double) { return progress_.goes_on(0.0); });
-            if (found.cancelled) throw_cancelled();
-            SweepPoint point;
-            point.method = path_tracer_name;
-            point.series = out_.truths[truth].name;
-            point.knobs = {{"spp", std::to_string(samples)}};
-            point.milliseconds = 1e3 * found.seconds;
-            point.picture = image_of(found);
-            judge(point, out_.truths, &counted_);
-            out_.points.push_back(std::move(point));
-        }
+        trace_irradiance(
+            out_, setup_, out_.truths[truth], tracer, places_,
+            [&](const auto& found) { return image_of(found); }, counted_, progress_);
     }
 
     // What the solver says under the scene's own environment.
@@ -217,9 +176,7 @@ private:
         for (const std::uint32_t v : vertices_) {
             glm::dvec3 sum(0.0);
             for (std::size_t i = 0; i < terms; ++i) sum += double{vectors.front[i][v]} * light_[i];
-            for (std::size_t c = 0; c < 3; ++c)
-                out.channels[c].values[v] =
-                    static_cast<float>(std::max(sum[static_cast<int>(c)], 0.0));
+            set_rgb(out, v, glm::vec3(glm::max(sum, 0.0)));
         }
         return out;
     }

@@ -211,21 +211,51 @@ TEST_F(SmallSweep, WritesFilesThatStandAlone) {
     const auto json = nlohmann::json::parse(text(out.path() / "sweep.json"));
     EXPECT_EQ(json.at("points").size(), made().points.size());
     EXPECT_EQ(json.at("speedups").size(), static_cast<std::size_t>(picture_truths));
+    if (!why.empty()) {
+        EXPECT_NE(text(out.path() / "index.html").find(why), std::string::npos);
+        GTEST_SKIP() << why;
+    }
     const std::string page = text(out.path() / "index.html");
     EXPECT_NE(page.find("clgi sweep &lt;me&gt;"), std::string::npos);
     for (const char* outside : {"src=\"http", "href=\"http", "src=\"/", "<link", "<script"})
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
-    if (!why.empty()) GTEST_SKIP() << why;
     EXPECT_NE(page.find("<svg"), std::string::npos);
-    const std::string plot = text(out.path() / "error-full.svg");
-    EXPECT_NE(plot.find("</svg>"), std::string::npos);
-    EXPECT_EQ(plot.find("left out"), std::string::npos);
+}
+
+// How often a text has another one in it.
+std::size_t count_of(const std::string& what, const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+        ++count;
+    return count;
+}
+
+TEST_F(SmallSweep, PlotsErrorAgainstTime) {
+    const test::TempFolder out;
+    const auto plot_of = [&](const Sweep& sweep) {
+        const std::string why = save_sweep(sweep, {"clgi sweep", "1.2.3"}, out.path());
+        return why.empty() ? text(out.path() / "error-full.svg") : std::string();
+    };
+    const std::string plot = plot_of(made());
+    if (plot.empty()) GTEST_SKIP() << "nothing can be drawn";
+    for (const char* words :
+         {"milliseconds a frame", "relative error, %", "second-order, all settings",
+          "second-order, front", "path tracer", "Error against the full reference<", "</svg>"})
+        EXPECT_NE(plot.find(words), std::string::npos) << words;
+    // A marker for each point, between the name of this group and the next.
+    const std::size_t from = plot.find("<g id=\"second-order, all settings\"");
+    ASSERT_NE(from, std::string::npos);
+    const std::size_t to = plot.find("<g id=", from + 1);
+    EXPECT_EQ(count_of("<use ", plot.substr(from, to - from)),
+              static_cast<std::size_t>(
+                  std::count_if(made().points.begin(), made().points.end(), [](const auto& point) {
+                      return point.method == second_order_method && point.error[all_light] > 0.0;
+                  })));
     // A setting that diverged does not press the others to the floor.
     Sweep diverged = made();
     diverged.points.back().error[all_light] = 1e36;
-    std::string reason;
-    const std::string beside = error_plot(diverged, all_light, out.path(), reason);
-    EXPECT_NE(beside.find("(1 above 1000 % left out)"), std::string::npos) << reason;
+    const std::string beside = plot_of(diverged);
+    EXPECT_NE(beside.find("(1 above 1000 % left out)"), std::string::npos);
     EXPECT_EQ(beside.find("10000000"), std::string::npos);
     // Each reason is counted for itself.
     ASSERT_GE(diverged.points.size(), 8u);
@@ -236,10 +266,9 @@ TEST_F(SmallSweep, WritesFilesThatStandAlone) {
     last(3).error[all_light] = std::numeric_limits<double>::infinity();
     last(4).error[all_light] = 0.0;
     last(5).given_up = true;
-    const std::string counted = error_plot(diverged, all_light, out.path(), reason);
-    EXPECT_NE(counted.find("(1 diverged, 2 not finite, 1 above 1000 %, 1 within noise left out)"),
-              std::string::npos)
-        << reason;
+    EXPECT_NE(plot_of(diverged).find(
+                  "(1 diverged, 2 not finite, 1 above 1000 %, 1 within noise left out)"),
+              std::string::npos);
 }
 
 // What was given up shows direct light in little time: it would be the front.
