@@ -22,23 +22,32 @@ void add_ask_flags(CLI::App& command, AskFlags& flags) {
                         "second-order: against its converged picture")
             ->type_name("E")
             ->default_str("none");
-    CLI::Option* time =
+    CLI::Option* budget =
         command
             .add_option("--time-budget", flags.time_budget,
-                        "Find the settings for this time: 33ms or 0.5s; auto: of a picture with "
-                        "all before it, second-order: of a frame")
+                        "Find the settings with which a picture and all before it take this time: "
+                        "0.5s; as clgi plan")
             ->type_name("T")
             ->default_str("none");
+    CLI::Option* frame =
+        command
+            .add_option("--frame-time", flags.frame_time,
+                        "Find the settings for frames of this time: 33ms; with --fps by a plan, "
+                        "otherwise second-order by trial pictures")
+            ->type_name("T")
+            ->default_str("none")
+            ->excludes(budget);
     for (const char* setting : {"--vpls", "--negative-vpls", "--low-res", "--low-res-step"})
-        for (CLI::Option* asked : {error, time}) asked->excludes(command.get_option(setting));
+        for (CLI::Option* asked : {error, budget, frame})
+            asked->excludes(command.get_option(setting));
 }
 
 TuningTarget request_of(const std::string& command, const AskFlags& flags) {
     TuningTarget request;
     if (!flags.target_error.empty())
         request.error = parse_percent(command, "--target-error", flags.target_error);
-    if (!flags.time_budget.empty())
-        request.frame_ms = parse_milliseconds(command, "--time-budget", flags.time_budget);
+    if (!flags.frame_time.empty())
+        request.frame_ms = parse_milliseconds(command, "--frame-time", flags.frame_time);
     return request;
 }
 
@@ -46,7 +55,7 @@ ordered_json ask_json(const AskRecord& record, double delivered_ms) {
     const SecondOrderTuning& found = record.tuning;
     ordered_json asked = ordered_json::object();
     if (record.request.error) asked["target_error"] = *record.request.error;
-    if (record.request.frame_ms) asked["time_budget_ms"] = *record.request.frame_ms;
+    if (record.request.frame_ms) asked["frame_time_ms"] = *record.request.frame_ms;
     const SecondOrderSettings& settings = found.settings;
     ordered_json out = {{"asked", asked}, {"delivered_ms", delivered_ms}};
     out["promised_ms"] = found.frame_ms;
@@ -98,20 +107,20 @@ std::string ask_warning(const AskRecord& record) {
     if (record.request.error && !found.meets_error)
         text = fmt::format(
             "warning: the target error of {:.3g} % is not reached{}; the error is {:.3g} %",
-            100.0 * *record.request.error, record.request.frame_ms ? " within the time budget" : "",
+            100.0 * *record.request.error, record.request.frame_ms ? " within the frame time" : "",
             100.0 * *found.error);
     if (!record.request.frame_ms) return text;
     const auto add = [&](const std::string& more) {
         text += text.empty() ? "warning: " + more : "; " + more;
     };
     if (!found.meets_time)
-        add(fmt::format("{} {:.1f} ms, more than the budget of {:.4g} ms",
+        add(fmt::format("{} {:.1f} ms, more than the frame time of {:.4g} ms",
                         found.settings.vpls == SecondOrderTuning::fewest_vpls
                             ? "even the cheapest settings take"
                             : "times on this machine vary: the chosen settings took",
                         found.frame_ms, *record.request.frame_ms));
     else if (found.settings.vpls == SecondOrderTuning::most_vpls)
-        add(fmt::format("the largest number of lights, {}, does not use up the budget",
+        add(fmt::format("the largest number of lights, {}, does not use up the frame time",
                         SecondOrderTuning::most_vpls));
     return text;
 }

@@ -1,4 +1,5 @@
-// --target-error and --time-budget of render --method second-order: tuning finds the settings.
+// What is asked for instead of settings. --target-error and --frame-time of second-order
+// illumination: tuning finds them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,7 +12,8 @@ namespace clgi::program {
 
 struct AskFlags {
     std::string target_error;  // empty: not asked for
-    std::string time_budget;
+    std::string time_budget;   // of a picture with all before it
+    std::string frame_time;
 };
 void add_ask_flags(CLI::App& command, AskFlags& flags);
 

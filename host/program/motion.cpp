@@ -38,10 +38,11 @@ void prepare_motion(const RenderFlags& flags, Scene& scene) {
         throw Error(fmt::format("render: --fps is {}, 0.001 to 1000000 needed", *flags.fps));
     if (flags.gbuffer != "cl")
         throw Error("render: --fps goes not with --gbuffer gl, which draws the scene as loaded");
-    if (flags.replicates > 1 || !flags.ask.target_error.empty() || !flags.ask.time_budget.empty())
-        throw Error(
-            "render: --fps goes not with --replicates, --target-error and --time-budget; --time "
-            "does");
+    if (flags.replicates > 1) throw Error("render: --fps goes not with --replicates; --time does");
+    if (flags.method == "second-order" && !flags.ask.target_error.empty())
+        throw Error("render: --fps goes not with --target-error of second-order; --time does");
+    if (flags.method == "second-order" && !flags.ask.frame_time.empty())
+        throw Error("render: --fps goes with --frame-time of --method auto alone");
     const std::size_t clip = clip_of("render", scene, flags.animation);
     scene.moving_bounds = motion_bounds(scene, clip);
 }

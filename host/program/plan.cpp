@@ -23,7 +23,7 @@ struct PlanCommand {
     DeviceFlags device;
     EnvironmentFlags environment;
     PlanFlags plan;
-    std::string scene, size, method = "auto", target_error, time_budget;
+    std::string scene, size, method = "auto", target_error, time_budget, frame_time;
     int scene_index = -1, camera = 0;
     bool animated = false, json = false;
 };
@@ -35,6 +35,12 @@ PlanRequest request_of(const PlanCommand& flags) {
         out.error = parse_percent("plan", "--target-error", flags.target_error);
     if (!flags.time_budget.empty())
         out.seconds = 1e-3 * parse_milliseconds("plan", "--time-budget", flags.time_budget);
+    if (flags.animated && !flags.time_budget.empty())
+        throw Error("plan: --time-budget is of one picture; with --animated --frame-time needed");
+    if (!flags.frame_time.empty() && !flags.animated)
+        throw Error("plan: --frame-time goes only with --animated");
+    if (!flags.frame_time.empty())
+        out.seconds = 1e-3 * parse_milliseconds("plan", "--frame-time", flags.frame_time);
     out.animated = flags.animated;
     out.build = build_of(flags.device);
     out.method = method_of(flags.method);
@@ -84,6 +90,11 @@ void add_plan(CLI::App& app) {
     command
         ->add_option("--time-budget", flags->time_budget,
                      "What a picture may take, with all that is done before it: 100ms or 1s")
+        ->type_name("T")
+        ->default_str("none");
+    command
+        ->add_option("--frame-time", flags->frame_time,
+                     "With --animated: what a frame may take: 33ms")
         ->type_name("T")
         ->default_str("none");
     command->add_flag("--animated", flags->animated, "Plan for pictures between which things move");

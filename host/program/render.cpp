@@ -39,13 +39,22 @@ bool is_given(const RenderFlags& flags, const std::string& name) {
                        [&](const OptionRow* row) { return row->name == name; });
 }
 
-// Options of second-order illumination choose it, and so does a G-buffer by OpenGL.
+// Options of second-order illumination choose it, and so do a G-buffer by OpenGL and the time of a
+// frame where nothing moves.
 void choose_method(RenderFlags& flags) {
     const bool second_order = std::any_of(
         flags.given.begin(), flags.given.end(),
         [](const OptionRow* row) { return row->of(of_second_order) && !plan_keeps(*row); });
-    if (flags.method == "auto" && (second_order || flags.gbuffer != "cl" || flags.replicates > 1))
+    const bool frame_time = !flags.ask.frame_time.empty() && !flags.fps;
+    if (flags.method == "auto" &&
+        (second_order || flags.gbuffer != "cl" || flags.replicates > 1 || frame_time))
         flags.method = "second-order";
+}
+
+// A plan finds the settings: always of the method auto, of others where a time for all is asked
+// for.
+bool plans(const RenderFlags& flags) {
+    return flags.method == "auto" || !flags.ask.time_budget.empty();
 }
 
 void check(const RenderFlags& flags) {
@@ -53,20 +62,28 @@ void check(const RenderFlags& flags) {
     const auto refuse = [](bool wrong, const std::string& why) {
         if (wrong) throw Error("render: " + why);
     };
-    const bool asked = !flags.ask.target_error.empty() || !flags.ask.time_budget.empty();
+    const AskFlags& ask = flags.ask;
+    const bool tunes = !plans(flags) && !(ask.target_error.empty() && ask.frame_time.empty());
     const bool second_order = method == "second-order" || method == "direct";
-    const bool planned = method == "auto";
     check_methods("render", flags.given, method);
-    refuse(flags.plan_given && !planned,
-           "--tolerance, --with and --without go only with --method auto");
+    refuse(flags.plan_given && !plans(flags),
+           "--tolerance, --with and --without go only with --method auto or --time-budget");
+    if (!ask.time_budget.empty())
+        for (const OptionRow* row : flags.given)
+            refuse(!plan_keeps(*row), "--" + row->name +
+                                          " goes not with --time-budget, which finds "
+                                          "the settings");
+    refuse(!ask.time_budget.empty() && flags.fps.has_value(),
+           "--time-budget is of one picture; with --fps --frame-time needed");
     refuse(!second_order && flags.replicates > 1, "--replicates goes not with --method " + method);
-    refuse(!second_order && !planned && asked,
-           "--target-error and --time-budget go not with --method " + method);
+    refuse(!second_order && tunes,
+           "--target-error and --frame-time go not with --method " + method);
     refuse(flags.gbuffer != "cl" && !second_order, "--gbuffer gl goes not with --method " + method);
-    refuse(method == "direct" && asked,
-           "--method direct has no settings to find; it excludes --target-error and --time-budget");
-    refuse(flags.gbuffer == "gl" && (asked || flags.replicates > 1),
-           "--gbuffer gl excludes --replicates, --target-error and --time-budget");
+    refuse(method == "direct" && tunes,
+           "--method direct has no settings to find; it excludes --target-error and --frame-time");
+    const bool asks = tunes || !ask.time_budget.empty();
+    refuse(flags.gbuffer == "gl" && (asks || flags.replicates > 1),
+           "--gbuffer gl excludes --replicates, --target-error, --time-budget and --frame-time");
     refuse(flags.coarse > 0 && method != "transfer", "--coarse goes only with --method transfer");
     refuse(is_given(flags, "rings") && flags.coarse == 0, "--rings goes only with --coarse");
     refuse(method == "atlas" && flags.options.vpls.count < 1,
@@ -82,13 +99,13 @@ public:
 
     void run() {
         const bool quiet = flags_.device.quiet;
-        const bool plans = flags_.method == "auto";
+        const bool planned = plans(flags_);
         PictureOptions& picture = options_.picture;
         check_picture("render", flags_.picture, picture.width, picture.height);
-        const TuningTarget target = plans ? TuningTarget() : request_of("render", flags_.ask);
+        const TuningTarget target = planned ? TuningTarget() : request_of("render", flags_.ask);
         const bool tunes = target.frame_ms || target.error;
         scene_ = open_scene(flags_.scene, flags_.scene_index, flags_.environment, quiet,
-                            plans || flags_.method == "atlas");
+                            planned || flags_.method == "atlas");
         check_camera("render", flags_.camera, scene_);
         prepare_motion(flags_, scene_);
         if (flags_.gbuffer == "gl") gl_.emplace();
@@ -97,7 +114,7 @@ public:
                                [&](const cl::Device& device) { return gl_->properties(device); })
                 : open_session(flags_.device);
         const Programs programs(session_.context, session_.device);
-        if (plans) {
+        if (planned) {
             record_.planned = make_render_plan(flags_, session_, programs, scene_);
             options_ = record_.planned->plan;
         } else {

@@ -21,6 +21,9 @@ PlanRequest request_of(const RenderFlags& flags) {
         out.error = parse_percent("render", "--target-error", flags.ask.target_error);
     if (!flags.ask.time_budget.empty())
         out.seconds = 1e-3 * parse_milliseconds("render", "--time-budget", flags.ask.time_budget);
+    if (!flags.ask.frame_time.empty())
+        out.seconds = 1e-3 * parse_milliseconds("render", "--frame-time", flags.ask.frame_time);
+    out.method = method_of(flags.method);
     out.animated = flags.fps.has_value();
     out.lights_change = flags.spin_light;
     out.camera_moves = flags.orbit;
@@ -37,10 +40,9 @@ std::string unmet(const Plan& plan) {
     std::string out;
     if (!plan.meets_time)
         out = fmt::format(
-            "the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of "
-            "--time-budget",
+            "the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of {}",
             plan.request.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
-            1e3 * *plan.request.seconds);
+            1e3 * *plan.request.seconds, plan.request.animated ? "--frame-time" : "--time-budget");
     const auto add = [&](const std::string& more) { out += (out.empty() ? "" : "; ") + more; };
     if (!plan.meets_error && plan.error)
         add(fmt::format("no method is known to reach the error of {:.3g} % in such scenes",

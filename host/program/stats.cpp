@@ -66,10 +66,9 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                              {"error", record.replicates->error},
                              {"single_error", record.replicates->single_error}};
     if (record.bake)
-        out["bake"] = {
-            {"vpls", record.bake->vpls},           {"texels", record.bake->texels},
-            {"pages", record.bake->pages},         {"atlas_size", record.bake->size},
-            {"layout_ms", record.bake->layout_ms}, {"bake_ms", record.prepare_ms}};
+        out["bake"] = {{"vpls", record.bake->vpls},           {"texels", record.bake->texels},
+                       {"pages", record.bake->pages},         {"atlas_size", record.bake->size},
+                       {"layout_ms", record.bake->layout_ms}, {"bake_ms", record.prepare_ms}};
     if (record.transfer)
         out["transfer"] = {{"receivers", record.transfer->receivers},
                            {"triangles", record.transfer->triangles},

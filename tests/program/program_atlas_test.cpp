@@ -221,7 +221,7 @@ TEST_F(AtlasProgram, FlagsOfOneMethodAreNotTheOthers) {
     for (const char* flags :
          {"--method atlas --negative-vpls 10", "--method atlas --low-res off",
           "--method atlas --low-res-step 2", "--method atlas --replicates 3",
-          "--method atlas --time-budget 33ms", "--method atlas --target-error 2%",
+          "--method atlas --frame-time 33ms", "--method atlas --target-error 2%",
           "--method atlas --gbuffer gl", "--method atlas --vpls 0", "--bounces 3",
           "--method direct --atlas-size 64", "--hemicube-size 64", "--refine 2"}) {
         SCOPED_TRACE(flags);

@@ -86,11 +86,30 @@ TEST_F(Program, OverrulesAPlan) {
     EXPECT_EQ(nlohmann::json::parse(read("s.json")).at("method"), "second-order");
 }
 
+// A time for all has one meaning, whatever the method: a plan of that method.
+TEST_F(Program, PlansAMethodForATime) {
+    const std::string scene = make("cornell --light spot");
+    for (const std::string method : {"second-order", "atlas", "antiradiance"}) {
+        SCOPED_TRACE(method);
+        ASSERT_EQ(
+            run("render " + scene + " --size 32x24 --time-budget 0.3s --quiet --method " + method +
+                " -o " + file("a.exr").string() + " --stats " + file("s.json").string())
+                .code,
+            0);
+        const auto stats = nlohmann::json::parse(read("s.json"));
+        EXPECT_EQ(stats.at("method"), method);
+        EXPECT_EQ(stats.at("plan").at("wish").at("seconds"), 0.3);
+        EXPECT_EQ(stats.at("plan").at("wish").at("method"), method);
+        EXPECT_FALSE(stats.contains("ask"));
+    }
+}
+
 TEST_F(Program, RefusesWrongPlans) {
     const std::string scene = make("cornell");
-    for (const char* flags : {"--with caustics", "--without", "--tolerance 0", "--size 0x3",
-                              "--with gloss --without gloss", "--time-budget 3", "--method fast",
-                              "--target-error=-1%", "--camera 3"})
+    for (const char* flags :
+         {"--with caustics", "--without", "--tolerance 0", "--size 0x3",
+          "--with gloss --without gloss", "--time-budget 3", "--method fast", "--frame-time 20ms",
+          "--animated --time-budget 1s", "--target-error=-1%", "--camera 3"})
         expect_one_error_line(run("plan " + scene + " --quiet " + flags), 1);
     expect_one_error_line(run("plan " + file("absent.glb").string()), 2);
     expect_one_error_line(run("plan " + scene + " --quiet --device nobody::"), 3);

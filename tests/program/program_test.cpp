@@ -117,19 +117,19 @@ TEST_F(Program, WrongUseEndsWithOne) {
 }
 
 // Times are the machine's own affair: only that they are told, and that more buys more.
-TEST_F(Program, ATimeBudgetIsAnsweredWithSettings) {
+TEST_F(Program, AFrameTimeIsAnsweredWithSettings) {
     const std::string scene = make("cornell --light spot");
     const auto ask = [&](const std::string& budget) {
         const Outcome outcome = run("render " + scene + " --png " + file("p.png").string() +
-                                    " --method second-order --size 64x48 --time-budget " + budget +
+                                    " --method second-order --size 64x48 --frame-time " + budget +
                                     " --stats " + file("s.json").string());
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         EXPECT_NE(outcome.out.find("promised"), std::string::npos) << outcome.out;
         return nlohmann::json::parse(read("s.json")).at("ask");
     };
     const auto little = ask("15ms"), much = ask("0.12s");
-    EXPECT_EQ(little.at("asked").at("time_budget_ms"), 15.0);
-    EXPECT_EQ(much.at("asked").at("time_budget_ms"), 120.0);
+    EXPECT_EQ(little.at("asked").at("frame_time_ms"), 15.0);
+    EXPECT_EQ(much.at("asked").at("frame_time_ms"), 120.0);
     for (const auto& answer : {little, much}) {
         EXPECT_GT(answer.at("promised_ms"), 0.0);
         EXPECT_GT(answer.at("delivered_ms"), 0.0);
@@ -142,10 +142,10 @@ TEST_F(Program, ATargetOutOfReachIsAWarning) {
     const std::string scene = make("cornell --light spot");
     const Outcome outcome =
         run("render " + scene + " --png " + file("p.png").string() +
-            " --method second-order --size 32x24 --target-error 1% --time-budget 1ms --stats " +
+            " --method second-order --size 32x24 --target-error 1% --frame-time 1ms --stats " +
             file("s.json").string());
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("not reached within the time budget"), std::string::npos)
+    EXPECT_NE(outcome.err.find("not reached within the frame time"), std::string::npos)
         << outcome.err;
     const auto ask = nlohmann::json::parse(read("s.json")).at("ask");
     EXPECT_EQ(ask.at("target_met"), false);
@@ -161,7 +161,9 @@ TEST_F(Program, AResultIsAskedForInsteadOfSettings) {
           "--time-budget=-3ms", "--time-budget soon", "--time-budget 33",
           "--target-error 2% --vpls 100", "--time-budget 33ms --negative-vpls 10",
           "--time-budget 33ms --low-res off", "--target-error 2% --low-res-step 2",
-          "--target-error 2% --method direct", "--target-error 2% --method atlas"})
+          "--target-error 2% --method direct", "--target-error 2% --method atlas",
+          "--frame-time 33ms --vpls 10", "--frame-time soon", "--frame-time 33ms --time-budget 1s",
+          "--frame-time 33ms --method direct", "--time-budget 1s --method atlas --bounces 3"})
         expect_one_error_line(run(render + wrong), 1);
     EXPECT_FALSE(fs::exists(file("p.png")));
 }
