@@ -151,6 +151,34 @@ TEST(Renderer, FollowsLights) {
     }
 }
 
+// A spot wider than 60 degrees needs the six views of a cube, and a lamp may become a sun: buffers
+// grow, whatever the method.
+TEST(Renderer, FollowsLightsThatOutgrowTheirBuffers) {
+    Scene scene = open_scene();
+    scene.lights = {test::spot_light({0.4, 1.5, 0.6}, {-0.2, -1.0, -0.3}, 0.5, 4.0f),
+                    test::point_light({-0.8, 1.0, 0.5}, 0.5f)};
+    scene.lights[0].intensity = {4.0f, 2.0f, 1.0f};
+    Scene changed = scene;
+    changed.lights[0].outer_angle = changed.lights[0].inner_angle = 1.3f;
+    changed.lights[1] = test::directional_light({0.3f, -1.0f, -0.4f}, 0.7f);
+    for (const Method method : all_methods) {
+        SCOPED_TRACE(name_of(method));
+        RendererOptions options = quick(method);
+        options.picture.emitters.shadow_size = 32;  // fewer pixels than a cube
+        options.light_atlas.emitters.shadow_size = 32;
+        Renderer renderer(test::device().queue, scene, options);
+        picture_of(renderer);
+        const std::size_t before = renderer.bytes();
+        for (std::size_t i = 0; i < 2; ++i) renderer.scene().set_light(i, changed.lights[i]);
+        renderer.lights_changed();
+        const Pixels after = picture_of(renderer);
+        Renderer wanted(test::device().queue, changed, options);
+        EXPECT_LT(change(after, picture_of(wanted)), 1e-4);
+        EXPECT_GT(renderer.bytes(), before);
+        EXPECT_EQ(renderer.status().non_finite, 0u);
+    }
+}
+
 TEST(Renderer, FollowsATurnedSky) {
     const Scene scene = open_scene();
     Scene turned = scene;

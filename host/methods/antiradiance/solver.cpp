@@ -123,10 +123,7 @@ AntiradianceSolver::~AntiradianceSolver() = default;
 
 void AntiradianceSolver::lights_changed() {
     State& s = *state_;
-    if (!s.emitters.update(s.options.emitters))
-        throw Error("antiradiance: a light needs more views than before; make another solver");
-    s.record.forget_failed();
-    s.emitters.write(s.record);
+    s.bytes += s.emitters.follow(s.options.emitters, s.record, s.gbuffer);
 }
 
 void AntiradianceSolver::environment_changed() {

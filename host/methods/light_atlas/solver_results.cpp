@@ -51,10 +51,7 @@ LightAtlasSolver::~LightAtlasSolver() = default;
 
 void LightAtlasSolver::lights_changed() {
     State& s = *state_;
-    if (!s.emitters.update(s.options.emitters))
-        throw Error("light-atlas: a light needs more views than before; make another solver");
-    s.record.forget_failed();
-    s.emitters.write(s.record);
+    s.bytes += s.emitters.follow(s.options.emitters, s.record, s.gbuffer);
 }
 
 bool LightAtlasSolver::run(const Progress& progress) { return state_->run(progress, -1.0); }

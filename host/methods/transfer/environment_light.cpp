@@ -19,7 +19,8 @@ EnvironmentProjection projection_of(const DeviceScene& scene, int bands) {
 EnvironmentLight::EnvironmentLight(const DeviceScene& scene, int bands, bool directional)
     : scene_(&scene), projection_(projection_of(scene, bands)), directional_(directional) {
     if (directional_) lights_ = directional_lights(scene);
-    room_ = lights_.size();
+    // Any light may become a directional one (DeviceScene::set_light).
+    if (directional_) capacity_ = scene.lights().size();
     projection_.params.light_count = static_cast<std::uint32_t>(lights_.size());
     if (scene.environment()) buffers_.texels = scene.environment_texels();
 }
@@ -36,9 +37,9 @@ void EnvironmentLight::add_to(BufferTable& table) {
         static_cast<std::size_t>(sh::rotation_block(projection_.bands)));
     table.add(buffers_.sums, "sums of the environment", picture, projection_.sums_bytes());
     table.add(buffers_.leaves, "sums of the environment", picture, projection_.leaves_bytes());
-    if (room_ > 0)
+    if (capacity_ > 0)
         table.add(buffers_.lights, "directional lights", "the number of directional lights",
-                  room_ * sizeof(DirectionalLight));
+                  capacity_ * sizeof(DirectionalLight));
     add(buffers_.light, "the environment's light",
         4 * static_cast<std::size_t>(sh::terms(projection_.bands)));
     table.add_word(buffers_.non_finite, "counters", 0);
@@ -54,13 +55,10 @@ void EnvironmentLight::write(Recorder& record) const {
     put(buffers_.waves, projection_.waves);
 }
 
-bool EnvironmentLight::update() {
-    if (!directional_) return true;
-    std::vector<DirectionalLight> lights = directional_lights(*scene_);
-    if (lights.size() > room_) return false;
-    lights_ = std::move(lights);
+void EnvironmentLight::update() {
+    if (!directional_) return;
+    lights_ = directional_lights(*scene_);
     projection_.params.light_count = static_cast<std::uint32_t>(lights_.size());
-    return true;
 }
 
 // A failure before them, which comes long after the call, ends the passes that were enqueued.

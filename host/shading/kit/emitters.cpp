@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/emitters.hpp>
 
@@ -28,6 +29,25 @@ bool Emitters::update(const EmitterOptions& options) {
     buffers_.view_count = set_.views.size();
     buffers_.pixels = set_.pixels;
     return true;
+}
+
+std::size_t Emitters::follow(const EmitterOptions& options, Recorder& record,
+                             const GBufferPasses& gbuffer) {
+    std::size_t grown = 0;
+    if (!update(options)) {
+        Emitters larger(*scene_, options, buffers_.kind);
+        BufferTable before("emitters"), table("emitters");
+        add_to(before);
+        larger.add_to(table);
+        table.check(record.queue().getInfo<CL_QUEUE_DEVICE>(), 0, scene_->bytes());
+        table.allocate(record);
+        larger.build(gbuffer);
+        grown = table.bytes() - std::min(before.bytes(), table.bytes());
+        *this = std::move(larger);
+    }
+    record.forget_failed();
+    write(record);
+    return grown;
 }
 
 void Emitters::adopt(Emitters&& planned) {

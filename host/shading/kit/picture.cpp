@@ -65,10 +65,7 @@ void Picture::allocate(const BufferTable& table, std::size_t taken) {
 }
 
 void Picture::lights_changed() {
-    if (!emitters_.update(emitters_of(options_)))
-        throw Error(owner_ + ": a light needs more views than before; make another view");
-    record_.forget_failed();
-    emitters_.write(record_);
+    bytes_ += emitters_.follow(emitters_of(options_), record_, gbuffer_);
 }
 
 View Picture::begin(const Camera& camera, const WaitList& wait) {

@@ -22,9 +22,8 @@ public:
     void add_to(BufferTable& table);
     void write(Recorder& record) const;
 
-    // Reads the scene's directional lights again. False if there are more than before: then nothing
-    // has changed.
-    bool update();
+    // Reads the scene's directional lights again.
+    void update();
 
     // About +Y, radians, beside the environment's own.
     void turn(double angle) { turned_ = angle; }
@@ -47,7 +46,7 @@ private:
     cl::Event projected_;  // the end of the passes that read the picture
     double turned_ = 0.0;
     std::vector<DirectionalLight> lights_;
-    std::size_t room_ = 0;  // directional lights that there are buffers for
+    std::size_t capacity_ = 0;  // directional lights that there are buffers for
     ProjectionBuffers buffers_;
 };
 

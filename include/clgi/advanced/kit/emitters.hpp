@@ -30,6 +30,12 @@ public:
     // changed, and the caller must allocate anew.
     bool update(const EmitterOptions& options);
 
+    // The same with larger buffers where they are too small, and enqueues the writes. What was
+    // enqueued before keeps the old ones. Returns by how many bytes they have grown. Throws
+    // DeviceError where memory does not suffice: then nothing has changed.
+    std::size_t follow(const EmitterOptions& options, Recorder& record,
+                       const GBufferPasses& gbuffer);
+
     // Takes over the emitters of another object and keeps the buffers of this one. The rows must be
     // added to a table again, which allocates the buffers whose size has changed.
     void adopt(Emitters&& planned);
