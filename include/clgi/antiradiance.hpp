@@ -139,18 +139,18 @@ public:
     const AntiradianceOptions& options() const;
     const ElementTree& elements() const;
     const DirectionBins& bins() const;
-    std::size_t link_count() const;    // for one direction each
-    std::size_t link_pairs() const;    // Links::pairs
-    std::size_t moving_links() const;  // those of which an end moves
+    std::size_t link_count() const;                    // for one direction each
+    CLGI_EXPERIMENTAL std::size_t link_pairs() const;  // Links::pairs
+    std::size_t moving_links() const;                  // those of which an end moves
     std::size_t moving_elements() const;
     // Rows of exitant intensity: one for each element of which some link reads what it sends in
     // directions of their own, and for all elements below those. They are elements with something
     // behind, glossy leaves, clusters that are not flat, and what moves.
-    std::size_t row_count() const;
+    CLGI_EXPERIMENTAL std::size_t row_count() const;
     double linking_seconds() const;  // that elements and links took
     std::size_t bytes() const;
-    std::size_t table_bytes() const;  // of them, intensities and incident light
-    std::size_t link_bytes() const;   // and links
+    CLGI_EXPERIMENTAL std::size_t table_bytes() const;  // of them, intensities and incident light
+    CLGI_EXPERIMENTAL std::size_t link_bytes() const;   // and links
 
     // Results, valid after run().
     const LeafBuffers& leaves() const;
@@ -158,7 +158,7 @@ public:
     const LinkBuffers& links() const;
     const LeafSurface& surface() const;
     const GlossBuffers& gloss() const;  // count is 0 where no leaf is glossy
-    const AntiradiancePasses& passes() const;
+    CLGI_EXPERIMENTAL const AntiradiancePasses& passes() const;
 
 private:
     struct State;

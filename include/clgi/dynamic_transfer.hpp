@@ -130,15 +130,17 @@ public:
     const cl::Buffer& environment() const;     // [terms] float4: exposed cd/m^2 sr
 
     // What masks of other receivers of this scene are made with; empty where it needs none.
-    const MaskPasses& passes() const;
-    const BlockerBuffers& blockers() const;  // the scene's own triangles, one list
-    double triangles_per_receiver() const;   // that masks look at, before any is culled
-    const cl::Buffer& drawn() const;         // what MaskPasses::mask draws with
-    const cl::Buffer& heights() const;       // of pixels, with a bounce
-    const cl::Buffer& exitance() const;      // of triangles that block, with a bounce
-    const cl::Buffer& weights() const;       // of MaskWeights
-    const cl::Buffer& directions() const;    // of MaskWeights
-    const cl::Buffer& counter() const;       // [1] uint, of TransferStatus::non_finite
+    CLGI_EXPERIMENTAL const MaskPasses& passes() const;
+    CLGI_EXPERIMENTAL const BlockerBuffers& blockers()
+        const;  // the scene's own triangles, one list
+    CLGI_EXPERIMENTAL double triangles_per_receiver()
+        const;                                          // that masks look at, before any is culled
+    CLGI_EXPERIMENTAL const cl::Buffer& drawn() const;  // what MaskPasses::mask draws with
+    CLGI_EXPERIMENTAL const cl::Buffer& heights() const;   // of pixels, with a bounce
+    CLGI_EXPERIMENTAL const cl::Buffer& exitance() const;  // of triangles that block, with a bounce
+    CLGI_EXPERIMENTAL const cl::Buffer& weights() const;   // of MaskWeights
+    CLGI_EXPERIMENTAL const cl::Buffer& directions() const;  // of MaskWeights
+    CLGI_EXPERIMENTAL const cl::Buffer& counter() const;  // [1] uint, of TransferStatus::non_finite
 
 private:
     struct State;

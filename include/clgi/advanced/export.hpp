@@ -7,3 +7,6 @@
 #else
 #define CLGI_API
 #endif
+
+// Marks what no solver needs from outside, or none calls: it may change in any version.
+#define CLGI_EXPERIMENTAL

@@ -71,9 +71,10 @@ public:
 
     // before[i] = the sum of items 0 .. i - 1, and total [1] = the sum of all, modulo 2^32.
     // items may be before.
-    cl::Event scan(const cl::CommandQueue& queue, const Items& number, const cl::Buffer& items,
-                   const cl::Buffer& before, const cl::Buffer& total, const cl::Buffer& scratch,
-                   const WaitList& wait = {}) const;
+    CLGI_EXPERIMENTAL cl::Event scan(const cl::CommandQueue& queue, const Items& number,
+                                     const cl::Buffer& items, const cl::Buffer& before,
+                                     const cl::Buffer& total, const cl::Buffer& scratch,
+                                     const WaitList& wait = {}) const;
 
     // flags [most] uchar -> the indices of those that are not 0, in order, in indices [most], and
     // how many they are in listed [1].
@@ -93,14 +94,15 @@ public:
                   const WaitList& wait = {}) const;
 
     // items [most] float4 -> result [1] ItemBounds.
-    cl::Event bounds(const cl::CommandQueue& queue, const Items& number, const cl::Buffer& items,
-                     const cl::Buffer& result, const cl::Buffer& scratch,
-                     const WaitList& wait = {}) const;
+    CLGI_EXPERIMENTAL cl::Event bounds(const cl::CommandQueue& queue, const Items& number,
+                                       const cl::Buffer& items, const cl::Buffer& result,
+                                       const cl::Buffer& scratch, const WaitList& wait = {}) const;
 
     // Keys in rising order of their lowest key_bits bits, 0 to 32; equal ones stay in order.
     // Higher bits go with the key and are not looked at.
-    cl::Event sort(const cl::CommandQueue& queue, const Items& number, std::uint32_t key_bits,
-                   const SortBuffers& buffers, const WaitList& wait = {}) const;
+    CLGI_EXPERIMENTAL cl::Event sort(const cl::CommandQueue& queue, const Items& number,
+                                     std::uint32_t key_bits, const SortBuffers& buffers,
+                                     const WaitList& wait = {}) const;
 
     // ---- passes, one method a kernel -----------------------------------------------------------
 
@@ -123,9 +125,10 @@ public:
 
     // picked [planes][out_stride] from planes [planes][stride], words of 32 bits:
     // picked[p][i] = planes[p][indices[i]] for the first *count of params.most.
-    cl::Event pick(const cl::CommandQueue& queue, const PickParams& params, const cl::Buffer& count,
-                   const cl::Buffer& indices, const cl::Buffer& planes, const cl::Buffer& picked,
-                   const WaitList& wait = {}) const;
+    CLGI_EXPERIMENTAL cl::Event pick(const cl::CommandQueue& queue, const PickParams& params,
+                                     const cl::Buffer& count, const cl::Buffer& indices,
+                                     const cl::Buffer& planes, const cl::Buffer& picked,
+                                     const WaitList& wait = {}) const;
 
     cl::Event arg_max_tiles(const cl::CommandQueue& queue, const Items& number,
                             const cl::Buffer& items, const cl::Buffer& best,
@@ -137,22 +140,25 @@ public:
                         const cl::Buffer& sums, const WaitList& wait = {}) const;
     cl::Event sum_merge(const cl::CommandQueue& queue, std::uint32_t tiles, const cl::Buffer& sums,
                         const cl::Buffer& result, const WaitList& wait = {}) const;
-    cl::Event bounds_tiles(const cl::CommandQueue& queue, const Items& number,
-                           const cl::Buffer& items, const cl::Buffer& boxes,
-                           const WaitList& wait = {}) const;
-    cl::Event bounds_merge(const cl::CommandQueue& queue, std::uint32_t tiles,
-                           const cl::Buffer& boxes, const cl::Buffer& result,
-                           const WaitList& wait = {}) const;
+    CLGI_EXPERIMENTAL cl::Event bounds_tiles(const cl::CommandQueue& queue, const Items& number,
+                                             const cl::Buffer& items, const cl::Buffer& boxes,
+                                             const WaitList& wait = {}) const;
+    CLGI_EXPERIMENTAL cl::Event bounds_merge(const cl::CommandQueue& queue, std::uint32_t tiles,
+                                             const cl::Buffer& boxes, const cl::Buffer& result,
+                                             const WaitList& wait = {}) const;
 
     // counts [2^bits][tiles]; offsets: their prefix sum.
-    cl::Event digit_counts(const cl::CommandQueue& queue, const DigitParams& params,
-                           const cl::Buffer& count, const cl::Buffer& keys,
-                           const cl::Buffer& counts, const WaitList& wait = {}) const;
-    cl::Event digit_scatter(const cl::CommandQueue& queue, const DigitParams& params,
-                            const cl::Buffer& count, const cl::Buffer& offsets,
-                            const cl::Buffer& keys, const cl::Buffer& payload,
-                            const cl::Buffer& sorted_keys, const cl::Buffer& sorted_payload,
-                            const WaitList& wait = {}) const;
+    CLGI_EXPERIMENTAL cl::Event digit_counts(const cl::CommandQueue& queue,
+                                             const DigitParams& params, const cl::Buffer& count,
+                                             const cl::Buffer& keys, const cl::Buffer& counts,
+                                             const WaitList& wait = {}) const;
+    CLGI_EXPERIMENTAL cl::Event digit_scatter(const cl::CommandQueue& queue,
+                                              const DigitParams& params, const cl::Buffer& count,
+                                              const cl::Buffer& offsets, const cl::Buffer& keys,
+                                              const cl::Buffer& payload,
+                                              const cl::Buffer& sorted_keys,
+                                              const cl::Buffer& sorted_payload,
+                                              const WaitList& wait = {}) const;
 
 private:
     PassKernel offsets_, scan_sums_, scan_tiles_, flag_sums_, flag_list_, pick_;
