@@ -15,17 +15,6 @@ void append(std::vector<PassEvent>& to, const std::vector<PassEvent>& more) {
     to.insert(to.end(), more.begin(), more.end());
 }
 
-WaitList joined(WaitList moves, const WaitList& wait) {
-    moves.insert(moves.end(), wait.begin(), wait.end());
-    return moves;
-}
-
-RendererStatus with_picture(const SolverStatus& solver, const Picture& picture) {
-    RendererStatus out{solver, {}};
-    out.non_finite += picture.non_finite();
-    return out;
-}
-
 }  // namespace
 
 // ---- options ------------------------------------------------------------------------------------
@@ -154,8 +143,8 @@ void LightAtlas::add_passes(std::vector<PassEvent>& passes) const {
 }
 
 RendererStatus LightAtlas::status() const {
-    RendererStatus out = with_picture(solver->status(), view_->picture());
-    out.warnings = warnings_;
+    RendererStatus out{solver->status(), warnings_};
+    out.non_finite += view_->picture().non_finite();
     return out;
 }
 
@@ -176,19 +165,12 @@ AntiradianceOptions with_poses(const Setup& s) {
 
 }  // namespace
 
-Antiradiance::Antiradiance(const Setup& s)
-    : solver(s.programs, s.queue, s.scene, s.device, with_poses(s)),
-      view(s.programs, s.queue, s.device, solver, s.options.picture) {}
+Antiradiance::Antiradiance(const Setup& s) : Shown(s, with_poses(s), s.options.picture) {}
 
 bool Antiradiance::prepare(const Progress& progress, std::vector<PassEvent>& passes) {
     const bool done = solver.run(progress);
     append(passes, solver.events());
     return done && !solver.status().given_up;
-}
-
-void Antiradiance::lights_changed() {
-    solver.lights_changed();
-    view.lights_changed();
 }
 
 void Antiradiance::geometry_changed(const WaitList& wait) {
@@ -201,16 +183,8 @@ void Antiradiance::environment_changed() {
     lights_changed();
 }
 
-cl::Event Antiradiance::render(const Camera& camera, const WaitList& wait) {
-    return view.render(camera, joined(std::exchange(moves_, {}), wait));
-}
-
 void Antiradiance::add_passes(std::vector<PassEvent>& passes) const {
     append(passes, view.picture().events());
-}
-
-RendererStatus Antiradiance::status() const {
-    return with_picture(solver.status(), view.picture());
 }
 
 // ---- dynamic transfer ---------------------------------------------------------------------------
@@ -226,13 +200,12 @@ DynamicTransferViewOptions view_options(const RendererOptions& options) {
 }  // namespace
 
 Transfer::Transfer(const Setup& s)
-    : solver(s.programs, s.queue, s.scene, s.device, transfer_options(s.options)),
-      view(s.programs, s.queue, s.device, solver, view_options(s.options)) {}
+    : Shown(s, transfer_options(s.options), view_options(s.options)) {}
 
 bool Transfer::prepare(const Progress& progress, std::vector<PassEvent>& passes) {
     if (progress && !progress(0.0)) return false;
     if (moved_) {
-        solver.transfer(std::exchange(moves_, {}));
+        solver.transfer(moves_);
         append(passes, solver.events());
         if (progress) {
             solver.last().wait();
@@ -247,25 +220,14 @@ bool Transfer::prepare(const Progress& progress, std::vector<PassEvent>& passes)
     return progress(1.0);
 }
 
-void Transfer::lights_changed() {
-    solver.lights_changed();
-    view.lights_changed();
-}
-
 void Transfer::geometry_changed(const WaitList& wait) {
     moved_ = true;
     moves_ = joined(moves_, wait);
-}
-
-cl::Event Transfer::render(const Camera& camera, const WaitList& wait) {
-    return view.render(camera, wait);
 }
 
 void Transfer::add_passes(std::vector<PassEvent>& passes) const {
     if (solver.glossy()) append(passes, solver.events());
     append(passes, view.picture().events());
 }
-
-RendererStatus Transfer::status() const { return with_picture(solver.status(), view.picture()); }
 
 }  // namespace clgi::renderer

@@ -5,6 +5,7 @@
 
 #include <clgi/advanced/irradiance_volume.hpp>
 #include <clgi/renderer.hpp>
+#include <utility>
 
 namespace clgi::renderer {
 
@@ -71,47 +72,63 @@ private:
     WaitList moves_;
 };
 
-class Antiradiance {
+// What a picture begins after besides what its caller says: moves of vertices.
+inline WaitList joined(WaitList moves, const WaitList& wait) {
+    moves.insert(moves.end(), wait.begin(), wait.end());
+    return moves;
+}
+
+// A solver, and the view that shows its light.
+template <typename Solver, typename View>
+class Shown {
 public:
-    explicit Antiradiance(const Setup& setup);
-    bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
-    void lights_changed();
-    void geometry_changed(const WaitList& wait);
-    void environment_changed();
-    cl::Event render(const Camera& camera, const WaitList& wait);
-    void add_passes(std::vector<PassEvent>& passes) const;
+    template <typename SolverOptions, typename ViewOptions>
+    Shown(const Setup& s, const SolverOptions& options, const ViewOptions& shown)
+        : solver(s.programs, s.queue, s.scene, s.device, options),
+          view(s.programs, s.queue, s.device, solver, shown) {}
+
+    void lights_changed() {
+        solver.lights_changed();
+        view.lights_changed();
+    }
+    cl::Event render(const Camera& camera, const WaitList& wait) {
+        return view.render(camera, joined(std::exchange(moves_, {}), wait));
+    }
     Radiance radiance() const { return {view.picture().radiance(), view.picture().stride()}; }
     const EmitterSet& emitters() const { return view.picture().emitters(); }
-    RendererStatus status() const;
+    RendererStatus status() const {
+        RendererStatus out{solver.status(), {}};
+        out.non_finite += view.picture().non_finite();
+        return out;
+    }
     std::size_t bytes() const { return solver.bytes() + view.bytes(); }
 
-    AntiradianceSolver solver;
-    AntiradianceView view;
+    Solver solver;
+    View view;
 
-private:
+protected:
     WaitList moves_;
 };
 
-class Transfer {
+class Antiradiance : public Shown<AntiradianceSolver, AntiradianceView> {
+public:
+    explicit Antiradiance(const Setup& setup);
+    bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
+    void geometry_changed(const WaitList& wait);
+    void environment_changed();
+    void add_passes(std::vector<PassEvent>& passes) const;
+};
+
+class Transfer : public Shown<DynamicTransferSolver, DynamicTransferView> {
 public:
     explicit Transfer(const Setup& setup);
     bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
-    void lights_changed();
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
-    cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
-    Radiance radiance() const { return {view.picture().radiance(), view.picture().stride()}; }
-    const EmitterSet& emitters() const { return view.picture().emitters(); }
-    RendererStatus status() const;
-    std::size_t bytes() const { return solver.bytes() + view.bytes(); }
-
-    DynamicTransferSolver solver;
-    DynamicTransferView view;
 
 private:
     bool moved_ = true;  // vectors are of another pose
-    WaitList moves_;
 };
 
 // Options of the method's solver with what is common to all methods.
