@@ -1,5 +1,5 @@
 // What a view of dynamic transfer shows of light that changes: directional lights of the
-// environment or beside it, another light after lights_changed().
+// environment or beside it, another light after lights_changed(), a sky that turns.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <clgi/advanced/dynamic_transfer_view.hpp>
@@ -118,6 +118,40 @@ TEST(DynamicTransferViewLight, LeavesALightThatChangedToTheEnvironment) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(found[c] * pi / (albedo[c] * other.intensity[c]), 0.96875, 2e-5)
             << "channel " << c;
+}
+
+// A sky of coloured columns, seen past a small sheet: a turn of a quarter brings what lay on +x to
+// -z, and a turn that is not asked for by light() yet is not shown.
+TEST(DynamicTransferViewLight, TurnsTheSkyWithItsLight) {
+    Scene scene = test::plain_scene(albedo);
+    test::add_quad(
+        scene,
+        {glm::dvec3(-0.01, -9, -0.01), {0.01, -9, -0.01}, {0.01, -9, 0.01}, {-0.01, -9, 0.01}});
+    Environment sky;
+    sky.width = 64;
+    sky.height = 1;
+    for (int column = 0; column < sky.width; ++column)
+        sky.texels.emplace_back(static_cast<float>(column + 1), static_cast<float>(2 * column + 3),
+                                static_cast<float>(100 - column));
+    sky.rotation = 0.3f;
+    scene.environment = sky;
+    Stage stage(scene, false);
+    const Camera camera = test::camera_at({0, 0, 0}, {0, 0, -1});
+    const auto texel = [&](double angle) {  // of the view's middle: x = 0, z = -1
+        double u = 0.5 + (0.3 + angle) / (2 * pi);
+        u -= std::floor(u);
+        return sky.texels[static_cast<std::size_t>(u * sky.width)];
+    };
+    // Away from the edges of columns by a tenth of one at least.
+    for (const double angle : {0.0, 0.7, -2.0, 9.0}) {
+        stage.solver.turn_environment(angle + 1.0);
+        stage.solver.turn_environment(angle);
+        stage.solver.light().wait();
+        stage.solver.turn_environment(angle + 2.0);  // for another light()
+        const glm::dvec3 found = stage.middle(camera);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[c] / texel(angle)[c], 1.0, 1e-6) << angle << ", channel " << c;
+    }
 }
 
 }  // namespace

@@ -295,7 +295,7 @@ struct DynamicTransferView::State {
                                         picture.radiance(), picture.counter(), before);
             });
         }
-        return picture.end(view);
+        return picture.end(view, solver.environment_turn());
     }
 
     const DeviceScene& scene;
