@@ -45,6 +45,10 @@ struct Buffers {
 // Throws Error for options out of range.
 void check(const LightAtlasOptions& options);
 
+// Throws Error for more VPLs, sample points, texels and points than kernels count: planes of them
+// have at most 2^32 numbers.
+void check_sizes(std::size_t vpls, std::size_t samples, std::size_t texels, std::size_t points);
+
 // Throws Error for points that are not finite, and for a filling that has none.
 void check_points(const std::vector<BakePoint>& points, const LightAtlasOptions& options);
 
