@@ -82,6 +82,9 @@ public:
     // Turns the environment about +Y, radians, beside its own rotation, for the next light().
     void turn_environment(double angle);
 
+    // The turn of the last light().
+    double environment_turn() const;
+
     // Potentially visible sets of an animation known before [Kautz04, section 3.2]. look() enqueues
     // the search for the triangles that receivers see of the geometry as it is now; sets() waits
     // and has those of all looks since it was called last. After restrict(), masks look at such

@@ -53,7 +53,7 @@ kernel void antiradiance_gloss(
     global const float*      restrict gloss_sources, // [count][3][ROW_BINS] radiance, no pass's
     global float*            restrict arriving,      // [count][3][ROW_BINS] radiance, in front
     global float4*           restrict next_powers,   // [elements] of no meaning for lobes: 0
-    global Intensity*        restrict next)          // [rows][CLGI_BINS] intensities
+    global Intensity*        restrict next)          // [rows][CLGI_BINS] over 2^row_exponent
 {
     uint at = (uint)get_global_id(0);
     if (at >= params.count) return;
@@ -68,6 +68,7 @@ kernel void antiradiance_gloss(
     note_irradiance(leaf, arrived, irradiances, changes);
     float4 radiance =
         reflect_diffuse(leaf, params.step, arrived, sources, reflectances, radiances);
+    float area = leaf.normal.w * power_of_two(-leaf.row_exponent);
 
     next_powers[element] = (float4)(0.0f);
     bool sends = leaf.sends != ELEMENT_NONE;
@@ -82,7 +83,7 @@ kernel void antiradiance_gloss(
         // Bins above the surface are done below, or stay as they were.
         leaves[bin] = (float4)(0.0f);
         if (params.step & LOCAL_GO_THROUGH && cosine <= 0.0f)
-            leaves[bin] = cosine * leaf.normal.w * arrives[bin];
+            leaves[bin] = cosine * area * arrives[bin];
         else if (sends)
             leaves[bin] = load_intensity(exitant, first + bin);
     }
@@ -114,7 +115,7 @@ kernel void antiradiance_gloss(
                                   source[2 * ROW_BINS + bin], 0.0f);
             float4 leaving = radiance + fma(colors[at] * factor[bin], made_here, own);
             if (!is_finite3(leaving.xyz)) good = 0;
-            leaves[bin] = front.cosine[k] * leaf.normal.w * leaving;
+            leaves[bin] = front.cosine[k] * area * leaving;
         }
     }
     for (uint four = 0; sends && four < CLGI_FOURS; ++four)

@@ -22,7 +22,7 @@ kernel void antiradiance_local(
     global const float4*  restrict directions,   // [CLGI_BINS] unit; w: sr
     LEAF_ARGUMENTS,
     global float4*        restrict next_powers,  // [elements] area times radiance
-    global Intensity*     restrict next)         // [rows][CLGI_BINS] intensities
+    global Intensity*     restrict next)         // [rows][CLGI_BINS] over 2^row_exponent
 {
     uint at = (uint)get_global_id(0);
     if (at >= params.count) return;
@@ -42,7 +42,8 @@ kernel void antiradiance_local(
     global const float* toward = (global const float*)directions;
     int goes_through = (params.step & LOCAL_GO_THROUGH) != 0;
     Bins4 normal = in_all_bins((float4)(leaf.normal.xyz, 0.0f)), none = (Bins4)(0.0f);
-    Bins4 sent = in_all_bins(radiance), area = (Bins4)(leaf.normal.w);
+    Bins4 sent = in_all_bins(radiance),
+          area = (Bins4)(leaf.normal.w * power_of_two(-leaf.row_exponent));
     for (uint four = 0; four < CLGI_FOURS; ++four) {
         Bins4 cosine = cosines(vload16(four, toward), normal), scale = cosine * area;
         Bins4 behind = goes_through ? scale * row[four] : load_intensities(exitant, first + four);

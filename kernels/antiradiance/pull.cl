@@ -12,7 +12,7 @@ kernel void antiradiance_pull(
     global const uint*    restrict list,      // elements
     global const Element* restrict elements,
     global float4*        restrict powers,    // [elements] area times radiance
-    global Intensity*     restrict exitant)   // [rows][CLGI_BINS]
+    global Intensity*     restrict exitant)   // [rows][CLGI_BINS] over 2^row_exponent
 {
     uint at = (uint)get_global_id(0);
     if (at >= params.count) return;
@@ -26,8 +26,10 @@ kernel void antiradiance_pull(
     for (uint four = 0; four < CLGI_FOURS; ++four) row[four] = (Bins4)(0.0f);
     for (uint below = element + 1; below < end; below = elements[below].end) {
         ulong first = (ulong)elements[below].sends * CLGI_FOURS;
+        Bins4 unit = (Bins4)(
+            power_of_two(elements[below].row_exponent - elements[element].row_exponent));
         for (uint four = 0; four < CLGI_FOURS; ++four)
-            row[four] += load_intensities(exitant, first + four);
+            row[four] += unit * load_intensities(exitant, first + four);
     }
     ulong first = (ulong)sends * CLGI_FOURS;
     for (uint four = 0; four < CLGI_FOURS; ++four)

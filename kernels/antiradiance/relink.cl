@@ -165,7 +165,8 @@ kernel void antiradiance_relink(
     global const float4*       restrict directions,    // [CLGI_BINS] unit; w: sr
     global const uint*         restrict senders,       // [count] of moving links
     global ushort*             restrict bins,
-    global float*              restrict form_factors)  // 1 / (area of the local frame, sr)
+    global float*              restrict form_factors)  // 2^row_exponent / (area of the local
+                                                       // frame, sr)
 {
     uint first = (uint)get_global_id(0) * CLGI_WIDTH;
     Aim aims[CLGI_WIDTH];
@@ -201,6 +202,8 @@ kernel void antiradiance_relink(
         if (!(aim.before > 0.0f) && !(dot(aim.way, w.xyz) > aim.reach)) continue;
         float cosine = is_zero(aim.sends) ? 1.0f : dot(aim.sends, w.xyz);
         bins[links[first + k].x] = (ushort)bin;
-        form_factors[links[first + k].x] = aim.share / (cosine * w.w);
+        // Times 2^row_exponent, by bits: exact in every kind of math.
+        float unit = as_float((uint)(places[senders[first + k]].row_exponent + 127) << 23);
+        form_factors[links[first + k].x] = aim.share / (cosine * w.w) * unit;
     }
 }

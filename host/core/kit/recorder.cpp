@@ -10,6 +10,12 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
+// What another queue waits for has to be on its way: nobody else may flush the queue that it is on.
+void flush_other(const cl::Event& event, const cl::CommandQueue& queue) {
+    const cl::CommandQueue of = event.getInfo<CL_EVENT_COMMAND_QUEUE>();
+    if (of() && of() != queue()) of.flush();  // events of users have none
+}
+
 void CL_CALLBACK drop(cl_event, cl_int, void* bytes) { delete static_cast<Bytes*>(bytes); }
 
 }  // namespace
@@ -19,6 +25,7 @@ Recorder::Recorder(const cl::CommandQueue& queue, std::string owner)
 
 void Recorder::begin(const WaitList& wait, const Progress& progress) {
     forget_failed();
+    for (const cl::Event& event : wait) flush_other(event, queue_);
     before_.insert(before_.end(), wait.begin(), wait.end());
     const auto ended = [](const cl::Event& event) {
         return event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() <= CL_COMPLETE;
@@ -99,6 +106,7 @@ std::uint32_t Recorder::read_word(const cl::Buffer& buffer) const {
 }
 
 void Recorder::beside(const char* name, std::size_t items, const cl::Event& event) {
+    flush_other(event, queue_);
     events_.push_back({name, items, event});
     before_.push_back(event);
 }

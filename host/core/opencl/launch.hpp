@@ -29,6 +29,13 @@ inline std::size_t dividing_group(std::size_t most, std::size_t items) {
     return size;
 }
 
+// Kernels number their work-items in 32 bits. end: behind the last one.
+inline void need_items(const std::string& owner, std::size_t end) {
+    if (end > std::size_t{1} << 32)
+        throw Error(owner + ": there are " + std::to_string(end) +
+                    " work-items, at most 2^32 needed");
+}
+
 // Enqueues work-items in groups of the pass's size, at least as many as a whole range has and
 // exactly those of a part, once for each of `rows` (the second dimension); none at all for an empty
 // range, where the event only stands for the wait list.
@@ -46,6 +53,7 @@ cl::Event launch_rows(const PassKernel& pass, const cl::CommandQueue& queue, con
         const std::size_t most = group_size(pass);
         const std::size_t group = range.whole ? most : dividing_group(most, items);
         const std::size_t whole = (items + group - 1) / group * group;
+        need_items(pass.name, range.first + whole);
         pass.slot->with_kernel([&](cl::Kernel& kernel) {
             cl_uint index = 0;
             (set_argument(kernel, index, arguments), ...);

@@ -2,6 +2,7 @@
 #include "methods/antiradiance/device_links.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <clgi/shared/moving_elements.h>
 
@@ -80,7 +81,9 @@ DeviceLinks device_links(const ElementTree& tree, const DirectionBins& bins, con
         out.first.push_back(static_cast<std::uint32_t>(out.senders.size()));
         for (std::size_t k = links.first[i]; k < links.first[i + 1]; ++k)
             if (!(before[k] > 0.0f))
-                add(k, elements[links.senders[k]].sends, links.form_factors[k]);
+                add(k, elements[links.senders[k]].sends,
+                    std::ldexp(double{links.form_factors[k]},
+                               elements[links.senders[k]].row_exponent));
     }
     out.first.push_back(static_cast<std::uint32_t>(out.senders.size()));
     return out;

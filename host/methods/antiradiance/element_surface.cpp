@@ -2,6 +2,7 @@
 #include "methods/antiradiance/element_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "methods/antiradiance/halve.hpp"
@@ -178,6 +179,15 @@ ElementSurface make_element_surface(const ElementTree& tree, const DirectionBins
             out.patches[out.leaves[row]].vertex[k] = shared.vertices[row][k];
     show_vertices(tree, shared, on_device, out);
     return out;
+}
+
+// Radiance times cosine times an area of 1/2 to 1, so never more than radiance. A half holds it
+// from 2^-24 to 2^16 of the frame's exposure, with all bits from 2^-14 on.
+void set_row_exponents(std::vector<Element>& elements) {
+    constexpr int most = 50;  // differences of two are exponents of floats as well
+    for (Element& element : elements)
+        if (element.normal.w > 0.0f)
+            element.row_exponent = std::clamp(std::ilogb(element.normal.w) + 1, -most, most);
 }
 
 }  // namespace clgi

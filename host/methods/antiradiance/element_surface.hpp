@@ -37,4 +37,7 @@ constexpr std::uint32_t leaf_samples =
 ElementSurface make_element_surface(const ElementTree& tree, const DirectionBins& bins,
                                     const Scene& scene, const DeviceScene& device);
 
+// Of rows in half storage: what they hold is about as large as radiance then, whatever the areas.
+void set_row_exponents(std::vector<Element>& elements);
+
 }  // namespace clgi

@@ -87,6 +87,10 @@ private:
     std::shared_ptr<const SpreadTable> table_;
 };
 
+// make_links() that throws Error as soon as there are more than so many links.
+Links make_links_up_to(std::size_t most, const ElementTree& tree, const DirectionBins& bins,
+                       const LinkOptions& options = {}, const std::vector<ElementTree>& poses = {});
+
 // The order of the links of one receiver.
 inline bool by_sender(const Link& a, const Link& b) {
     return std::tie(a.sender, a.part, a.bin) < std::tie(b.sender, b.part, b.bin);

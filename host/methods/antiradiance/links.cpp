@@ -44,14 +44,21 @@ struct Found {
     std::size_t unrefined = 0;
 };
 
+// total: links of all threads, at most `most`.
 void link_tasks(const Linking& linking, const std::vector<ElementPair>& tasks,
-                std::atomic<std::size_t>& next, Found& out) {
+                std::atomic<std::size_t>& next, std::atomic<std::size_t>& total, std::size_t most,
+                Found& out) {
     const auto all = [](std::uint32_t) { return true; };
     Exchange exchange = linking.exchange();
     std::vector<ElementPair> open;
     for (std::size_t task = next++; task < tasks.size(); task = next++) {
         open.assign(1, tasks[task]);
+        const std::size_t before = out.links.size();
         out.pairs += linking(open, all, exchange, out.links);
+        const std::size_t made = out.links.size() - before;
+        if (total.fetch_add(made) + made > most)
+            throw Error("make_links: more than " + std::to_string(most) +
+                        " links; fewer elements or a larger bin_share needed");
     }
     out.unrefined = exchange.unrefined();
 }
@@ -60,14 +67,19 @@ void link_tasks(const Linking& linking, const std::vector<ElementPair>& tasks,
 
 Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkOptions& options,
                  const std::vector<ElementTree>& poses) {
+    return make_links_up_to(std::numeric_limits<std::uint32_t>::max(), tree, bins, options, poses);
+}
+
+Links make_links_up_to(std::size_t most, const ElementTree& tree, const DirectionBins& bins,
+                       const LinkOptions& options, const std::vector<ElementTree>& poses) {
     const Linking linking(tree, bins, options, poses);
     const int threads = thread_count(options.threads);
     const std::vector<ElementPair> tasks = make_tasks(tree, linking.refine());
 
     std::vector<Found> found(static_cast<std::size_t>(threads));
-    std::atomic<std::size_t> next{0};
+    std::atomic<std::size_t> next{0}, made{0};
     on_threads(threads, [&](int t) {
-        link_tasks(linking, tasks, next, found[static_cast<std::size_t>(t)]);
+        link_tasks(linking, tasks, next, made, most, found[static_cast<std::size_t>(t)]);
     });
 
     // By receiver: counted, then put in place; each receiver's own are sorted after that.
@@ -80,8 +92,6 @@ Links make_links(const ElementTree& tree, const DirectionBins& bins, const LinkO
     }
     for (std::size_t i = 0; i < tree.count(); ++i) place[i + 1] += place[i];
     const std::size_t total = place.back();
-    if (total > std::numeric_limits<std::uint32_t>::max())
-        throw Error("make_links: " + std::to_string(total) + " links, at most 4294967295 possible");
     out.first.assign(place.begin(), place.end());
     std::vector<Link> sorted(total);
     for (Found& part : found) {

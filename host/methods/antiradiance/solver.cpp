@@ -41,7 +41,7 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
                      options.occlusion == Occlusion::always);
     if (!poses.empty())
         motion = std::make_unique<AntiradianceMotion>(programs, options.build, tree, poses, bins,
-                                                      file, scene, between);
+                                                      file, scene, between, made.elements);
     moved = motion != nullptr;
     linking += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     link_total = between.senders.size();

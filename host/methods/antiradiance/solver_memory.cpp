@@ -55,6 +55,7 @@ AntiradianceBuffers::AntiradianceBuffers(const Scene& file, const DeviceScene& o
     tree = make_elements(file, options.elements, options.poses);
     if (tree.leaves == 0) throw Error("antiradiance: the scene has no surface");
     made = make_element_surface(tree, bins, file, scene);
+    if (options.build.storage == Storage::half) set_row_exponents(made.elements);
     glossy = find_glossy_leaves(tree, made, file, options.least_gloss);
     gloss.count = glossy.count();
     gloss.vertex_count = glossy.vertices();

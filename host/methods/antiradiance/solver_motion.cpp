@@ -11,11 +11,14 @@ AntiradianceMotion::AntiradianceMotion(const Programs& programs, const BuildOpti
                                        const ElementTree& tree,
                                        const std::vector<ElementTree>& poses,
                                        const DirectionBins& bins, const Scene& scene,
-                                       const DeviceScene& device, const DeviceLinks& links)
+                                       const DeviceScene& device, const DeviceLinks& links,
+                                       const std::vector<Element>& elements)
     : passes_(programs, bins.count(), options),
       places_(element_places(tree, poses, bins, scene, device)),
       links_(links.moving),
       senders_(links.moving_senders) {
+    for (std::size_t i = 0; i < places_.size(); ++i)
+        places_[i].row_exponent = elements[i].row_exponent;
     moving_.link_count = static_cast<std::uint32_t>(links_.size());
     for (std::uint32_t i = 0; i < tree.count(); ++i)
         if (tree.moves(i) && tree.is_patch(i)) list_.push_back(i);

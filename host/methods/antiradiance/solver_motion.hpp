@@ -20,11 +20,11 @@ void add_moving(BufferTable& table, MovingElements& moving, const ElementTree& t
 
 class AntiradianceMotion {
 public:
-    // poses: the tree in each, at least one.
+    // poses: the tree in each, at least one. elements: of the device.
     AntiradianceMotion(const Programs& programs, const BuildOptions& options,
                        const ElementTree& tree, const std::vector<ElementTree>& poses,
                        const DirectionBins& bins, const Scene& scene, const DeviceScene& device,
-                       const DeviceLinks& links);
+                       const DeviceLinks& links, const std::vector<Element>& elements);
 
     void add_to(BufferTable& table, const ElementTree& tree);
     void build() const;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/advanced/planes.hpp>
 #include <clgi/passes/atlas.hpp>
 #include <cmath>
@@ -12,8 +13,14 @@
 namespace clgi {
 namespace {
 
+// Planes of texels from the first to that of the triangles' normals.
+void need_texels(const PassKernel& pass, std::uint32_t stride, std::uint32_t count) {
+    need_stride(pass, "stride", stride, count);
+    need_countable(pass.name, "texels", GBUFFER_GEOMETRIC + 3, stride);
+}
+
 void need_senders(const PassKernel& pass, const FillParams& params, const SiteBuffers& b) {
-    need_stride(pass, "stride", params.stride, params.texel_count);
+    need_texels(pass, params.stride, params.texel_count);
     need(pass, "sites", b.sites, b.site_count * sizeof(Site));
     need(pass, "planes", b.planes, SITE_PLANES * word * params.site_stride);
     need(pass, "site_power", b.site_power, 3 * word * params.site_stride);
@@ -98,7 +105,7 @@ cl::Event AtlasPasses::see(const cl::CommandQueue& queue, const SeeParams& param
                            const cl::Buffer& views, const cl::Buffer& depth,
                            const cl::Buffer& texels, const cl::Buffer& seen,
                            const WaitList& wait) const {
-    need_stride(see_, "stride", params.stride, params.texel_count);
+    need_texels(see_, params.stride, params.texel_count);
     const std::size_t shooters = params.shooter_count;
     need(see_, "views", views, 5 * shooters * sizeof(View));
     need(see_, "depth", depth, 3 * word * shooters * params.size * params.size);
@@ -187,7 +194,7 @@ cl::Event AtlasPasses::project(const cl::CommandQueue& queue, const FillParams& 
 cl::Event AtlasPasses::nearest(const cl::CommandQueue& queue, const FillParams& params,
                                const SiteBuffers& b, const cl::Buffer& texels,
                                const cl::Buffer& reach, const WaitList& wait) const {
-    need_stride(nearest_, "stride", params.stride, params.texel_count);
+    need_texels(nearest_, params.stride, params.texel_count);
     need(nearest_, "planes", b.planes, SITE_PLANES * word * params.site_stride);
     need(nearest_, "balance", b.balance, BALANCE_PLANES * word * params.site_stride);
     need(nearest_, "texels", texels, (GBUFFER_GEOMETRIC + 3) * word * params.stride);
@@ -200,7 +207,7 @@ cl::Event AtlasPasses::complete(const cl::CommandQueue& queue, const FillParams&
                                 const cl::Buffer& reach, const cl::Buffer& filled,
                                 const cl::Buffer& gathered, const cl::Buffer& irradiance,
                                 const cl::Buffer& non_finite, const WaitList& wait) const {
-    need_stride(complete_, "stride", params.stride, params.texel_count);
+    need_texels(complete_, params.stride, params.texel_count);
     need(complete_, "reach", reach, word * params.stride);
     need(complete_, "filled", filled, word * params.stride);
     need(complete_, "gathered", gathered, 3 * word * params.stride);
@@ -222,6 +229,10 @@ cl::Event AtlasPasses::show(const cl::CommandQueue& queue, const ShowParams& par
     if (params.texel_stride < params.texel_count)
         throw Error(show_.name + ": texel_stride is " + std::to_string(params.texel_stride) +
                     ", at least " + std::to_string(params.texel_count) + " needed");
+    need_countable(show_.name, "planes", GBUFFER_PLANES, params.stride);
+    need_countable(show_.name, "map", std::max(params.pages, 1u),
+                   std::size_t{params.size} * params.size);
+    need_countable(show_.name, "light", 3, params.texel_stride);
     need(show_, "planes", points.planes, gbuffer_bytes(storage_, params.stride));
     need(show_, "ids", points.ids, GBUFFER_ID_PLANES * word * params.stride);
     need(show_, "corners", map.corners, 3 * triangles * 2 * word);

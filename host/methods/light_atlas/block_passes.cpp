@@ -16,6 +16,8 @@ void need_batch(const PassKernel& pass, const BlockParams& params, const cl::Buf
                 const cl::Buffer& depth, const BlockBuffers& b, const cl::Buffer& seen) {
     const std::size_t shooters = params.shooter_count;
     need_stride(pass, "listed_stride", params.listed_stride, params.listed_count);
+    for (const std::uint32_t stride : {params.listed_stride, params.stride})
+        need_countable(pass.name, "texels", GBUFFER_GEOMETRIC + 3, stride);
     need(pass, "views", views, 5 * shooters * sizeof(View));
     need(pass, "depth", depth, 3 * word * shooters * params.size * params.size);
     need(pass, "listed_seen", b.seen, seen_rows(shooters) * params.listed_stride);
@@ -31,6 +33,8 @@ std::size_t geometric_bytes(std::uint32_t stride) {
 cl::Event AtlasPasses::flat(const cl::CommandQueue& queue, const BlockParams& params,
                             const cl::Buffer& texels, const BlockBuffers& b,
                             const WaitList& wait) const {
+    for (const std::uint32_t stride : {params.listed_stride, params.stride})
+        need_countable(flat_.name, "texels", GBUFFER_GEOMETRIC + 3, stride);
     need(flat_, "texels", texels, geometric_bytes(params.stride));
     need(flat_, "listed", b.planes, geometric_bytes(params.listed_stride));
     need(flat_, "blocks", b.blocks, params.block_count * sizeof(AtlasBlock));

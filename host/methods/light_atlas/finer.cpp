@@ -20,6 +20,7 @@ AtlasLayout finer_atlas(const Scene& scene, const AtlasLayout& atlas, int times)
         throw Error("finer_atlas: " + std::to_string(times) + " times " +
                     std::to_string(atlas.size) + " texels a side, 1 to " +
                     std::to_string(most_texels) + " texels needed");
+    need_countable_texels("finer_atlas", atlas.size * times, atlas.pages);
     AtlasPlacement placed;
     placed.pages = atlas.pages;
     placed.texels_per_metre = atlas.texels_per_metre * times;

@@ -40,6 +40,9 @@ AtlasPlacement place_by_regions(const Scene& scene, const std::vector<std::uint3
 AtlasLayout make_atlas(const Scene& scene, const std::vector<std::uint32_t>& region_of,
                        const Adjacency* mesh, const AtlasOptions& options);
 
+// Throws InputError where the texels of all pages, or one more, are not counted in 32 bits.
+void need_countable_texels(const char* name, int size, int pages);
+
 // Texels, dilated, uvs, triangle_page, triangle_chart, charts and skipped_area of a layout whose
 // size is set.
 void list_texels(const Scene& scene, const AtlasPlacement& placed, AtlasLayout& layout);

@@ -4,6 +4,7 @@
 #include <clgi/error.hpp>
 #include <numeric>
 
+#include "methods/light_atlas/row_unit.hpp"
 #include "methods/light_atlas/solver_state.hpp"
 
 namespace clgi {
@@ -136,6 +137,8 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
                          site.back ? static_cast<std::uint32_t>(SITE_BACK) : 0});
         row_scale += area;
     }
+    for (Site& site : sites)
+        site.flags |= row_exponent(double{site.area}, double{row_scale}) << SITE_ROW_SHIFT;
     record.write(b.sample_list, list.data(), list.size() * sizeof(SurfaceSample));
     record.write(b.sites.sites, sites.data(), sites.size() * sizeof(Site));
     record.write(b.sites.chosen, order.data(), order.size() * sizeof(std::uint32_t));
@@ -194,9 +197,10 @@ bool LightAtlasSolver::State::run(const Progress& progress, double least) {
                             direct.data());
     power_direct = unshot_power();
     threshold = static_cast<float>(options.threshold * power_direct / b.sites.site_count);
-    if (!differences)
-        for (const cl::Buffer* buffer : {&b.sites.sent, &b.gathered, &b.filled})
-            record.fill(*buffer, 0);
+    if (differences)
+        note_brightest();
+    else
+        clear_texels();
     if (exchanged)
         put_back_light();
     else
@@ -205,6 +209,7 @@ bool LightAtlasSolver::State::run(const Progress& progress, double least) {
         send(static_cast<float>(differences ? least * power_direct / b.sites.site_count : -1.0));
         fill();
     }
+    if (differences && !record.cancelled() && residue_shows()) send_anew();
     ended = !record.cancelled();  // what is asked for from here on comes too late
     record.report(1.0);
     record.wait();

@@ -38,6 +38,19 @@ void check(const LightAtlasOptions& options) {
                     std::to_string(2 * options.hemicube_size * options.hemicube_size) + " needed");
 }
 
+void check_sizes(std::size_t vpls, std::size_t samples, std::size_t texels, std::size_t points) {
+    constexpr std::size_t skew = 1024;  // of plane_stride()
+    const auto check = [](const char* name, std::size_t count) {
+        if (count > (std::size_t{1} << 32) / GBUFFER_PLANES - skew)
+            throw Error(std::string("light-atlas: there are ") + std::to_string(count) + " " +
+                        name + ", at most 2^28 - 1024 needed");
+    };
+    static_assert(GBUFFER_PLANES == 16 && int{SITE_PLANES} < int{GBUFFER_PLANES} &&
+                  int{SITE_POINT_PLANES} < int{GBUFFER_PLANES});
+    check("VPLs and sample points", vpls + samples);
+    check("texels and points", (texels + 15) / 16 * 16 + points);  // as first_bake_point()
+}
+
 // Light through the openings of a building is too much by a fifth with maps of 512 pixels, by 1 %
 // with 2048 (docs/accuracy.md).
 int usual_shadow_size(const DeviceScene& scene, const EmitterOptions& emitters) {
@@ -117,6 +130,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
                   const LightAtlasOptions& options, std::size_t budget, std::size_t largest) {
     const std::size_t samples = layout.samples.size(), sites = layout.vpls.size();
     const std::size_t texels = atlas.texels.size();
+    check_sizes(sites, samples, texels, points);
     const char* vpls = "the number of VPLs";
     const char* per_vpl = "the number of VPLs or of samples for each";
     const char* size = "the size of the atlas";

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cfloat>
 #include <clgi/advanced/adjacency.hpp>
+#include <clgi/error.hpp>
 #include <cmath>
+#include <string>
 
 #include "methods/light_atlas/clip.hpp"
 #include "methods/light_atlas/placement.hpp"
@@ -211,7 +213,15 @@ private:
 
 }  // namespace
 
+void need_countable_texels(const char* name, int size, int pages) {
+    const auto side = static_cast<std::uint64_t>(size);
+    if (static_cast<std::uint64_t>(pages) > no_index / (side * side))
+        throw InputError(std::string(name) + ": " + std::to_string(pages) + " pages of " +
+                         std::to_string(size) + " texels a side, at most 2^32 - 1 texels needed");
+}
+
 void list_texels(const Scene& scene, const AtlasPlacement& placed, AtlasLayout& layout) {
+    need_countable_texels("atlas", layout.size, placed.pages);
     Lister lister(scene, placed, layout.size);
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) lister.add(t);
     lister.finish(layout);

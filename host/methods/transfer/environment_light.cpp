@@ -69,6 +69,7 @@ bool EnvironmentLight::is_projected() const {
 void EnvironmentLight::project(Recorder& record, const TransferPasses& passes) {
     const double own = scene_->environment() ? double{scene_->environment()->rotation} : 0.0;
     const std::vector<float> rotation = environment_rotation(own + turned_, projection_.bands);
+    projected_turn_ = turned_;
     record.write(buffers_.rotation, rotation.data(), rotation.size() * sizeof(float));
     if (!lights_.empty())
         record.write(buffers_.lights, lights_.data(), lights_.size() * sizeof(lights_[0]));

@@ -29,16 +29,8 @@ MaskOptions checked(const MaskOptions& options) {
     return options;
 }
 
-// Kernels count the numbers of these planes in 32 bits.
-void need_countable(const PassKernel& pass, const char* name, std::size_t planes,
-                    std::size_t stride) {
-    if (planes * stride > std::size_t{1} << 32)
-        throw Error(pass.name + ": " + name + " has " + std::to_string(planes) + " planes of " +
-                    std::to_string(stride) + ", at most 2^32 numbers needed");
-}
-
 void need_receivers(const PassKernel& pass, const ReceiverBuffers& r) {
-    need_countable(pass, "receivers", RECEIVER_PLANES, r.stride);
+    need_countable(pass.name, "receivers", RECEIVER_PLANES, r.stride);
     need_stride(pass, "receiver stride", r.stride, r.count);
     need(pass, "receivers", r.planes, RECEIVER_PLANES * word * r.stride);
 }
@@ -47,7 +39,7 @@ void need_blockers(const PassKernel& pass, const BlockerBuffers& b) {
     if (b.stride != blocker_stride(b.triangle_count))
         throw Error(pass.name + ": blocker stride is " + std::to_string(b.stride) + ", " +
                     std::to_string(blocker_stride(b.triangle_count)) + " needed");
-    need_countable(pass, "corners", BLOCKER_PLANES, b.stride);
+    need_countable(pass.name, "corners", BLOCKER_PLANES, b.stride);
     need(pass, "corners", b.corners, BLOCKER_PLANES * word * b.stride);
     need(pass, "boxes", b.boxes, b.stride / BLOCKER_CLUSTER * sizeof(BlockerBox));
 }
@@ -178,7 +170,7 @@ cl::Event MaskPasses::mask(const cl::CommandQueue& queue, const ReceiverBuffers&
                            const BlockerBuffers& b, const cl::Buffer& drawn,
                            const WaitList& wait) const {
     const PassKernel& pass = has_singles(b) ? mask_near_ : mask_;
-    need_countable(pass, "masks", MASK_WORDS(static_cast<std::size_t>(masks_.size)), r.stride);
+    need_countable(pass.name, "masks", MASK_WORDS(static_cast<std::size_t>(masks_.size)), r.stride);
     need_receivers(pass, r);
     need_blockers(pass, b);
     need_lists(pass, r, b);
@@ -194,15 +186,16 @@ cl::Event MaskPasses::visible(const cl::CommandQueue& queue, const ReceiverBuffe
                               const BlockerBuffers& b, const cl::Buffer& heights,
                               const cl::Buffer& seen, const WaitList& wait) const {
     const PassKernel& pass = has_singles(b) ? visible_near_ : visible_;
+    const std::size_t columns = packets(pass, MASK_COLUMNS(masks_.size));
+    need_items(pass.name, r.count * columns);
     need_receivers(pass, r);
     need_blockers(pass, b);
     need_lists(pass, r, b);
-    need_countable(pass, "seen", visible_words(b.triangle_count), r.stride);
+    need_countable(pass.name, "seen", visible_words(b.triangle_count), r.stride);
     MaskOptions exact = masks_;
     exact.planes = EdgePlanes::exact;
     need(pass, "heights", heights, mask_table_bytes(exact));
     need(pass, "seen", seen, visible_words(b.triangle_count) * r.stride * word);
-    const std::size_t columns = packets(pass, MASK_COLUMNS(masks_.size));
     const MaskParams params{r.count, r.stride, b.stride, b.receivers_per_list, 0, 0, 0, 0};
     return launch(pass, queue, r.count * columns, wait, params, r.planes, Listed{b}, heights, seen);
 }
@@ -211,7 +204,7 @@ cl::Event MaskPasses::exitance(const cl::CommandQueue& queue, const BounceParams
                                const cl::Buffer& triangles, const cl::Buffer& other_side,
                                const cl::Buffer& reflectance, const cl::Buffer& irradiance,
                                const cl::Buffer& out, const WaitList& wait) const {
-    need_countable(exitance_, "irradiance", 3, params.receiver_stride);
+    need_countable(exitance_.name, "irradiance", 3, params.receiver_stride);
     need(exitance_, "triangles", triangles, params.triangle_count * sizeof(glm::uvec4));
     need(exitance_, "other_side", other_side, params.triangle_count > 0 ? word : 0);
     need(exitance_, "reflectance", reflectance, 3 * word * params.receiver_stride);
@@ -226,7 +219,7 @@ cl::Event MaskPasses::bounce(const cl::CommandQueue& queue, const ReceiverBuffer
                              const cl::Buffer& exitance, const cl::Buffer& irradiance,
                              const cl::Buffer& non_finite, const WaitList& wait) const {
     const PassKernel& pass = has_singles(b) ? bounce_near_ : bounce_;
-    need_countable(pass, "irradiance", 3, r.stride);
+    need_countable(pass.name, "irradiance", 3, r.stride);
     need_receivers(pass, r);
     need_blockers(pass, b);
     need_lists(pass, r, b);
@@ -250,7 +243,7 @@ std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuff
                                       const cl::Buffer& transfer) const {
     const auto side = static_cast<std::size_t>(std::max(masks_.size / masks_.block, 1));
     const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
-    need_countable(pass, "transfer", terms, r.stride);
+    need_countable(pass.name, "transfer", terms, r.stride);
     need_receivers(pass, r);
     const std::size_t turns = 2 * static_cast<std::size_t>(masks_.bands) - 1;
     need(pass, "weights", weights, (side * side + 1) * terms * word);
@@ -261,7 +254,7 @@ std::size_t MaskPasses::need_integral(const PassKernel& pass, const ReceiverBuff
 
 void MaskPasses::need_masks(const PassKernel& pass, const ReceiverBuffers& r) const {
     const std::size_t words = MASK_WORDS(static_cast<std::size_t>(masks_.size));
-    need_countable(pass, "masks", words, r.stride);
+    need_countable(pass.name, "masks", words, r.stride);
     need(pass, "masks", r.masks, words * r.stride * word);
 }
 
@@ -297,7 +290,7 @@ cl::Event MaskPasses::shade(const cl::CommandQueue& queue, const ReceiverBuffers
                             const cl::Buffer& non_finite, const WaitList& wait) const {
     const auto terms = static_cast<std::size_t>(sh::terms(masks_.bands));
     need_stride(shade_, "receiver stride", r.stride, r.count);
-    need_countable(shade_, "transfer", terms, r.stride);
+    need_countable(shade_.name, "transfer", terms, r.stride);
     need(shade_, "transfer", transfer, terms * r.stride * word);
     need(shade_, "light", light, terms * sizeof(glm::vec4));
     need(shade_, "irradiance", irradiance, 3 * word * r.stride);

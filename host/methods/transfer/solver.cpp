@@ -187,6 +187,7 @@ void DynamicTransferSolver::lights_changed() {
 }
 
 void DynamicTransferSolver::turn_environment(double angle) { state_->sky.turn(angle); }
+double DynamicTransferSolver::environment_turn() const { return state_->sky.projected_turn(); }
 
 cl::Event DynamicTransferSolver::look(const WaitList& wait) { return state_->look(wait); }
 VisibleSets DynamicTransferSolver::sets() { return state_->sets(); }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "core/opencl/planes.hpp"
 #include "methods/transfer/solver_state.hpp"
 
 namespace clgi {
@@ -51,6 +52,8 @@ void DynamicTransferSolver::State::allocate_more(const BufferTable& more) {
 cl::Event DynamicTransferSolver::State::look(const WaitList& wait) {
     need_shadows(options, "look()");
     if (!seen()) {
+        need_countable(transfer_owner, "bits of visible sets", visible_words(both.triangle_count),
+                       receivers.stride);
         BufferTable t(transfer_owner);
         t.add(seen, "bits of visible sets", "the scene's vertices",
               visible_words(both.triangle_count) * receivers.stride * sizeof(std::uint32_t));

@@ -24,6 +24,14 @@ constexpr std::uint32_t batch = 32768;
 // are rounded by, and less than anything that casts a shadow one can see.
 constexpr float lift = 1.52587890625e-5f;  // 2^-16
 
+// Direct light of everything but what is part of the solver's environment.
+PictureOptions beside_environment(const PictureOptions& options,
+                                  const DynamicTransferSolver& solver) {
+    PictureOptions out = without_sky(options);
+    out.emitters.directional = out.emitters.directional && !solver.options().directional;
+    return out;
+}
+
 // Of the receivers that a view sees: a place, or with w 1 a direction.
 glm::vec4 to_eye(const View& view) {
     return view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
@@ -36,7 +44,7 @@ struct DynamicTransferView::State {
           DynamicTransferSolver& from, const DynamicTransferViewOptions& options)
         : scene(of),
           solver(from),
-          picture(programs, queue, of, without_sky(options.picture), owner),
+          picture(programs, queue, of, beside_environment(options.picture, from), owner),
           passes(programs, picture.options().build),
           open_pixels(programs, picture.options().build, from.options().masks.bands),
           open_receivers(programs, full(picture.options().build), from.options().masks.bands),
@@ -287,7 +295,7 @@ struct DynamicTransferView::State {
                                         picture.radiance(), picture.counter(), before);
             });
         }
-        return picture.end(view);
+        return picture.end(view, solver.environment_turn());
     }
 
     const DeviceScene& scene;

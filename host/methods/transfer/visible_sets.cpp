@@ -4,6 +4,8 @@
 #include <clgi/error.hpp>
 #include <string>
 
+#include "methods/transfer/list_begins.hpp"
+
 namespace clgi {
 namespace {
 
@@ -60,10 +62,10 @@ VisibleSets visible_sets(const std::vector<std::uint32_t>& seen, std::uint32_t r
                 bits[rings.near[i] / 32 * std::size_t{stride} + r] |= 1u << (rings.near[i] % 32);
     }
     VisibleSets out;
-    out.near_lists.assign(receivers + std::size_t{1}, 0);
+    std::vector<std::uint32_t> counts(receivers);
     for_each_bit(bits, receivers, stride, words,
-                 [&](std::uint32_t r, std::uint32_t) { ++out.near_lists[r + std::size_t{1}]; });
-    for (std::size_t r = 0; r < receivers; ++r) out.near_lists[r + 1] += out.near_lists[r];
+                 [&](std::uint32_t r, std::uint32_t) { ++counts[r]; });
+    out.near_lists = list_begins("visible_sets", counts);
     out.near.resize(out.near_lists.back());
     std::vector<std::uint32_t> next = out.near_lists;
     for_each_bit(bits, receivers, stride, words,

@@ -159,9 +159,10 @@ CombineParams combine_params(const DeviceScene& scene, const View& view, std::ui
     return out;
 }
 
-EnvironmentParams environment_params(const DeviceScene& scene, std::uint32_t stride) {
+EnvironmentParams environment_params(const DeviceScene& scene, std::uint32_t stride,
+                                     double turned) {
     const Environment& environment = scene.environment().value();
-    const double turns = double{environment.rotation} / glm::two_pi<double>();
+    const double turns = (double{environment.rotation} + turned) / glm::two_pi<double>();
     return {glm::vec4(environment.factor, 0.0f), static_cast<std::uint32_t>(environment.width),
             static_cast<std::uint32_t>(environment.height), stride,
             static_cast<float>(turns - std::floor(turns))};

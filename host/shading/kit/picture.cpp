@@ -90,12 +90,12 @@ void Picture::combine(const View& view) {
     });
 }
 
-cl::Event Picture::end(const View& view) {
+cl::Event Picture::end(const View& view, double turned) {
     if (options_.direct && scene_.environment())
         record_("image.environment", pixels(), [&](const WaitList& wait) {
-            return image_.environment(record_.queue(), environment_params(scene_, seen_.stride),
-                                      view, scene_.environment_texels(), seen_.planes, radiance_,
-                                      wait);
+            return image_.environment(record_.queue(),
+                                      environment_params(scene_, seen_.stride, turned), view,
+                                      scene_.environment_texels(), seen_.planes, radiance_, wait);
         });
     return record_.last();
 }

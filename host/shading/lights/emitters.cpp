@@ -300,10 +300,12 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     const int vpls = options.shadows ? options.vpls : 0;
     std::vector<Source> sources;
     if (scene.info().triangle_count > 0) {
-        for (const Light& light : scene.lights())
-            sources.push_back(light.kind == Light::Kind::directional
-                                  ? directional(light, scene.frame(), options)
-                                  : spot_or_point(light, scene.frame(), options));
+        for (const Light& light : scene.lights()) {
+            if (light.kind != Light::Kind::directional)
+                sources.push_back(spot_or_point(light, scene.frame(), options));
+            else if (options.directional)
+                sources.push_back(directional(light, scene.frame(), options));
+        }
         for (const auto& more : {area_samples(scene, options), environment_lights(scene, options)})
             sources.insert(sources.end(), more.begin(), more.end());
     }

@@ -23,6 +23,7 @@ struct EmitterOptions {
     // maps, and light every point that faces them. No VPL can be placed without views, so vpls
     // counts as 0.
     bool shadows = true;
+    bool directional = true;  // false: the scene's directional lights are left out
 };
 
 // Halton candidates that are tried for a spot at most; a narrower cone is mapped directly.

@@ -28,6 +28,9 @@ public:
     // About +Y, radians, beside the environment's own.
     void turn(double angle) { turned_ = angle; }
 
+    // Of what was projected last.
+    double projected_turn() const { return projected_turn_; }
+
     // The whole projection; or, with the picture projected before, what light, turn and update
     // have changed. A picture whose passes failed or were left out is projected again.
     void project(Recorder& record, const TransferPasses& passes);
@@ -44,7 +47,7 @@ private:
     EnvironmentProjection projection_;
     bool directional_;
     cl::Event projected_;  // the end of the passes that read the picture
-    double turned_ = 0.0;
+    double turned_ = 0.0, projected_turn_ = 0.0;
     std::vector<DirectionalLight> lights_;
     std::size_t capacity_ = 0;  // directional lights that there are buffers for
     ProjectionBuffers buffers_;

@@ -26,7 +26,8 @@ struct LinkBuffers {
     cl::Buffer senders;
     cl::Buffer bins;  // [link_count] ushort
     // [link_count] float, 1 / (m^2 sr) [Dachsbacher07, Eq. 17]; of links that read powers times
-    // the cosine of the sender's Element::normal with the direction of the bin.
+    // the cosine of the sender's Element::normal with the direction of the bin; of the others times
+    // 2^Element::row_exponent of the sender.
     cl::Buffer form_factors;
     std::uint32_t element_count = 0, inner_count = 0, leaf_count = 0, link_count = 0;
     std::uint32_t row_count = 0;  // of exitant intensities

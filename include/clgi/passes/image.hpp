@@ -30,7 +30,9 @@ CLGI_API CombineParams combine_params(const DeviceScene& scene, const View& view
                                       Pixels shadow_maps);
 
 // For the scene's environment; the scene must have one.
-CLGI_API EnvironmentParams environment_params(const DeviceScene& scene, std::uint32_t stride);
+// turned: about +Y, radians, beside the environment's own rotation.
+CLGI_API EnvironmentParams environment_params(const DeviceScene& scene, std::uint32_t stride,
+                                              double turned = 0.0);
 
 class CLGI_API ImagePasses {
 public:

@@ -28,7 +28,8 @@ typedef struct {
     uint row;       // among the leaves, or among the inner elements
     uint cut;       // of a patch with parts: CUT_EDGE... below
     uint sends;     // row of exitant intensity; ELEMENT_NONE: no link reads it
-    uint pad0_;
+    int row_exponent;  // that row is divided by 2^row_exponent, and links that read it are
+                       // multiplied by it: half storage loses nothing where areas are small
     uint pad1_;
     uint pad2_;
 } Element;

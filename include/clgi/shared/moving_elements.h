@@ -14,7 +14,7 @@ typedef struct {
                       // w: DirectionBins::hemisphere_scale
     float area;
     uint triangle;  // of the device; ELEMENT_NONE: a cluster
-    uint pad0_;
+    int row_exponent;  // as in Element
     uint pad1_;
 } ElementPlace;
 

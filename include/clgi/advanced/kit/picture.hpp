@@ -48,8 +48,9 @@ public:
     View begin(const Camera& camera, const WaitList& wait);
     // Direct light and irradiance to radiance().
     void combine(const View& view);
-    // The environment where nothing is seen; the event of the whole picture.
-    cl::Event end(const View& view);
+    // The environment where nothing is seen; the event of the whole picture. turned: about +Y,
+    // radians, beside the environment's own rotation.
+    cl::Event end(const View& view, double turned = 0.0);
 
     Recorder& record() { return record_; }
     const GBufferPasses& passes() const { return gbuffer_; }

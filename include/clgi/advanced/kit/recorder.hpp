@@ -27,7 +27,8 @@ public:
     Recorder(const cl::CommandQueue& queue, std::string owner);
 
     // A new sequence, which begins after `wait` and after what was enqueued before. The events of
-    // the last sequence are forgotten.
+    // the last sequence are forgotten. Queues of events in `wait` are flushed, so that what this
+    // queue waits for is on its way.
     void begin(const WaitList& wait, const Progress& progress = nullptr);
 
     // enqueue(wait) puts one pass on the queue and returns its event. Every pass waits for the
