@@ -72,15 +72,15 @@ TEST(StaticScene, HasItsAtlasInTheWhole) {
     for (std::size_t t = 0; t < scene.triangles.size(); ++t)
         without += whole.triangle_page[t] == ATLAS_NONE && whole.triangle_chart[t] == ATLAS_NONE;
     EXPECT_EQ(without, 12u);
-    for (std::size_t t = 0; t < bake.fixed.triangles.size(); ++t) {
-        const std::size_t to = bake.fixed.triangles[t];
+    for (std::size_t t = 0; t < bake.static_scene.triangles.size(); ++t) {
+        const std::size_t to = bake.static_scene.triangles[t];
         EXPECT_EQ(whole.triangle_chart[to], part.triangle_chart[t]);
         EXPECT_EQ(whole.triangle_page[to], part.triangle_page[t]);
         for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(whole.uvs[3 * to + k], part.uvs[3 * t + k]);
     }
     ASSERT_EQ(whole.texels.size(), part.texels.size());
     for (std::size_t i = 0; i < part.texels.size(); ++i)
-        EXPECT_EQ(whole.texels[i].triangle, bake.fixed.triangles[part.texels[i].triangle]);
+        EXPECT_EQ(whole.texels[i].triangle, bake.static_scene.triangles[part.texels[i].triangle]);
     // The volume covers the way of the box, which is found if the scene does not say it.
     Scene silent = scene;
     silent.moving_bounds.reset();
@@ -99,10 +99,10 @@ TEST(StaticScene, RefusesWhatDoesNotBelong) {
     const Scene scene = test::moving_box_room();
     const StaticBake bake = make_static_bake(scene, {.count = 50}, {.size = 64});
     const std::size_t count = scene.triangles.size();
-    std::vector<std::uint32_t> few = bake.fixed.triangles;
+    std::vector<std::uint32_t> few = bake.static_scene.triangles;
     few.pop_back();
     EXPECT_THROW(atlas_of_whole(bake.layout.atlas, few, count), Error);
-    EXPECT_THROW(atlas_of_whole(bake.layout.atlas, bake.fixed.triangles, count - 1), Error);
+    EXPECT_THROW(atlas_of_whole(bake.layout.atlas, bake.static_scene.triangles, count - 1), Error);
     Scene all = scene;  // nothing stands still
     for (SceneTriangle& triangle : all.triangles)
         triangle.vertex[0] = scene.triangles[24].vertex[0];
