@@ -5,7 +5,8 @@
 #
 # Without --all those are left out that take longest (label "slow", tests/CMakeLists.txt): users of
 # an installed clgi, kernels in an interpreter, every kernel in every form, the longest sweeps and
-# references. Continuous integration runs all.
+# references. Continuous integration runs all. The entries of the stability suite are left out in
+# both cases: they repeat cases of the shards.
 #
 # Ends with ctest's summary and its exit code. A run without a test on an OpenCL device fails.
 # SPDX-License-Identifier: MIT
@@ -13,10 +14,13 @@ set -euo pipefail
 # shellcheck source-path=SCRIPTDIR source=../cmake/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/../cmake/setup.sh"
 
-left_out=(--label-exclude '^slow$')
+left_out=(--exclude-regex '_stability$')
+all=0
 if [[ ${1:-} == --all ]]; then
-    left_out=()
+    all=1
     shift
+else
+    left_out+=(--label-exclude '^slow$')
 fi
 
 build=$clgi_root/build
@@ -33,7 +37,7 @@ log=$build/ctest.log
 ctest --output-on-failure --no-tests=error --parallel 2 "${left_out[@]}" 2>&1 | tee "$log"
 
 grep -A1 ': Skipped$' Testing/Temporary/LastTest.log || echo "tests: no case was skipped"
-if ((${#left_out[@]} > 0)); then
+if ((!all)); then
     echo "tests: $(ctest -N --label-regex '^slow$' | sed -n 's/^Total Tests: //p') slow ones are left to --all"
 fi
 for test in $on_device; do

@@ -1,6 +1,7 @@
 // The light of an atlas on the host: finer texels, radiance of texels, and scenes that show it.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <clgi/advanced/atlas_light.hpp>
 #include <clgi/device_scene.hpp>
@@ -175,8 +176,8 @@ protected:
     LitScene()
         : scene(box_of()),
           file(std::filesystem::temp_directory_path() /
-               ("clgi-lit-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-                "-" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".glb")) {
+               ("clgi-lit-" + std::to_string(::getpid()) + "-" +
+                ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".glb")) {
         Material red;
         red.name = "red";
         red.base_color = glm::vec4(0.9f, 0.1f, 0.05f, 1.0f);

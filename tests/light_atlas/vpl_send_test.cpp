@@ -10,7 +10,7 @@
 namespace clgi {
 namespace {
 
-using test::Heap;
+using test::VplHeap;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -124,7 +124,7 @@ struct Sender {
         }
     }
     Math math;
-    Heap heap;
+    VplHeap heap;
     std::vector<float> planes, irradiance, light, sent;
 };
 

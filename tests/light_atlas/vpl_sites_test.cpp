@@ -8,12 +8,12 @@
 namespace clgi {
 namespace {
 
-using test::Heap;
+using test::VplHeap;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Place, TakesMeansOfReflectanceAndTurnsBacks) {
-    Heap heap(50);
+    VplHeap heap(50);
     Scene world = test::plain_scene();
     test::add_floor(world, 1.0);
     for (const float metallic : {0.0f, 0.3f, 0.8f}) {
@@ -75,7 +75,7 @@ TEST(Place, TakesMeansOfReflectanceAndTurnsBacks) {
 }
 
 TEST(Receive, TakesTheMeanOfEachChannel) {
-    const Heap heap(70);
+    const VplHeap heap(70);
     const SiteBuffers& b = heap.buffers;
     test::Random random(8);
     std::vector<float> irradiance(3 * b.sample_stride);
@@ -98,7 +98,7 @@ TEST(Receive, TakesTheMeanOfEachChannel) {
 // ----------------------------------------------------------------------------------------
 
 struct Emitted {
-    Heap heap;
+    VplHeap heap;
     std::vector<float> planes, before, after, shot, power;
     std::vector<cl_uint> chosen;
     Emitted(cl_uint mode, const ArgMax& strongest, float threshold = 0.0f) : heap(40, 10) {

@@ -12,7 +12,7 @@
 #   file: kernels/image/gather.cl     what is changed, from the root of the project
 #   old: red * (1.0f / CLGI_PI)       text of one line, found exactly once in the file
 #   new: red                          what stands there instead; may be empty
-#   test: image_test Gather.*         who should notice: test program and filter of GoogleTest, or
+#   test: shading_test Gather.*       who should notice: test program and filter of GoogleTest, or
 #                                     the program alone; one line for each
 #
 # Works on a copy of the sources. Only the library is built again for each mutant: it is shared,

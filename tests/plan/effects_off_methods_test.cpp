@@ -21,7 +21,7 @@ const cl::CommandQueue& queue() { return test::device().queue; }
 // Pictures of other methods, and the direct light that those start from.
 struct Baked {
     test::Cost solver, view;
-    EmitterCapacity room;
+    EmitterCapacity capacity;
     std::vector<glm::vec3> radiance;
 };
 

@@ -42,7 +42,7 @@ glm::dvec3 open_floor(const Scene& scene, const glm::dvec3& at) {
 
 struct Direct {
     test::Cost cost;
-    EmitterCapacity room;
+    EmitterCapacity capacity;
     std::vector<glm::vec3> radiance;
     std::vector<glm::dvec3> places;
 };

@@ -7,9 +7,9 @@
 namespace {
 
 using clgi::test::Outcome;
-using Program = clgi::test::Program;
+class DachsbacherTables : public clgi::test::Program {};
 
-TEST_F(Program, BenchHasTheRowsOfDachsbacherTable1) {
+TEST_F(DachsbacherTables, BenchHasTheRowsOfDachsbacherTable1) {
     const Outcome outcome =
         run("bench dachsbacher1 --only glossy-box --repeats 2 --spp 16 --json --quiet");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -38,7 +38,7 @@ TEST_F(Program, BenchHasTheRowsOfDachsbacherTable1) {
     EXPECT_LT(row.at("indirect_error"), 1.0);
 }
 
-TEST_F(Program, BenchHasTheTimesAndMemoryOfDachsbacherTable2) {
+TEST_F(DachsbacherTables, BenchHasTheTimesAndMemoryOfDachsbacherTable2) {
     const Outcome outcome = run("bench dachsbacher2 --only glossy-box --repeats 1 --json --quiet");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const auto rows = nlohmann::json::parse(outcome.out).at("rows");
@@ -54,7 +54,7 @@ TEST_F(Program, BenchHasTheTimesAndMemoryOfDachsbacherTable2) {
     EXPECT_GT(row.at("links_mb").get<double>() * (1 << 20), 177e3 * 10);
 }
 
-TEST_F(Program, BenchRefusesScenesOfOtherTables) {
+TEST_F(DachsbacherTables, BenchRefusesScenesOfOtherTables) {
     const Outcome outcome = run("bench dachsbacher1 --only cloth --quiet");
     expect_one_error_line(outcome, 1);
     EXPECT_NE(outcome.err.find("office, character, oriental"), std::string::npos) << outcome.err;

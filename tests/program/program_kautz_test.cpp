@@ -11,7 +11,7 @@
 namespace {
 
 using clgi::test::Outcome;
-using Program = clgi::test::Program;
+class KautzTables : public clgi::test::Program {};
 
 // A floor of two triangles at y = 0, and a wall beside it that reaches far up: at the middle of the
 // floor it covers one side of the sky, x > 0.
@@ -84,7 +84,7 @@ TEST(TransferErrors, AreRelativeAndLeaveOutWhatIsDark) {
     EXPECT_THROW(errors.add({1.0}, truth, 2), clgi::Error);
 }
 
-TEST_F(Program, BenchHasTheRowsOfKautzTable1) {
+TEST_F(KautzTables, BenchHasTheRowsOfKautzTable1) {
     const Outcome outcome =
         run("bench kautz1 --only cloth --repeats 2 --vertices 40 --json --quiet");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -107,7 +107,7 @@ TEST_F(Program, BenchHasTheRowsOfKautzTable1) {
     EXPECT_LT(rows[1].at("error"), rows[0].at("error"));
 }
 
-TEST_F(Program, BenchHasTheSharesOfKautzTable2) {
+TEST_F(KautzTables, BenchHasTheSharesOfKautzTable2) {
     const Outcome outcome = run("bench kautz2 --only hand --repeats 1 --json --quiet");
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const auto table = nlohmann::json::parse(outcome.out);

@@ -165,8 +165,8 @@ inline Drawn draw_masks(const Blockers& blockers, const Eyes& eyes = {},
 }
 
 // 37 receivers with a normal each, among 200 triangles.
-struct Heap {
-    explicit Heap(std::uint64_t seed = 5, double scale = 1.0) {
+struct MaskHeap {
+    explicit MaskHeap(std::uint64_t seed = 5, double scale = 1.0) {
         Random random(seed);
         for (int i = 0; i < 200; ++i) {
             Triangle t = random_triangle(random);
@@ -222,12 +222,12 @@ inline double relative_l2(const std::vector<double>& a, const std::vector<double
 
 // ---- what a mask should be ---------------------------------------------------------------------
 
-struct Frame {
+struct TangentFrame {
     glm::dvec3 tangent, bitangent, normal;
 };
 
 // [Duff17, listing 3] in double precision.
-inline Frame frame_of(const glm::vec3& normal) {
+inline TangentFrame frame_of(const glm::vec3& normal) {
     const glm::dvec3 n = glm::normalize(glm::dvec3(normal));
     const double s = std::copysign(1.0, n.z), a = -1.0 / (s + n.z), b = n.x * n.y * a;
     return {{1.0 + s * n.x * n.x * a, s * b, -s * n.x}, {b, s + n.y * n.y * a, -n.y}, n};

@@ -7,11 +7,11 @@
 namespace clgi::test {
 
 // Sites of 1 to 30 samples with random planes of everything.
-struct Heap {
+struct VplHeap {
     std::vector<Site> sites;
     std::vector<float> samples;  // [GBUFFER_PLANES][sample_stride]
     SiteBuffers buffers;
-    explicit Heap(int count, std::uint64_t seed = 5) {
+    explicit VplHeap(int count, std::uint64_t seed = 5) {
         const float nan = std::numeric_limits<float>::quiet_NaN();
         Random random(seed);
         cl_uint first = 0;

@@ -103,7 +103,7 @@ TEST_P(Mask, OfTrianglesInTheTangentPlaneIsEmpty) {
          {glm::dvec3(0), glm::dvec3(20, -13, 7), glm::dvec3(-0.6, 0.1, 0.7)})
         for (int i = 0; i < 100; ++i) {
             const glm::vec3 normal(random(-1, 1), random(-1, 1), random(-1, 1));
-            const test::Frame frame = test::frame_of(normal);
+            const test::TangentFrame frame = test::frame_of(normal);
             const glm::dvec3 eye(glm::vec3{place});
             const double size = place == glm::dvec3(0) ? 1.0 : random(0.002, 0.1);
             Triangle triangle;
@@ -199,7 +199,7 @@ TEST(MaskClosedSurfaces, HaveNoHoles) {
     for (int t = 0; t < 200; ++t) {
         std::vector<Triangle> mesh = test::icosahedron();
         std::map<std::array<double, 3>, glm::dvec3> moved;
-        const test::Frame turn =
+        const test::TangentFrame turn =
             test::frame_of(glm::vec3(random(-1, 1), random(-1, 1), random(-1, 1)));
         for (Triangle& triangle : mesh)
             for (glm::dvec3& p : triangle) {
@@ -269,7 +269,7 @@ TEST_P(Mask, OfRandomTrianglesAgreesWithDoublePrecision) {
                                              BuildOptions{.math = GetParam()});
         int blocked = 0, near = 0;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
-            const test::Frame frame = test::frame_of(glm::vec3(eyes.normals[i]));
+            const test::TangentFrame frame = test::frame_of(glm::vec3(eyes.normals[i]));
             for (const test::Pixel& p : test::disc_pixels(size)) {
                 const glm::dvec3 s = p.direction.x * frame.tangent +
                                      p.direction.y * frame.bitangent + p.direction.z * frame.normal;

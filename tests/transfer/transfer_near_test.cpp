@@ -10,7 +10,7 @@ namespace {
 
 using test::Blockers;
 using test::Drawn;
-using test::Heap;
+using test::MaskHeap;
 
 using Lists = std::vector<std::vector<cl_uint>>;  // [receiver] triangles
 
@@ -40,7 +40,7 @@ Lists growing_lists() {
 }
 
 // What a receiver sees of its triangles alone, as the only cluster.
-std::vector<std::vector<cl_uint>> one_by_one(const Heap& heap, const Lists& lists,
+std::vector<std::vector<cl_uint>> one_by_one(const MaskHeap& heap, const Lists& lists,
                                              const MaskOptions& masks, const BuildOptions& how) {
     std::vector<std::vector<cl_uint>> out;
     for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -56,7 +56,7 @@ std::vector<std::vector<cl_uint>> one_by_one(const Heap& heap, const Lists& list
 CLGI_IN_BOTH_MATHS(TransferNear);
 
 TEST_P(TransferNear, ListsGiveTheMasksOfClustersOfTheSameTriangles) {
-    Heap heap;
+    MaskHeap heap;
     const Lists lists = growing_lists();
     for (const EdgePlanes planes : {EdgePlanes::exact, EdgePlanes::table}) {
         MaskOptions masks;
@@ -80,7 +80,7 @@ TEST_P(TransferNear, ListsGiveTheMasksOfClustersOfTheSameTriangles) {
 // Clusters and singles together: the union of both, and every receiver has its own singles though
 // it shares a list of clusters with nine others.
 TEST_P(TransferNear, ListsAddToThoseOfClusters) {
-    const Heap heap;
+    const MaskHeap heap;
     const BuildOptions how{.math = GetParam()};
     Blockers far = heap.blockers;
     far.receivers_per_list = 10;
@@ -104,7 +104,7 @@ TEST_P(TransferNear, ListsAddToThoseOfClusters) {
 }
 
 TEST_P(TransferNear, ListsMayAllBeEmpty) {
-    const Heap heap;
+    const MaskHeap heap;
     const BuildOptions how{.math = GetParam()};
     Blockers none = heap.blockers;
     set_near(none, Lists(37));
@@ -113,7 +113,7 @@ TEST_P(TransferNear, ListsMayAllBeEmpty) {
 }
 
 TEST(TransferNearInputs, OfTooFewBytesAreRefused) {
-    const Heap heap;
+    const MaskHeap heap;
     Blockers near = heap.blockers;
     set_near(near, Lists(37));
     const Drawn drawn = test::draw_masks(near, heap.eyes);

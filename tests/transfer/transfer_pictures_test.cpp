@@ -103,7 +103,7 @@ TEST_P(TransferPictures, UnderASkyAreThoseOfThePathTracer) {
     expect_like(scene, GetParam(), "gradient");
 }
 
-TEST(DynamicTransferView, UnderPhotographedSkiesHasThePicturesOfThePathTracer) {
+TEST(TransferViewPictures, UnderPhotographedSkiesHasThePicturesOfThePathTracer) {
     const std::filesystem::path folder = std::filesystem::path(CLGI_SCENES_DIR) / "hdr";
     if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;
     std::uint64_t seed = 20;
@@ -123,7 +123,7 @@ TEST(DynamicTransferView, UnderPhotographedSkiesHasThePicturesOfThePathTracer) {
 }
 
 // Vertices alone miss the shadows on the ground, which has four; probes find them.
-TEST(DynamicTransferView, FindsWhereVerticesAreTooFew) {
+TEST(TransferViewPictures, FindsWhereVerticesAreTooFew) {
     Scene scene = test::heap_of_solids(11);
     test::light_by(scene, {0.8f, 1.0f, 1.3f});
     const reference::Picture truth = truth_of(scene, 256);
@@ -144,7 +144,7 @@ TEST(DynamicTransferView, FindsWhereVerticesAreTooFew) {
 }
 
 // One sheet, seen from its front and its back, is lit from the side that is seen.
-TEST(DynamicTransferView, ShowsTheSideThatIsSeen) {
+TEST(TransferViewPictures, ShowsTheSideThatIsSeen) {
     constexpr double pi = 3.14159265358979323846;
     Scene scene = test::plain_scene({0.3f, 0.5f, 0.8f});
     scene.materials[0].double_sided = true;

@@ -15,14 +15,14 @@ using test::Blockers;
 using test::Drawn;
 using test::expect_same_masks;
 using test::Eyes;
-using test::Heap;
+using test::MaskHeap;
 using test::Triangle;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 TEST(TransferSameness, OfEveryWidthAndGroup) {
-    const Heap heap;
+    const MaskHeap heap;
     for (const int size : {8, 32, 64})
         for (const EdgePlanes planes : {EdgePlanes::exact, EdgePlanes::table}) {
             MaskOptions masks;
@@ -51,10 +51,10 @@ TEST(TransferSameness, OfEveryWidthAndGroup) {
 CLGI_IN_BOTH_MATHS(TransferScales);
 
 TEST_P(TransferScales, OfScalesByPowersOfTwo) {
-    const Heap one;
+    const MaskHeap one;
     const Drawn first = test::draw_masks(one.blockers, one.eyes);
     for (const int power : {-40, -13, 7, 40}) {
-        const Heap other(5, std::ldexp(1.0, power));
+        const MaskHeap other(5, std::ldexp(1.0, power));
         expect_same_masks(first, test::draw_masks(other.blockers, other.eyes),
                           "2^" + std::to_string(power));
     }
@@ -95,7 +95,7 @@ int below(const Drawn& drawn, const Eyes& eyes) {
 // Clusters that are skipped hold nothing that is seen: the same with boxes that are everywhere.
 TEST(TransferSameness, WithAndWithoutBoxes) {
     constexpr int heaps = 24;
-    const Eyes eyes = Heap().eyes;
+    const Eyes eyes = MaskHeap().eyes;
     const Drawn all = test::draw_masks(separate_heaps(heaps), eyes);
     const int pairs = heaps * 37;
     EXPECT_GT(below(all, eyes), pairs / 4);
@@ -114,7 +114,7 @@ TEST(TransferSameness, WithAndWithoutBoxes) {
 
 // Ten receivers a list; each list has other clusters, in other orders.
 TEST(TransferSameness, OfListsIsThatOfTheirClusters) {
-    const Heap heap;
+    const MaskHeap heap;
     Blockers listed = heap.blockers;
     listed.receivers_per_list = 10;
     listed.lists = {0, 1, 3, 3, 6};
@@ -193,7 +193,7 @@ CLGI_IN_BOTH_MATHS(TransferInputs);
 
 TEST_P(TransferInputs, CountWhatIsNotFiniteAndKeepTheRest) {
     const BuildOptions how{.math = GetParam()};
-    const Heap heap;
+    const MaskHeap heap;
     const Drawn clean = test::draw_masks(heap.blockers, heap.eyes, {}, how);
     const auto vectors = test::transfer_vectors(clean, CellIntegral::exact, how);
     EXPECT_EQ(clean.counted(), (std::array<cl_uint, 2>{0, 0}));
@@ -201,7 +201,7 @@ TEST_P(TransferInputs, CountWhatIsNotFiniteAndKeepTheRest) {
         for (int axis = 0; axis < 3; ++axis) {
             // A corner: the triangle blocks nothing, the others as before.
             for (int corner = 0; corner < 3; ++corner) {
-                Heap spoilt, without;
+                MaskHeap spoilt, without;
                 spoilt.blockers.positions[3 * 70 + corner][axis] = bad;
                 without.blockers.triangles[70] = glm::uvec4(0);
                 const Drawn drawn = test::draw_masks(spoilt.blockers, spoilt.eyes, {}, how);
@@ -211,7 +211,7 @@ TEST_P(TransferInputs, CountWhatIsNotFiniteAndKeepTheRest) {
             }
             // A receiver: its own light is no number.
             for (const bool normal : {false, true}) {
-                Heap spoilt;
+                MaskHeap spoilt;
                 (normal ? spoilt.eyes.normals : spoilt.eyes.positions)[19][axis] = bad;
                 const Drawn drawn = test::draw_masks(spoilt.blockers, spoilt.eyes, {}, how);
                 EXPECT_EQ(drawn.counted(), (std::array<cl_uint, 2>{1, 0}));
@@ -224,7 +224,7 @@ TEST_P(TransferInputs, CountWhatIsNotFiniteAndKeepTheRest) {
                 EXPECT_FALSE(std::isfinite(found[19][0] + found[19][3]));
             }
         }
-    Heap spoilt;
+    MaskHeap spoilt;
     spoilt.eyes.normals[19] = glm::vec4(0.0f);
     const Drawn drawn = test::draw_masks(spoilt.blockers, spoilt.eyes, {}, how);
     EXPECT_EQ(drawn.counted(), (std::array<cl_uint, 2>{1, 0}));

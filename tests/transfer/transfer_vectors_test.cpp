@@ -33,7 +33,7 @@ Eyes one_eye(const glm::vec3& normal) {
 
 // Triangles that hide all within `half_angle` of an axis: a cone's base at distance 1.
 std::vector<Triangle> cap(const glm::dvec3& axis, double half_angle, int corners = 720) {
-    const test::Frame frame = test::frame_of(glm::vec3(axis));
+    const test::TangentFrame frame = test::frame_of(glm::vec3(axis));
     std::vector<Triangle> out;
     const auto at = [&](int k) {
         const double angle = 2 * pi * (k % corners) / corners, r = std::tan(half_angle);
@@ -135,7 +135,7 @@ TEST_P(Transfer, BesideAWallIsHalfOfTheSky) {
     }
     // Turned with the normal: R takes z to the normal and x to the tangent.
     const glm::vec3 normal(.3f, -.8f, .5f);
-    const test::Frame frame = test::frame_of(normal);
+    const test::TangentFrame frame = test::frame_of(normal);
     const sh::Rotation turn(glm::dmat3(frame.tangent, frame.bitangent, frame.normal), 5);
     std::vector<Triangle> turned = wall;
     for (Triangle& t : turned)
@@ -184,7 +184,7 @@ TEST_P(Transfer, UnderADiscIsARing) {
 TEST_P(Transfer, UnderASphere) {
     const BuildOptions how{.math = GetParam()};
     for (const glm::vec3& normal : {glm::vec3(0, 0, 1), glm::vec3(.3f, -.8f, .5f)}) {
-        const test::Frame frame = test::frame_of(normal);
+        const test::TangentFrame frame = test::frame_of(normal);
         for (const double theta : {0.0, 20.0, 45.0, 58.0}) {
             const double t = theta * pi / 180, a = pi / 6;
             const glm::dvec3 axis = std::cos(t) * frame.normal +
@@ -242,7 +242,7 @@ TEST_P(Transfer, IsTheSumOverOpenPixels) {
                     for (std::size_t k = 0; k < terms; ++k)
                         local[k] += weights.integrals[cell * terms + k] / weights.pixels[cell];
                 }
-                const test::Frame frame = test::frame_of(glm::vec3(eyes.normals[i]));
+                const test::TangentFrame frame = test::frame_of(glm::vec3(eyes.normals[i]));
                 const sh::Rotation turn(glm::dmat3(frame.tangent, frame.bitangent, frame.normal),
                                         masks.bands);
                 const std::vector<double> wanted = turn(local);
@@ -256,8 +256,8 @@ TEST_P(Transfer, IsTheSumOverOpenPixels) {
 
 // integral of Y_i (n + 2) / (2 pi) cos^n(angle to r) cos over the open hemisphere, by midpoints.
 // What is blocked are directions with x above 0 in the receiver's frame, if it has a wall.
-std::vector<double> lobe(const test::Frame& frame, const glm::dvec3& mirrored, double exponent,
-                         bool wall) {
+std::vector<double> lobe(const test::TangentFrame& frame, const glm::dvec3& mirrored,
+                         double exponent, bool wall) {
     std::vector<double> out(25);
     constexpr int fine = 600;
     for (int i = 0; i < (wall ? fine / 2 : fine); ++i)
@@ -279,7 +279,7 @@ std::vector<double> lobe(const test::Frame& frame, const glm::dvec3& mirrored, d
 TEST_P(Transfer, OfGlossIsTheLobeAroundTheMirroredView) {
     const BuildOptions how{.math = GetParam()};
     const glm::vec3 normal(.3f, -.8f, .5f), eye(1.5f, -1.2f, 2.0f), place(.2f, .3f, -.1f);
-    const test::Frame frame = test::frame_of(normal);
+    const test::TangentFrame frame = test::frame_of(normal);
     const glm::dvec3 view = glm::normalize(glm::dvec3(eye) - glm::dvec3(place));
     const glm::dvec3 mirrored = 2 * glm::dot(view, frame.normal) * frame.normal - view;
     std::vector<Triangle> octants = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},

@@ -15,7 +15,7 @@ namespace {
 
 using test::Blockers;
 using test::Drawn;
-using test::Heap;
+using test::MaskHeap;
 using test::Triangle;
 
 // Bits after the triangles of `drawn` were looked at, on top of those that are there.
@@ -137,7 +137,7 @@ Blockers singles_of(const Blockers& all, const VisibleSets& sets) {
 }
 
 TEST_P(TransferVisible, TrianglesDrawTheMasksOfAll) {
-    const Heap heap;
+    const MaskHeap heap;
     for (const int size : {8, 32, 64}) {
         MaskOptions masks;
         masks.size = size;
@@ -160,7 +160,7 @@ TEST_P(TransferVisible, TrianglesDrawTheMasksOfAll) {
 
 // Singles are looked at like clusters: half of the triangles as these and half as those.
 TEST_P(TransferVisible, TrianglesMayBeSingles) {
-    Heap heap;
+    MaskHeap heap;
     for (const int width : {1, 4, 16}) {
         const BuildOptions how{.math = GetParam(), .packet_width = width};
         heap.blockers.ranges.clear();
@@ -195,7 +195,7 @@ TEST_P(TransferVisible, TrianglesMayBeSingles) {
 // Ten receivers a list of clusters: what is in no list is not seen.
 TEST_P(TransferVisible, TrianglesAreThoseOfTheReceiversList) {
     const BuildOptions how{.math = GetParam()};
-    Heap heap;
+    MaskHeap heap;
     heap.blockers.receivers_per_list = 10;
     heap.blockers.lists = {0, 1, 3, 3, 4};
     heap.blockers.ranges = {1, 2, 3, 1, 0, 1, 0, 1};
@@ -212,7 +212,7 @@ TEST_P(TransferVisible, TrianglesAreThoseOfTheReceiversList) {
 // Bits of several frames add up; their sets draw the masks of every frame.
 TEST_P(TransferVisible, TrianglesOfFramesAddUp) {
     const BuildOptions how{.math = GetParam()};
-    std::vector<Heap> frames(3);
+    std::vector<MaskHeap> frames(3);
     for (std::size_t f = 0; f < frames.size(); ++f)
         for (std::size_t i = 0; i < frames[f].blockers.positions.size(); ++i)
             frames[f].blockers.positions[i] +=
@@ -220,7 +220,7 @@ TEST_P(TransferVisible, TrianglesOfFramesAddUp) {
     std::vector<cl_uint> bits;
     std::vector<Drawn> whole;
     std::size_t least = 0;
-    for (const Heap& frame : frames) {
+    for (const MaskHeap& frame : frames) {
         whole.push_back(test::draw_masks(frame.blockers, frame.eyes, {}, how));
         bits = add_seen(whole.back(), bits, how);
         const std::size_t size = sets_of(whole.back(), bits).near.size();
@@ -237,7 +237,7 @@ TEST_P(TransferVisible, TrianglesOfFramesAddUp) {
 // Triangles seen edge-on, at the eye, huge, tiny and none at all: the masks stay the same.
 TEST_P(TransferVisible, TrianglesOfOddShapesAreNotLost) {
     const BuildOptions how{.math = GetParam()};
-    Heap heap;
+    MaskHeap heap;
     test::Random random(31);
     for (int i = 0; i < 200; ++i) {
         const auto far = static_cast<float>(std::pow(10.0, random(-9, 9)));
@@ -257,7 +257,7 @@ TEST_P(TransferVisible, TrianglesOfOddShapesAreNotLost) {
 }
 
 TEST(TransferVisibleInputs, OfTooFewBytesAreRefused) {
-    const Heap heap;
+    const MaskHeap heap;
     const Drawn drawn = test::draw_masks(heap.blockers, heap.eyes);
     const MaskPasses& passes = test::mask_passes();
     const cl::CommandQueue& queue = test::device().queue;
