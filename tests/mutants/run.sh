@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Which one-line errors in kernels and shared headers do the tests notice?
 #
-#   tests/mutants/run.sh [options] [room ...]     all rooms where none is named
+#   tests/mutants/run.sh [options] [list ...]     all lists where none is named
 #
-#   -n NUMBER  this mutant alone, or these (3-9); of one room
+#   -n NUMBER  this mutant alone, or these (3-9); of one list
 #   -c         only check that every mutant's text is found exactly once
 #   -b FOLDER  where to build; ./build-mutants where not named
+#   -l FILE    the mutants of this list instead (tests/mutants/sample.py makes some by rule)
 #
-# A room's mutants are in <room>.txt beside this file: blocks of lines, parted by empty ones.
+# A module's errors are in <room>.txt beside this file: blocks of lines, parted by empty ones.
 #
 #   file: kernels/image/gather.cl     what is changed, from the root of the project
 #   old: red * (1.0f / CLGI_PI)       text of one line, found exactly once in the file
@@ -26,18 +27,22 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/../../cmake/setup.sh"
 folder=$clgi_root/build-mutants
 only=""
 check=0
-while getopts "n:cb:" option; do
+list_file=""
+while getopts "n:cb:l:" option; do
     case $option in
         n) only=$OPTARG ;;
         c) check=1 ;;
         b) folder=$OPTARG ;;
+        l) list_file=$OPTARG ;;
         *) exit 2 ;;
     esac
 done
 shift $((OPTIND - 1))
-rooms=("$@")
-if ((${#rooms[@]} == 0)); then
-    for list in "$clgi_root"/tests/mutants/*.txt; do rooms+=("$(basename "$list" .txt)"); done
+lists=("$@")
+if [[ -n $list_file ]]; then
+    lists=(sample)
+elif ((${#lists[@]} == 0)); then
+    for list in "$clgi_root"/tests/mutants/*.txt; do lists+=("$(basename "$list" .txt)"); done
 fi
 mkdir -p "$folder"
 folder=$(cd -- "$folder" && pwd)
@@ -53,9 +58,9 @@ fail() {
 # ---- the lists ---------------------------------------------------------------------------------
 names=() files=() olds=() news=() tests=()  # tests: a line each
 
-# read_room ROOM
-read_room() {
-    local list=$clgi_root/tests/mutants/$1.txt line number=0 open=0
+# read_list LIST
+read_list() {
+    local list=${list_file:-$clgi_root/tests/mutants/$1.txt} line number=0 open=0
     [[ -f $list ]] || fail "no list of mutants $list"
     while IFS= read -r line || [[ -n $line ]]; do
         case $line in
@@ -92,13 +97,13 @@ check_mutant() {
     ((found == 1)) || fail "$name: found $found times in ${files[$1]}, not once: $old"
 }
 
-for room in "${rooms[@]}"; do read_room "$room"; done
+for name in "${lists[@]}"; do read_list "$name"; done
 chosen=("${!names[@]}")
 if [[ -n $only ]]; then
-    ((${#rooms[@]} == 1)) || fail "-n takes one room"
+    ((${#lists[@]} == 1)) || fail "-n takes one list"
     first=${only%-*} last=${only#*-}
     ((first >= 1 && first <= last && last <= ${#names[@]})) ||
-        fail "no mutants $only: ${rooms[0]} has ${#names[@]}"
+        fail "no mutants $only: ${lists[0]} has ${#names[@]}"
     mapfile -t chosen < <(seq $((first - 1)) $((last - 1)))
 fi
 for i in "${chosen[@]}"; do check_mutant "$i"; done
