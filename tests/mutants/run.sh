@@ -8,7 +8,7 @@
 #   -b FOLDER  where to build; ./build-mutants where not named
 #   -l FILE    the mutants of this list instead (tests/mutants/sample.py makes some by rule)
 #
-# A module's errors are in <room>.txt beside this file: blocks of lines, parted by empty ones.
+# A module's errors are in <module>.txt beside this file: blocks of lines, parted by empty ones.
 #
 #   file: kernels/image/gather.cl     what is changed, from the root of the project
 #   old: red * (1.0f / CLGI_PI)       text of one line, found exactly once in the file
