@@ -8,13 +8,17 @@
 
 namespace clgi::renderer {
 
-// What methods are made from.
-struct Setup {
+// What views are made from, beside the solver.
+struct ViewSetup {
     const Programs& programs;
     const cl::CommandQueue& queue;
-    const Scene& scene;
-    DeviceScene& device;
+    const DeviceScene& device;
     const RendererOptions& options;
+};
+
+// What methods are made from.
+struct Setup : ViewSetup {
+    const Scene& scene;
 };
 
 struct Radiance {
@@ -30,6 +34,7 @@ public:
     void lights_changed() { solver.lights_changed(); }
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
+    void reconfigure(const ViewSetup& setup);
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
     Radiance radiance() const { return {solver.radiance(), solver.stride()}; }
@@ -51,6 +56,7 @@ public:
     void lights_changed();
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
+    void reconfigure(const ViewSetup& setup);
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
     Radiance radiance() const { return {view_->picture().radiance(), view_->picture().stride()}; }
@@ -64,6 +70,8 @@ public:
 private:
     const DeviceScene& whole_;
     std::unique_ptr<DeviceScene> static_part_;  // none: the scene itself is baked
+    AtlasLayout shown_;
+    std::optional<IrradianceVolume> volume_;
     std::unique_ptr<LightAtlasView> view_;
     std::vector<std::string> warnings_;
     double least_change_;
@@ -78,15 +86,16 @@ public:
     void lights_changed();
     void geometry_changed(const WaitList& wait);
     void environment_changed();
+    void reconfigure(const ViewSetup& setup);
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
-    Radiance radiance() const { return {view.picture().radiance(), view.picture().stride()}; }
-    const EmitterSet& emitters() const { return view.picture().emitters(); }
+    Radiance radiance() const { return {view->picture().radiance(), view->picture().stride()}; }
+    const EmitterSet& emitters() const { return view->picture().emitters(); }
     RendererStatus status() const;
-    std::size_t bytes() const { return solver.bytes() + view.bytes(); }
+    std::size_t bytes() const { return solver.bytes() + view->bytes(); }
 
     AntiradianceSolver solver;
-    AntiradianceView view;
+    std::unique_ptr<AntiradianceView> view;
 
 private:
     WaitList moves_;
@@ -99,15 +108,16 @@ public:
     void lights_changed();
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
+    void reconfigure(const ViewSetup& setup);
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
-    Radiance radiance() const { return {view.picture().radiance(), view.picture().stride()}; }
-    const EmitterSet& emitters() const { return view.picture().emitters(); }
+    Radiance radiance() const { return {view->picture().radiance(), view->picture().stride()}; }
+    const EmitterSet& emitters() const { return view->picture().emitters(); }
     RendererStatus status() const;
-    std::size_t bytes() const { return solver.bytes() + view.bytes(); }
+    std::size_t bytes() const { return solver.bytes() + view->bytes(); }
 
     DynamicTransferSolver solver;
-    DynamicTransferView view;
+    std::unique_ptr<DynamicTransferView> view;
 
 private:
     bool moved_ = true;  // vectors are of another pose
