@@ -65,6 +65,10 @@ bool SecondOrder::prepare(const Progress& progress, std::vector<PassEvent>&) {
 
 void SecondOrder::geometry_changed(const WaitList& wait) { moves_ = joined(moves_, wait); }
 
+void SecondOrder::reconfigure(const ViewSetup& s) {
+    solver.reconfigure(second_order_options(s.options));
+}
+
 cl::Event SecondOrder::render(const Camera& camera, const WaitList& wait) {
     return solver.render(camera, joined(std::exchange(moves_, {}), wait));
 }
@@ -82,8 +86,6 @@ LightAtlas::LightAtlas(const Setup& s) : whole_(s.device), least_change_(s.optio
     check_bake_fits(s.programs.device(), o.vpls);
     const auto begin = std::chrono::steady_clock::now();
     BakeLayout layout;
-    AtlasLayout shown;
-    std::optional<IrradianceVolume> volume;
     std::vector<BakePoint> points;
     if (o.animated && moves(s.scene)) {
         StaticBake bake = make_static_bake(s.scene, o.vpls, o.layout);
@@ -92,27 +94,27 @@ LightAtlas::LightAtlas(const Setup& s) : whole_(s.device), least_change_(s.optio
         if (bake.static_scene.moving_emission)
             warnings_.emplace_back("what moves emits, but lights nothing indirectly");
         layout = std::move(bake.layout);
-        shown = std::move(bake.whole);
-        volume = bake.volume;
+        shown_ = std::move(bake.whole);
+        volume_ = bake.volume;
         points = points_of(bake.volume);
     } else {
         layout = make_bake_layout(s.scene, o.vpls, o.layout);
-        shown = layout.atlas;
+        shown_ = layout.atlas;
     }
-    warnings_.insert(warnings_.begin(), shown.warnings.begin(), shown.warnings.end());
+    warnings_.insert(warnings_.begin(), shown_.warnings.begin(), shown_.warnings.end());
     const std::chrono::duration<double, std::milli> taken =
         std::chrono::steady_clock::now() - begin;
-    summary = {layout.vpls.vpls.size(), shown.texels.size(), shown.pages, shown.size,
+    summary = {layout.vpls.vpls.size(), shown_.texels.size(), shown_.pages, shown_.size,
                taken.count()};
     solver = std::make_unique<LightAtlasSolver>(
         s.programs, s.queue, static_part_ ? *static_part_ : s.device, layout.vpls, layout.atlas,
         light_atlas_options(o), points);
-    view_ =
-        std::make_unique<LightAtlasView>(s.programs, s.queue, s.device, shown, o.picture, volume);
+    reconfigure(s);
 }
 
 bool LightAtlas::prepare(const Progress& progress, std::vector<PassEvent>& passes) {
-    const bool done = updates_ ? solver->update(least_change_, progress) : solver->run(progress);
+    const bool done = updates_ && least_change_ > 0.0 ? solver->update(least_change_, progress)
+                                                      : solver->run(progress);
     updates_ = false;
     append(passes, solver->events());
     return done;
@@ -131,6 +133,11 @@ void LightAtlas::geometry_changed(const WaitList& wait) {
             "renderer: geometry_changed(): the atlas is baked for geometry that stands "
             "still; RendererOptions::animated needed, and an animation that moves it");
     moves_ = joined(moves_, wait);
+}
+
+void LightAtlas::reconfigure(const ViewSetup& s) {
+    view_ = std::make_unique<LightAtlasView>(s.programs, s.queue, s.device, shown_,
+                                             s.options.picture, volume_);
 }
 
 cl::Event LightAtlas::render(const Camera& camera, const WaitList& wait) {
@@ -165,7 +172,12 @@ AntiradianceOptions with_poses(const Setup& s) {
 
 }  // namespace
 
-Antiradiance::Antiradiance(const Setup& s) : Shown(s, with_poses(s), s.options.picture) {}
+Antiradiance::Antiradiance(const Setup& s) : Shown(s, with_poses(s)) { reconfigure(s); }
+
+void Antiradiance::reconfigure(const ViewSetup& s) {
+    view = std::make_unique<AntiradianceView>(s.programs, s.queue, s.device, solver,
+                                              s.options.picture);
+}
 
 bool Antiradiance::prepare(const Progress& progress, std::vector<PassEvent>& passes) {
     const bool done = solver.run(progress);
@@ -184,7 +196,7 @@ void Antiradiance::environment_changed() {
 }
 
 void Antiradiance::add_passes(std::vector<PassEvent>& passes) const {
-    append(passes, view.picture().events());
+    append(passes, view->picture().events());
 }
 
 // ---- dynamic transfer ---------------------------------------------------------------------------
@@ -199,8 +211,12 @@ DynamicTransferViewOptions view_options(const RendererOptions& options) {
 
 }  // namespace
 
-Transfer::Transfer(const Setup& s)
-    : Shown(s, transfer_options(s.options), view_options(s.options)) {}
+Transfer::Transfer(const Setup& s) : Shown(s, transfer_options(s.options)) { reconfigure(s); }
+
+void Transfer::reconfigure(const ViewSetup& s) {
+    view = std::make_unique<DynamicTransferView>(s.programs, s.queue, s.device, solver,
+                                                 view_options(s.options));
+}
 
 bool Transfer::prepare(const Progress& progress, std::vector<PassEvent>& passes) {
     if (progress && !progress(0.0)) return false;
@@ -227,7 +243,7 @@ void Transfer::geometry_changed(const WaitList& wait) {
 
 void Transfer::add_passes(std::vector<PassEvent>& passes) const {
     if (solver.glossy()) append(passes, solver.events());
-    append(passes, view.picture().events());
+    append(passes, view->picture().events());
 }
 
 }  // namespace clgi::renderer

@@ -9,13 +9,17 @@
 
 namespace clgi::renderer {
 
-// What methods are made from.
-struct Setup {
+// What views are made from, beside the solver.
+struct ViewSetup {
     const Programs& programs;
     const cl::CommandQueue& queue;
-    const Scene& scene;
-    DeviceScene& device;
+    const DeviceScene& device;
     const RendererOptions& options;
+};
+
+// What methods are made from.
+struct Setup : ViewSetup {
+    const Scene& scene;
 };
 
 struct Radiance {
@@ -31,6 +35,7 @@ public:
     void lights_changed() { solver.lights_changed(); }
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
+    void reconfigure(const ViewSetup& setup);
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
     Radiance radiance() const { return {solver.radiance(), solver.stride()}; }
@@ -52,6 +57,7 @@ public:
     void lights_changed();
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
+    void reconfigure(const ViewSetup& setup);
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
     Radiance radiance() const { return {view_->picture().radiance(), view_->picture().stride()}; }
@@ -65,6 +71,8 @@ public:
 private:
     const DeviceScene& whole_;
     std::unique_ptr<DeviceScene> static_part_;  // none: the scene itself is baked
+    AtlasLayout shown_;
+    std::optional<IrradianceVolume> volume_;
     std::unique_ptr<LightAtlasView> view_;
     std::vector<std::string> warnings_;
     double least_change_;
@@ -82,29 +90,28 @@ inline WaitList joined(WaitList moves, const WaitList& wait) {
 template <typename Solver, typename View>
 class Shown {
 public:
-    template <typename SolverOptions, typename ViewOptions>
-    Shown(const Setup& s, const SolverOptions& options, const ViewOptions& shown)
-        : solver(s.programs, s.queue, s.scene, s.device, options),
-          view(s.programs, s.queue, s.device, solver, shown) {}
+    template <typename Options>
+    Shown(const Setup& s, const Options& options)
+        : solver(s.programs, s.queue, s.scene, s.device, options) {}
 
     void lights_changed() {
         solver.lights_changed();
-        view.lights_changed();
+        view->lights_changed();
     }
     cl::Event render(const Camera& camera, const WaitList& wait) {
-        return view.render(camera, joined(std::exchange(moves_, {}), wait));
+        return view->render(camera, joined(std::exchange(moves_, {}), wait));
     }
-    Radiance radiance() const { return {view.picture().radiance(), view.picture().stride()}; }
-    const EmitterSet& emitters() const { return view.picture().emitters(); }
+    Radiance radiance() const { return {view->picture().radiance(), view->picture().stride()}; }
+    const EmitterSet& emitters() const { return view->picture().emitters(); }
     RendererStatus status() const {
         RendererStatus out{solver.status(), {}};
-        out.non_finite += view.picture().non_finite();
+        out.non_finite += view->picture().non_finite();
         return out;
     }
-    std::size_t bytes() const { return solver.bytes() + view.bytes(); }
+    std::size_t bytes() const { return solver.bytes() + view->bytes(); }
 
     Solver solver;
-    View view;
+    std::unique_ptr<View> view;
 
 protected:
     WaitList moves_;
@@ -116,6 +123,7 @@ public:
     bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
     void geometry_changed(const WaitList& wait);
     void environment_changed();
+    void reconfigure(const ViewSetup& setup);
     void add_passes(std::vector<PassEvent>& passes) const;
 };
 
@@ -125,6 +133,7 @@ public:
     bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
+    void reconfigure(const ViewSetup& setup);
     void add_passes(std::vector<PassEvent>& passes) const;
 
 private:

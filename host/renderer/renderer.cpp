@@ -95,7 +95,7 @@ struct Renderer::State {
 
     void build() {
         if (made.index() > 0) return;
-        made = make({programs, queue, *scene, *device, options});
+        made = make({{programs, queue, *device, options}, *scene});
         own_scene.reset();
         scene = nullptr;
     }
@@ -180,6 +180,17 @@ void Renderer::geometry_changed(const WaitList& wait) {
 
 void Renderer::environment_changed() {
     state_->changed([](auto& method) { method.environment_changed(); });
+}
+
+void Renderer::reconfigure(const PictureOptions& picture) {
+    State& s = *state_;
+    if (!(picture.build == s.options.picture.build))
+        throw Error("renderer: reconfigure(): build options are those of the constructor");
+    RendererOptions wanted = s.options;
+    wanted.picture = picture;
+    if (s.made.index() > 0)
+        s.of([&](auto& method) { method.reconfigure({s.programs, s.queue, *s.device, wanted}); });
+    s.options = wanted;
 }
 
 cl::Event Renderer::render(const Camera& camera, const WaitList& wait) {
@@ -285,7 +296,7 @@ DynamicTransferSolver* Renderer::dynamic_transfer() const {
 
 DynamicTransferView* Renderer::transfer_view() const {
     const auto* method = std::get_if<std::unique_ptr<renderer::Transfer>>(&state_->made);
-    return method ? &(*method)->view : nullptr;
+    return method ? (*method)->view.get() : nullptr;
 }
 
 std::optional<BakeSummary> Renderer::bake() const {

@@ -46,7 +46,7 @@ struct RendererOptions {
     VplOptions vpls;                  // of the light atlas
     AtlasOptions layout;
     LightAtlasOptions light_atlas;
-    double least_change = 1e-3;  // LightAtlasSolver::update(), when lights have changed
+    double least_change = 1e-3;  // LightAtlasSolver::update(), when lights have changed; 0: run()
     AntiradianceOptions antiradiance;
     DynamicTransferOptions transfer;
     DynamicTransferViewOptions transfer_view;  // but picture
@@ -105,6 +105,11 @@ public:
     void lights_changed();
     void geometry_changed(const WaitList& wait = {});
     void environment_changed();
+
+    // Pictures of another size, with or without direct light, from now on; what was prepared stays.
+    // Throws Error for options out of range and for build options other than the constructor's,
+    // DeviceError when memory does not suffice; then pictures stay what they were.
+    void reconfigure(const PictureOptions& picture);
 
     // Enqueues a picture that begins after `wait`; its event completes when all of it has.
     cl::Event render(const Camera& camera, const WaitList& wait = {});

@@ -31,7 +31,7 @@ TEST(AntiradianceSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
              {true, true}, {false, true}, {true, false}, {false, false}}) {
         std::map<std::string, std::map<std::string, std::set<std::string>>> values;
         std::set<std::string> seen;
-        for (const AntiradianceSettings& one : antiradiance_settings(quick, {}, alone)) {
+        for (const PictureSetting& one : antiradiance_settings(quick, {}, alone)) {
             std::string text = one.series;
             for (const auto& [name, value] : one.knobs) {
                 text += " " + name + " " + value;
@@ -39,15 +39,18 @@ TEST(AntiradianceSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
             }
             EXPECT_TRUE(seen.insert(text).second) << text;
             EXPECT_EQ(one.method, antiradiance_method);
-            EXPECT_EQ(one.knobs.at("bins"), std::to_string(one.options.bins));
-            EXPECT_EQ(one.knobs.at("elements"), std::to_string(one.options.elements.requested));
-            EXPECT_EQ(one.knobs.at("steps") == "converged", one.options.steps == 0);
-            EXPECT_EQ(one.knobs.at("spread") == "none", one.options.links.spread == Spread::none);
+            EXPECT_EQ(one.knobs.at("bins"), std::to_string(one.options.antiradiance.bins));
+            EXPECT_EQ(one.knobs.at("elements"),
+                      std::to_string(one.options.antiradiance.elements.requested));
+            EXPECT_EQ(one.knobs.at("steps") == "converged", one.options.antiradiance.steps == 0);
+            EXPECT_EQ(one.knobs.at("spread") == "none",
+                      one.options.antiradiance.links.spread == Spread::none);
             EXPECT_EQ(one.knobs.at("storage") == "half",
-                      one.options.build.storage == Storage::half);
+                      one.options.picture.build.storage == Storage::half);
             EXPECT_EQ(one.knobs.at("iteration") == "symmetric",
-                      one.options.iteration == Iteration::symmetric);
-            EXPECT_EQ(std::stod(one.knobs.at("bin-share")), one.options.links.bin_share);
+                      one.options.antiradiance.iteration == Iteration::symmetric);
+            EXPECT_EQ(std::stod(one.knobs.at("bin-share")),
+                      one.options.antiradiance.links.bin_share);
         }
         values.erase("grid");
         std::set<std::string> varied;
