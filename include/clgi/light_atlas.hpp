@@ -136,8 +136,9 @@ public:
     // whose sample points' powers changed by more than `least` together, in mean powers of direct
     // light that VPLs reflect, send the difference to the texels [section 6.2]. What is not sent is
     // not lost: it counts in the next update. Bakes as run() does where no run has ended before, or
-    // where what texels see would have to be drawn again. Throws Error for a `least` that is
-    // negative or no number.
+    // where what texels see would have to be drawn again. Where light fell so far that the rounding
+    // of what was taken away would show in one texel of a thousand, all VPLs send anew. Throws
+    // Error for a `least` that is negative or no number.
     bool update(double least = 1e-3, const Progress& progress = nullptr);
 
     // What the last run left behind when it was cancelled; empty if it ended, or was cancelled

@@ -37,6 +37,11 @@ kernel void atlas_complete(
         uint place = c * params.stride + at;
         floatp value = packet_load(gathered + place) * factor;
         worst = max(worst, packet_magnitude(value));
+        // Light that was taken away again leaves residues of rounding. By bits: what is not finite
+        // stays so.
+        intp negative = (as_intp(packet_bits(value)) < 0) &
+                        (as_intp(packet_magnitude(value)) < NOT_FINITE);
+        value = packet_select(value, packet_zero, negative);
         packet_store(value, irradiance + place);
     }
     intp bad = (as_intp(worst) >= NOT_FINITE) & ((int)at + packet_lanes < (int)params.texel_count);

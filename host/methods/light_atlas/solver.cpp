@@ -194,9 +194,10 @@ bool LightAtlasSolver::State::run(const Progress& progress, double least) {
                             direct.data());
     power_direct = unshot_power();
     threshold = static_cast<float>(options.threshold * power_direct / b.sites.site_count);
-    if (!differences)
-        for (const cl::Buffer* buffer : {&b.sites.sent, &b.gathered, &b.filled})
-            record.fill(*buffer, 0);
+    if (differences)
+        note_brightest();
+    else
+        clear_texels();
     if (exchanged)
         put_back_light();
     else
@@ -205,6 +206,7 @@ bool LightAtlasSolver::State::run(const Progress& progress, double least) {
         send(static_cast<float>(differences ? least * power_direct / b.sites.site_count : -1.0));
         fill();
     }
+    if (differences && !record.cancelled() && residue_shows()) send_anew();
     ended = !record.cancelled();  // what is asked for from here on comes too late
     record.report(1.0);
     record.wait();

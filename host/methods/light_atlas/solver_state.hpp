@@ -103,6 +103,11 @@ struct LightAtlasSolver::State {
     void find_reach();
     void leave_points();
     void fill();
+    std::vector<float> light_of_texels() const;
+    void note_brightest();
+    bool residue_shows();
+    void clear_texels();
+    void send_anew();
     void put_back_measurement();
     void put_back_light();
     void gather(std::uint32_t first, std::uint32_t count);
@@ -138,6 +143,9 @@ struct LightAtlasSolver::State {
     std::optional<LightAtlasState> restored;
     std::vector<Site> sites;
     std::vector<BakePoint> bake_points;
+    // [receiver_count] exposed lux of the brightest channel that each texel was ever given since
+    // all light was sent; empty: what it has now
+    std::vector<float> brightest;
     std::vector<float> direct;  // irradiance of the sites by direct light, [3][stride]
 };
 
