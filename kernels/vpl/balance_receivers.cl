@@ -23,7 +23,9 @@ kernel void vpl_balance_receivers(
     floatp sum = packet_zero;
     for (uint i = 0; i < params.site_count; ++i)
         sum = fma(balance_row(rows, stride, i, at),
-                  packet_splat(balance[BALANCE_SHOOTER * stride + i] * sites[i].area), sum);
+                  packet_splat(balance[BALANCE_SHOOTER * stride + i] * sites[i].area *
+                               SITE_ROW_UNIT(sites[i].flags)),
+                  sum);
     floatp reach = packet_load(balance + BALANCE_REACH * stride + at);
     packet_store(balance_factor(reach, sum * params.per_row_scale),
                  balance + BALANCE_RECEIVER * stride + at);

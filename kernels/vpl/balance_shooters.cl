@@ -37,7 +37,7 @@ kernel void vpl_balance_shooters(
     float total = 0.0f;
     for (int k = 0; k < CLGI_WIDTH; ++k) total += lane[k];
     float reach = balance[BALANCE_REACH * stride + site];
-    float all = total * params.per_row_scale;
+    float all = total * SITE_ROW_UNIT(sites[site].flags) * params.per_row_scale;
     float lanes[CLGI_WIDTH];
     packet_store(balance_factor(packet_splat(reach), packet_splat(all)), lanes);
     balance[BALANCE_SHOOTER * stride + site] = lanes[0];

@@ -30,7 +30,8 @@ kernel void vpl_shoot(
     floatp sum[3] = {packet_zero, packet_zero, packet_zero};
     for (uint s = 0; s < params.shooter_count; ++s) {
         uint site = chosen[params.first_shooter + s];
-        float factor = balance[BALANCE_SHOOTER * stride + site] * params.per_row_scale;
+        float factor = balance[BALANCE_SHOOTER * stride + site] *
+                       SITE_ROW_UNIT(sites[site].flags) * params.per_row_scale;
         floatp transport = balance_row(rows, stride, params.kept ? site : s, at);
         for (int c = 0; c < 3; ++c)
             sum[c] = fma(transport, packet_splat(factor * shot[c * stride + site]), sum[c]);

@@ -11,7 +11,7 @@
 //
 // Work size    2D, one work-item for every max(1, CLGI_WIDTH / per_site) receivers, and for every
 //              shooter (CLGI_OPEN: TRANSPORT_SHOOTERS shooters); any local size; tail guarded
-// Writes       its own numbers of the rows, as half, times row_scale
+// Writes       its own numbers of the rows, as half, times row_scale / SITE_ROW_UNIT of the shooter
 // Cost         some 90 flops and one look-up a point and shooter; with CLGI_OPEN 40 flops, and 34 for
 //              each sample of a shooter near by
 // SPDX-License-Identifier: MIT
@@ -96,11 +96,14 @@ kernel void vpl_transport(
         Hemicube cube = hemicube_of(views + 5 * s);
         transport_sum(&params, &shooter, &cube, depth, samples, points, receiver, together, sum);
 #endif
+        float row_scale = params.row_scale *
+                          as_float((127u - (sites[site].flags >> SITE_ROW_SHIFT)) << 23);
         global half* row = rows + (ulong)(params.kept ? site : s) * params.stride;
         for (uint r = receiver; r < after; ++r) {
             uint count = min(sites[r].sample_count, params.most_samples);
-            float mean = sum[r - receiver] / ((float)count * CLGI_PI) * params.row_scale;
-            // Never more than a half holds; what is no number stays so and is counted later.
+            float mean = sum[r - receiver] / ((float)count * CLGI_PI) * row_scale;
+            // Never more than a half holds, though SITE_ROW_UNIT leaves room for all that a site can
+            // send to one place; what is no number stays so and is counted later.
             if (mean > 65504.0f) mean = 65504.0f;
             if (r == site) mean = 0.0f;
             vstore_half(mean, r, row);

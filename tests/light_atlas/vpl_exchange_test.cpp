@@ -314,5 +314,25 @@ TEST(Transport, IsNeverMoreThanAHalfHolds) {
     EXPECT_TRUE(std::isnan(value(std::numeric_limits<float>::quiet_NaN())));
 }
 
+// Room for what small sites send: the same number, divided by a power of two.
+TEST(Transport, OfASmallSiteIsDividedByItsPowerOfTwo) {
+    std::vector<SitePlace> places = {dot({0, 0, 0}, {0, 0, 1}, 1e-4f),
+                                     dot({0, 0, 0.02}, {0, 0, -1}, 1e-4f)};
+    places[0].row_exponent = 5;
+    const Sites sites(places);
+    const auto cubes = test::hemicubes(sites, nullptr);
+    const double kernel = test::disc_kernel(4e-4, 4e-4, 1e-4 / test::pi) / test::pi;
+    for (const float scale : {1.0f, 1000.0f}) {
+        const auto rows = test::transport_rows(sites, cubes, true, scale);
+        for (const std::size_t from : {0u, 1u}) {
+            const float found = glm::unpackHalf1x16(rows[from * sites.buffers.stride + (1 - from)]);
+            // That of the other one has no such room.
+            const double wanted =
+                from == 0 ? scale * kernel / 32 : std::min(scale * kernel, 65504.0);
+            EXPECT_NEAR(found, wanted, wanted * (half_rounding + 1e-5)) << scale << ", " << from;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace clgi

@@ -31,7 +31,7 @@ struct Exchange {
                     values[p * stride + i] = static_cast<float>(random(low, high));
         };
         for (std::uint32_t i = 0; i < n; ++i)
-            sites.push_back({i, 1, static_cast<float>(random(0.01, 2)), 0});
+            sites.push_back({i, 1, static_cast<float>(random(0.01, 2)), (i % 4) << SITE_ROW_SHIFT});
         fill(planes, SITE_PLANES, 0.1, 0.9);
         fill(light, SITE_LIGHT_PLANES, 0.0, 5.0);
         fill(balance, BALANCE_PLANES, 0.5, 2.0);
@@ -39,7 +39,8 @@ struct Exchange {
         rows.assign(n * stride, 0x7e00);  // NaN beside the rows
         for (std::uint32_t i = 0; i < n; ++i)
             for (std::uint32_t j = 0; j < n; ++j)
-                rows[i * stride + j] = glm::packHalf1x16(static_cast<float>(random(0, 1)));
+                rows[i * stride + j] = glm::packHalf1x16(
+                    std::ldexp(static_cast<float>(random(0, 1)), -static_cast<int>(i % 4)));
         for (std::uint32_t i = 0; i < n; ++i) chosen.push_back((i * 7 + 3) % n);
         upload();
     }
@@ -61,8 +62,9 @@ struct Exchange {
     ShootParams params(std::uint32_t first, std::uint32_t count, bool kept) const {
         return {first, count, kept ? 1u : 0u, n, stride, per_row_scale, SHOOT_ALL, 0.0f};
     }
+    // Of small sites rows are divided by a power of two.
     double row(std::uint32_t i, std::uint32_t j) const {
-        return glm::unpackHalf1x16(rows[i * stride + j]);
+        return std::ldexp(glm::unpackHalf1x16(rows[i * stride + j]), int(i % 4));
     }
     // The rows of a batch, one after the other.
     cl::Buffer batch(std::uint32_t first, std::uint32_t count) const {
@@ -208,7 +210,8 @@ Exchange uneven() {
             if (i % 10 == 5) value *= 10.0;
             if (i % 10 == 6) value *= 0.05;
             if (j % 10 == 7 || i % 10 == 8) value = 0.0;
-            e.rows[i * e.stride + j] = glm::packHalf1x16(static_cast<float>(value));
+            e.rows[i * e.stride + j] =
+                glm::packHalf1x16(std::ldexp(static_cast<float>(value), -static_cast<int>(i % 4)));
         }
     e.upload();
     return e;
@@ -293,8 +296,8 @@ TEST(Balance, OfShootersKeepsEnergy) {
     Exchange e;
     for (std::uint32_t i = 0; i < e.n; ++i)
         for (std::uint32_t j = 0; j < e.n; ++j)
-            e.rows[i * e.stride + j] =
-                glm::packHalf1x16(static_cast<float>(e.row(i, j) * 0.028 / e.per_row_scale));
+            e.rows[i * e.stride + j] = glm::packHalf1x16(
+                std::ldexp(static_cast<float>(e.row(i, j) * 0.028 / e.per_row_scale), -int(i % 4)));
     for (std::uint32_t i = 0; i < e.n; ++i)
         e.balance[BALANCE_REACH * e.stride + i] = 0.8f + 0.2f * static_cast<float>(i) / 61.0f;
     e.upload();

@@ -26,6 +26,7 @@ struct SitePlace {
     glm::vec3 power =
         glm::vec3(std::numeric_limits<float>::quiet_NaN());  // that it sends to texels
     std::vector<glm::vec3> powers = {};  // of its samples; need not add up to that
+    cl_uint row_exponent = 0;            // its row is divided by 2^row_exponent
 };
 
 // Planes of floats, NaN where nothing is put: what no kernel may take for a value.
@@ -70,7 +71,8 @@ struct Sites {
         std::vector<SurfacePlace> points;
         for (const SitePlace& place : places) {
             sites.push_back({static_cast<cl_uint>(points.size()),
-                             static_cast<cl_uint>(place.samples.size()), place.area, 0});
+                             static_cast<cl_uint>(place.samples.size()), place.area,
+                             place.row_exponent << SITE_ROW_SHIFT});
             points.insert(points.end(), place.samples.begin(), place.samples.end());
             if (order.size() < places.size()) order.push_back(static_cast<cl_uint>(order.size()));
         }

@@ -4,6 +4,7 @@
 #include <clgi/error.hpp>
 #include <numeric>
 
+#include "methods/light_atlas/row_unit.hpp"
 #include "methods/light_atlas/solver_state.hpp"
 
 namespace clgi {
@@ -136,6 +137,8 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
                          site.back ? static_cast<std::uint32_t>(SITE_BACK) : 0});
         row_scale += area;
     }
+    for (Site& site : sites)
+        site.flags |= row_exponent(double{site.area}, double{row_scale}) << SITE_ROW_SHIFT;
     record.write(b.sample_list, list.data(), list.size() * sizeof(SurfaceSample));
     record.write(b.sites.sites, sites.data(), sites.size() * sizeof(Site));
     record.write(b.sites.chosen, order.data(), order.size() * sizeof(std::uint32_t));

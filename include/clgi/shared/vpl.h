@@ -15,7 +15,14 @@ typedef struct {
     uint flags;         // SITE_...
 } Site;
 
-enum { SITE_BACK = 1 };  // on the back of a double-sided triangle
+enum {
+    SITE_BACK = 1,      // on the back of a double-sided triangle
+    SITE_ROW_SHIFT = 8  // the bits from here on: k, the site's row of transport is divided by 2^k
+};
+
+// By what numbers of the site's row are to be multiplied: 2^k.
+#define SITE_ROW_UNIT(flags) ((float)(1u << ((flags) >> SITE_ROW_SHIFT)))
+enum { SITE_ROW_MOST = 24 };  // largest k: smaller sites are too small for floats anyway
 
 // Planes of the sites. The first six are those of a set of points, so hemicubes can stand on them.
 enum {
@@ -67,7 +74,8 @@ typedef struct {
     uint stride;         // of the planes of sites, and of the rows
     uint sample_stride;  // of the planes of samples
     uint size;           // pixels, width of the hemicubes' faces
-    float row_scale;     // multiplies the transport, so that a half holds it: the area of all sites
+    float row_scale;     // multiplies the transport, so that a half holds it: the area of all sites;
+                         // SITE_ROW_UNIT of a small site divides it
     uint most_samples;   // as in PointParams; set by the pass, as the next two
     uint per_site;
     uint point_stride;   // of the planes of points
