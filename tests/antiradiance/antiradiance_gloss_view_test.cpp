@@ -27,6 +27,9 @@ TEST_P(GlossyPixels, ShowTheAlbedoUnderAnEvenSky) {
             // The parallel view in half storage.
             const double within = orthographic ? 3e-3 : 1e-4;
             Scene scene = test::plain_scene();
+            // Others before it: each has albedos of its own.
+            for (int k = 0; k < 10; ++k)
+                test::add_material(scene, metal({1.0f, 1.0f, 1.0f}, 0.05f + 0.09f * float(k)));
             Material both = metal({0.9f, 0.5f, 0.2f}, roughness);
             both.double_sided = true;
             test::add_quad(scene, {glm::dvec3(-1, 0, 1), {1, 0.3, 1}, {1, 0.3, -1}, {-1, 0, -1}},

@@ -85,6 +85,33 @@ TEST(AtlasProject, LightsAFloorByTheClosedForm) {
     }
 }
 
+// Shading normals that turn from corner to corner, by up to half a radian from the triangle's.
+TEST(AtlasProject, LightsACurvedSurfaceByItsOwnNormals) {
+    Scene scene = floor_scene();
+    for (std::size_t v = 0; v < scene.normals.size(); ++v)
+        scene.normals[v] =
+            glm::normalize(glm::vec3(0.3f - 0.2f * float(v), 1.0f, v % 2 == 0 ? -0.35f : 0.1f));
+    OneBatch batch(scene, charts_of_quads(scene, 32),
+                   {HandVpl{{0.3, 0.6, -0.2},
+                            glm::normalize(glm::dvec3(-0.2, -1.0, 0.1)),
+                            0.02,
+                            {0.1, 0.9, 0.4},
+                            {1, 2, 3}}},
+                   64);
+    const auto light = batch.project(16, 0);
+    double most = 0.0;
+    for (std::uint32_t i = 0; i < batch.texels; ++i) {
+        const glm::dvec4 sent = batch.sent(i, batch.vpls[0]);
+        const double cosine =
+            batch.normal(i).y;  // with the triangle's: what a flat floor would have is another
+        most = std::max(most, std::abs(cosine - 1.0));
+        // Cosines down to 0 lose relative bits: a float's of the largest.
+        for (int c = 0; c < 4; ++c)
+            EXPECT_NEAR(light[c * batch.stride + i], sent[c], close * sent[c] + 1e-7) << i;
+    }
+    EXPECT_GT(most, 0.05);
+}
+
 TEST(AtlasProject, AddsToWhatIsThere) {
     const Scene scene = floor_scene();
     OneBatch batch(scene, charts_of_quads(scene, 16), {HandVpl{{0, 0.5, 0}, {0, -1, 0}}}, 32);

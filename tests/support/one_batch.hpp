@@ -176,8 +176,14 @@ struct OneBatch {
     // Where a texel lies, metres.
     glm::dvec3 place(std::uint32_t texel) const { return place_of(scene, atlas.texels[texel]); }
 
+    // Its shading normal.
     glm::dvec3 normal(std::uint32_t texel) const {
-        return glm::normalize(geometry::doubled_area(scene, atlas.texels[texel].triangle));
+        const AtlasTexel& at = atlas.texels[texel];
+        const auto& vertex = scene.triangles[at.triangle].vertex;
+        const double weight[] = {1.0 - at.b1 - at.b2, at.b1, at.b2};
+        glm::dvec3 sum(0.0);
+        for (std::size_t k = 0; k < 3; ++k) sum += weight[k] * glm::dvec3(scene.normals[vertex[k]]);
+        return glm::normalize(sum);
     }
 
     // What a VPL sends to a texel that it sees: three channels and the form factor.

@@ -1,0 +1,65 @@
+// The probe of a plan against pictures that are drawn here.
+// SPDX-License-Identifier: MIT
+#include "plan/probe.hpp"
+
+#include <gtest/gtest.h>
+#include <cmath>
+
+#include "frames.hpp"
+#include "slanted_room.hpp"
+
+namespace clgi {
+namespace {
+
+std::vector<double> luminances(const Scene& scene, const Camera& camera, double fineness) {
+    SecondOrderOptions options;
+    options.width = 80;
+    options.height = 60;
+    options.indirect = false;
+    const EmitterOptions usual;
+    options.emitters.shadow_size = static_cast<int>(usual.shadow_size * fineness);
+    options.emitters.face_size = static_cast<int>(usual.face_size * fineness);
+    options.emitters.area_samples = static_cast<int>(usual.area_samples * fineness);
+    std::vector<double> out;
+    for (const glm::vec3& c : test::render(scene, camera, options).radiance)
+        out.push_back(0.2126 * double{c.x} + 0.7152 * double{c.y} + 0.0722 * double{c.z});
+    return out;
+}
+
+// Direct light of a fourth of the usual samples differs from that of a half by sqrt(D). Errors of
+// samples go as the root of their number: with s^2 / n of the usual ones, D is 4 s^2 / n + 2 s^2 /
+// n at most, and 4 s^2 / n where the finer half is independent of the coarse one's error or better.
+// A fourth of D is what the plan takes for that of the usual ones.
+TEST(Probe, TakesTheErrorOfDirectLightFromTwoPictures) {
+    Scene scene = test::slanted_room();
+    scene.materials[0].emission = {0.0f, 0.0f, 0.0f};
+    Material lamp;
+    lamp.emission = {9.0f, 4.0f, 1.0f};
+    const std::uint32_t glows = test::add_material(scene, lamp);
+    test::add_quad(
+        scene, {glm::dvec3(-0.3, 1.0, -0.3), {0.3, 1.0, -0.3}, {0.3, 1.1, 0.3}, {-0.3, 1.1, 0.3}},
+        glows);
+    const Camera camera = test::camera_at({0.6, 1.0, 0.6}, {-0.5, 0.6, -0.7});
+    Plan plan;
+    plan.request.width = 80;
+    plan.request.height = 60;
+    plan.analysis.surfaces.area = 10.0;
+    const DeviceScene device = test::on_device(scene);
+    const ProbeResult found = probe(test::device().queue, test::programs(), device, camera, plan);
+    const std::vector<double> coarse = luminances(scene, camera, 0.25),
+                              fine = luminances(scene, camera, 0.5);
+    double square = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+        square += (coarse[i] - fine[i]) * (coarse[i] - fine[i]);
+        sum += coarse[i];
+    }
+    const auto count = static_cast<double>(coarse.size());
+    const double wanted = std::sqrt(0.25 * square / count) / (sum / count);
+    EXPECT_GT(wanted, 1e-3);
+    // The same kernels and the same sums, in another order.
+    EXPECT_NEAR(found.direct_error / wanted, 1.0, 1e-9);
+    EXPECT_EQ(found.first_bounce, 0.0);  // no effect is on: both pictures are of direct light
+}
+
+}  // namespace
+}  // namespace clgi
