@@ -39,6 +39,11 @@ kernel void atlas_complete(
         // Light that was taken away again leaves residues of rounding.
         value = packet_select(value, packet_zero, value < packet_zero);
         worst = max(worst, packet_magnitude(value));
+        // Light that was taken away again leaves residues of rounding. By bits: what is not finite
+        // stays so.
+        intp negative = (as_intp(packet_bits(value)) < 0) &
+                        (as_intp(packet_magnitude(value)) < NOT_FINITE);
+        value = packet_select(value, packet_zero, negative);
         packet_store(value, irradiance + place);
     }
     intp bad = (as_intp(worst) >= NOT_FINITE) & ((int)at + packet_lanes < (int)params.texel_count);

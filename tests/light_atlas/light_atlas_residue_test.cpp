@@ -116,6 +116,7 @@ TEST(LightAtlasResidue, IsNotNegative) {
     std::vector<float> gathered(3 * stride, -1e-6f);
     gathered[3] = 2.0f;
     gathered[stride + 5] = std::numeric_limits<float>::quiet_NaN();
+    gathered[stride + 7] = -std::numeric_limits<float>::infinity();
     const cl::Buffer out = test::empty<float>(3 * stride),
                      bad = test::upload(std::vector<cl_uint>(4));
     test::atlas_passes().complete(test::device().queue, {0, 0, 16, 16, 16, stride, 0, 0},
@@ -127,7 +128,7 @@ TEST(LightAtlasResidue, IsNotNegative) {
         if (i == stride + 5)
             EXPECT_TRUE(std::isnan(found[i]));
         else
-            EXPECT_EQ(found[i], i == 3 ? 2.0f : 0.0f) << i;
+            EXPECT_EQ(found[i], i == 3 ? 2.0f : i == stride + 7 ? gathered[i] : 0.0f) << i;
     }
     EXPECT_GE(test::download<cl_uint>(bad, 1)[0], 1u);
 }
