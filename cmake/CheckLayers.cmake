@@ -42,7 +42,7 @@ set(reach_program ${reach_lab} gl program clgi)
 # Every public header of the library, by module; those of io, gl and mesh lie in their own folders.
 set(headers_core error opencl device programs advanced/export advanced/interval
     advanced/kernel_source advanced/kit/buffer_table advanced/kit/progress advanced/kit/recorder
-    advanced/pass advanced/planes advanced/slice advanced/solver_status passes/parallel advanced/sh shared/base
+    advanced/occlusion advanced/pass advanced/planes advanced/slice advanced/solver_status passes/parallel advanced/sh shared/base
     shared/gbuffer shared/halton shared/image shared/parallel shared/planes)
 set(headers_scene scene device_scene scene_animator scene_mover procedural advanced/adjacency
     advanced/animation advanced/static_scene passes/scene shared/scene)

@@ -64,14 +64,14 @@ std::vector<PictureSetting> dynamic_transfer_settings(bool quick) {
     PictureSetting base;
     base.options.method = Method::dynamic_transfer;
     base.options.transfer.masks.size = 32;
-    base.options.transfer.bounces = 1;
+    base.options.transfer.interreflections = 1;
     std::vector<PictureSetting> out;
     const auto add = [&](PictureSetting one, const std::string& series) {
         const DynamicTransferOptions& options = one.options.transfer;
         one.method = dynamic_transfer_method;
         one.series = series + ", transfer";
         one.knobs = {{"mask", std::to_string(options.masks.size)},
-                     {"interreflections", std::to_string(options.bounces)}};
+                     {"interreflections", std::to_string(options.interreflections)}};
         out.push_back(std::move(one));
     };
     using Values = std::vector<int>;
@@ -80,7 +80,7 @@ std::vector<PictureSetting> dynamic_transfer_settings(bool quick) {
         [](PictureSetting& to, int n) { to.options.transfer.masks.size = n; }, add);
     vary(
         base, "interreflections", Values{0, 1},
-        [](PictureSetting& to, int n) { to.options.transfer.bounces = n; }, add);
+        [](PictureSetting& to, int n) { to.options.transfer.interreflections = n; }, add);
     return out;
 }
 

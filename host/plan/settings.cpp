@@ -31,7 +31,8 @@ void apply_effects(Plan& plan) {
     emitters(plan.light_atlas.emitters);
     // All bounces cost little more than one where the transport is kept.
     plan.light_atlas.bounces = plan.on(Effect::further_bounces) ? 0 : 1;
-    plan.light_atlas.occlusion = plan.on(Effect::indirect_occlusion);
+    plan.light_atlas.occlusion =
+        plan.on(Effect::indirect_occlusion) ? Occlusion::automatic : Occlusion::none;
     plan.light_atlas.build = build;
 
     emitters(plan.antiradiance.emitters);
@@ -44,9 +45,10 @@ void apply_effects(Plan& plan) {
     plan.antiradiance.build = build;
 
     DynamicTransferOptions& transfer = plan.transfer;
-    transfer.shadowed = plan.on(Effect::environment_shadows);
+    transfer.occlusion =
+        plan.on(Effect::environment_shadows) ? Occlusion::automatic : Occlusion::none;
     transfer.gloss = plan.on(Effect::gloss);
-    transfer.bounces = plan.on(Effect::first_bounce) && transfer.shadowed ? 1 : 0;
+    transfer.interreflections = plan.on(Effect::first_bounce) && blocks(transfer.occlusion) ? 1 : 0;
     transfer.build = build;
     plan.transfer_view.picture = plan.picture;
 }

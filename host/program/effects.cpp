@@ -23,7 +23,7 @@ std::vector<std::string> effects_of(const Renderer& renderer) {
         add(lit && solver->options().negative_vpls > 0, "negative-lights");
     } else if (const DynamicTransferSolver* transfer = renderer.dynamic_transfer()) {
         add(sky && transfer->glossy(), "glossy-environment");
-        add(sky && transfer->options().bounces > 0, "one-bounce");
+        add(sky && transfer->options().interreflections > 0, "one-bounce");
     } else {
         out.emplace_back("indirect");
     }

@@ -40,7 +40,7 @@ std::string settings_text(const Plan& plan) {
                                plan.antiradiance.elements.requested);
         case Method::dynamic_transfer:
             return fmt::format("{} bands, {} bounces", plan.transfer.masks.bands,
-                               plan.transfer.bounces);
+                               plan.transfer.interreflections);
     }
     return "";
 }
@@ -64,9 +64,9 @@ ordered_json settings_json(const Plan& plan) {
                     {"gloss", plan.antiradiance.least_gloss < 1.0}};
         case Method::dynamic_transfer:
             return {{"bands", plan.transfer.masks.bands},
-                    {"interreflections", plan.transfer.bounces},
+                    {"interreflections", plan.transfer.interreflections},
                     {"gloss", plan.transfer.gloss},
-                    {"shadowed", plan.transfer.shadowed}};
+                    {"shadowed", blocks(plan.transfer.occlusion)}};
     }
     return ordered_json::object();
 }

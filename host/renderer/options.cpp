@@ -206,7 +206,7 @@ std::vector<OptionRow> of_masks() {
             [](O& o, double value) { o.transfer_view.threshold = static_cast<float>(value); }),
         number(row("interreflections", "N", of_transfer,
                    "Times that light is reflected diffusely before it reaches what is seen", 0, 1),
-               [](O& o) -> int& { return o.transfer.bounces; }),
+               [](O& o) -> int& { return o.transfer.interreflections; }),
         number(row("probe-step", "N", of_transfer,
                    "Pixels between the probes that --per-pixel compares", 2, 64),
                [](O& o) -> int& { return o.transfer_view.probe_step; }),

@@ -10,6 +10,7 @@
 #include <clgi/advanced/kit/recorder.hpp>
 #include <clgi/advanced/links.hpp>
 #include <clgi/advanced/moving_elements.hpp>
+#include <clgi/advanced/occlusion.hpp>
 #include <clgi/advanced/solver_status.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/passes/antiradiance_gloss.hpp>
@@ -29,12 +30,6 @@ enum class Iteration {
     automatic,   // symmetric, and asymmetric from the start where that diverges
 };
 
-// Which elements have antiradiance. It changes nothing where nothing can lie behind an element.
-enum class Occlusion {
-    automatic,  // those that something may lie behind; none: no antiradiance is stored or moved
-    always,     // all; for measurements of what automatic saves
-};
-
 struct AntiradianceOptions {
     int bins = 128;  // of directions, a multiple of 4, 32 to 4096
     ElementOptions elements;
@@ -48,6 +43,8 @@ struct AntiradianceOptions {
     EmitterOptions emitters;
     // Where no element has antiradiance there is nothing to let through: it is symmetric.
     Iteration iteration = Iteration::automatic;
+    // Elements that something may lie behind have antiradiance, or always all; none is refused:
+    // implicit visibility is the method.
     Occlusion occlusion = Occlusion::automatic;
     // Leaves whose material's lobe reflects more than this share of all light, 0 to 1, send gloss
     // along every bin; others are diffuse alone. 1: all are.

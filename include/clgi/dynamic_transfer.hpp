@@ -9,6 +9,7 @@
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
 #include <clgi/advanced/mask_weights.hpp>
+#include <clgi/advanced/occlusion.hpp>
 #include <clgi/advanced/solver_status.hpp>
 #include <clgi/advanced/visible_sets.hpp>
 #include <clgi/device_scene.hpp>
@@ -27,13 +28,13 @@ struct DynamicTransferOptions {
     sh::Window window = sh::Window::none;  // of transfer vectors, against ringing
     bool gloss = true;                     // the Phong lobes of materials, where the scene has some
     bool directional = false;              // directional lights are part of the environment
-    // false: nothing blocks the environment. There are no blockers, masks and diffuse transfer
+    // none: nothing blocks the environment. There are no blockers, masks and diffuse transfer
     // vectors then: irradiance follows from the normal alone, at vertices and at each pixel. Lobes
     // keep vectors of their own, and of masks only bands, block and size count, for the cells that
-    // lobes are integrated over. bounces must be 0; coarse and rings are not used.
-    bool shadowed = true;
+    // lobes are integrated over. interreflections must be 0; coarse and rings are not used.
+    Occlusion occlusion = Occlusion::automatic;
     // 1: diffuse light that the scene reflects to itself once is part of the irradiance.
-    int bounces = 0;
+    int interreflections = 0;
     // Far from a vertex these triangles block, near it those of the scene
     // (clgi/advanced/blocker_levels.hpp): vertices of the scene, such as mesh::simplify makes.
     // None: all of the scene block everywhere.
@@ -90,7 +91,7 @@ public:
     // and has those of all looks since it was called last. After restrict(), masks look at such
     // sets alone; they are bit for bit those of before in the frames that were looked at, with
     // exact planes. look() itself always sees everything. Both take memory, of the budget as well.
-    // All three throw Error without DynamicTransferOptions::shadowed.
+    // All three throw Error without DynamicTransferOptions::occlusion.
     cl::Event look(const WaitList& wait = {});
     VisibleSets sets();
     void restrict(const VisibleSets& sets);

@@ -9,6 +9,7 @@
 #include <clgi/advanced/irradiance_volume.hpp>
 #include <clgi/advanced/kit/buffer_table.hpp>
 #include <clgi/advanced/kit/recorder.hpp>
+#include <clgi/advanced/occlusion.hpp>
 #include <clgi/advanced/solver_status.hpp>
 #include <clgi/advanced/vpl_layout.hpp>
 #include <clgi/device_scene.hpp>
@@ -41,7 +42,7 @@ struct LightAtlasOptions {
     EmitterOptions emitters = bake_emitters();
     // How often light is reflected at most before it reaches a texel, at least 1; 0: until the
     // largest unshot power is below the threshold.
-    std::uint32_t bounces = 10;
+    std::uint32_t bounces = 0;
     float threshold = 1e-3f;  // of the mean power that direct light makes VPLs reflect, [1e-7,1]
     // With bounces = 0: the strongest VPL shoots alone, then the next, as in the paper. Otherwise
     // all shoot at once, which converges to the same light in far less time.
@@ -51,10 +52,10 @@ struct LightAtlasOptions {
     // 25,600 in all between 1,600 and 6,400 VPLs, at fewer below and at more above. All of them
     // send light to the texels near by.
     std::uint32_t exchange_samples = 0;
-    // false: nothing lies between two surfaces. VPLs and texels that face each other then see each
+    // none: nothing lies between two surfaces. VPLs and texels that face each other then see each
     // other, and no hemicube is drawn; hemicube_size and refine are not used, and Filling::project,
     // which projects hemicubes, is an error.
-    bool occlusion = true;
+    Occlusion occlusion = Occlusion::automatic;
     int hemicube_size = 256;  // pixels of the face of a VPL's hemicube, even
     Filling filling = Filling::gather;
     // For Filling::gather: texels between those that are looked up first, 1, 2 or 4. Blocks of 4 x

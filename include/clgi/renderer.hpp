@@ -136,7 +136,7 @@ public:
     DeviceScene& scene();
     const DeviceScene& scene() const;
     const RendererOptions& options() const;
-    std::pair<int, int> size() const;  // width and height of pictures
+    std::pair<int, int> size() const;    // width and height of pictures
     const EmitterSet& emitters() const;  // of the picture's direct light
 
     // The method's own: null for others, and before build().

@@ -150,7 +150,7 @@ inline void dynamic_transfer(Choices& choices, const Input& input) {
     options.window = choices.any_of({sh::Window::none, sh::Window::hann});
     options.gloss = choices.coin();
     options.directional = choices.coin();
-    options.bounces = choices.option(choices.integer(0, 1), {-1, 2});
+    options.interreflections = choices.option(choices.integer(0, 1), {-1, 2});
     options.rings = choices.option(choices.integer(0, 2), {-1, 3});
     if (choices.one_in(10))
         options.memory_budget = static_cast<std::size_t>(choices.integer(1, 65535));
@@ -160,7 +160,7 @@ inline void dynamic_transfer(Choices& choices, const Input& input) {
     shown.threshold =
         choices.option(static_cast<float>(choices.between(0, 1)), {-1.0f, no_number, infinite});
     shown.probe_step = choices.option(choices.any_of({2, 4, 8}), {0, 1, 65, 3});
-    options.shadowed = !choices.one_in(4);
+    options.occlusion = choices.one_in(4) ? Occlusion::none : Occlusion::automatic;
     shown.picture.emitters.shadows = !choices.one_in(6);
     DynamicTransferSolver solver(test::programs(), test::device().queue, input.scene, input.placed,
                                  options);

@@ -22,7 +22,7 @@ using test::Bakery;
 CLGI_IN_BOTH_MATHS(LightAtlasOpen);
 
 LightAtlasOptions open_options(LightAtlasOptions options = test::bake_options()) {
-    options.occlusion = false;
+    options.occlusion = Occlusion::none;
     options.emitters.shadows = false;
     return options;
 }
@@ -79,7 +79,7 @@ TEST_P(LightAtlasOpen, KeepsTheEnergyOfAClosedRoom) {
 TEST_P(LightAtlasOpen, IsTheLightOfHemicubes) {
     const LightAtlasOptions options = test::bake_options(GetParam());
     LightAtlasOptions drawn = open_options(options);
-    drawn.occlusion = true;
+    drawn.occlusion = Occlusion::automatic;
     drawn.refine = 1;
     const Baked with = test::bake(room(), drawn),
                 without = test::bake(room(), open_options(options));
@@ -96,7 +96,7 @@ TEST_P(LightAtlasOpen, LosesWhatLeavesAnOpenRoom) {
     const Bakery bakery(test::convex_room(true), {.vpls = 200, .atlas = 48});
     const LightAtlasOptions options = test::bake_options(GetParam());
     LightAtlasOptions drawn = open_options(options);
-    drawn.occlusion = true;
+    drawn.occlusion = Occlusion::automatic;
     drawn.refine = 1;
     const Baked with = test::bake(bakery, drawn),
                 without = test::bake(bakery, open_options(options));
@@ -115,7 +115,7 @@ TEST(LightAtlasOpen, GoesThroughAWall) {
     const Bakery bakery(scene, {.vpls = 200, .atlas = 48});
     const auto beyond = [&](bool occlusion) {
         LightAtlasOptions options = test::bake_options();
-        options.occlusion = occlusion;
+        options.occlusion = occlusion ? Occlusion::automatic : Occlusion::none;
         const Baked baked = test::bake(bakery, options);
         return test::over_texels(
                    bakery, baked.texels,
@@ -218,7 +218,7 @@ test::Cost cost_of(const LightAtlasOptions& options) {
 
 TEST(LightAtlasOpen, DrawsNoHemicubeAndKeepsNoVisibility) {
     LightAtlasOptions drawn = open_options();
-    drawn.occlusion = true;
+    drawn.occlusion = Occlusion::automatic;
     drawn.refine = 1;
     drawn.hemicube_size = 64;
     const test::Cost on = cost_of(drawn), off = cost_of(open_options());

@@ -57,7 +57,7 @@ std::vector<glm::vec3> plates_light(double floor) {
     }
     LightAtlasOptions options = test::bake_options();
     options.bounces = 3;
-    options.occlusion = false;
+    options.occlusion = Occlusion::none;
     const AtlasLayout atlas =
         make_atlas(of.scene, make_patches(of.scene).triangle_patch, AtlasOptions{.size = 32});
     const DeviceScene device = test::on_device(of.scene);

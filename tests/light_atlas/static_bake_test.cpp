@@ -124,7 +124,7 @@ TEST_P(BakePoints, HaveTheLightOfASphere) {
     for (const bool occlusion : {true, false})
         for (const int refine : {1, 2}) {
             LightAtlasOptions options = test::converged(GetParam());
-            options.occlusion = occlusion;
+            options.occlusion = occlusion ? Occlusion::automatic : Occlusion::none;
             options.refine = refine;
             options.direct = true;  // of texels alone
             LightAtlasSolver solver(test::programs(), test::device().queue, bakery.on_device,
@@ -234,7 +234,7 @@ TEST_P(BakePoints, LeaveTexelsAsTheyAre) {
     std::vector<BakePoint> points(37, {{0.2, 1.0, 0.3}, {0.0f, 0.0f, 1.0f}});
     for (const bool occlusion : {true, false}) {
         LightAtlasOptions options = test::bake_options(GetParam());
-        options.occlusion = occlusion;
+        options.occlusion = occlusion ? Occlusion::automatic : Occlusion::none;
         LightAtlasSolver with(test::programs(), test::device().queue, bakery.on_device, bakery.vpls,
                               bakery.atlas, options, points);
         ASSERT_TRUE(with.run());

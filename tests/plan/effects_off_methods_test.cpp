@@ -112,7 +112,7 @@ Sky transfer(const Scene& scene, bool shadowed, bool gloss) {
     const DeviceScene device = test::on_device(scene);
     const Programs own = test::own_programs(), of_view = test::own_programs();
     DynamicTransferOptions options;
-    options.shadowed = shadowed;
+    options.occlusion = shadowed ? Occlusion::automatic : Occlusion::none;
     options.gloss = gloss;
     DynamicTransferSolver solver(own, queue(), scene, device, options);
     EXPECT_TRUE(solver.run());

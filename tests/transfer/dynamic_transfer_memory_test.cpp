@@ -47,7 +47,7 @@ std::vector<Variant> variants() {
     };
     add("defaults");
     add("without gloss").gloss = false;
-    add("bounces").bounces = 1;
+    add("interreflections").interreflections = 1;
     add("larger masks").masks.size = 64;
     add("larger cells").masks.block = 4;
     add("bands").masks.bands = 8;
@@ -59,7 +59,7 @@ std::vector<Variant> variants() {
     rings.rings = 2;
     DynamicTransferOptions& all = add("all");
     all.coarse = half_of(rich());
-    all.bounces = 1;
+    all.interreflections = 1;
     all.directional = true;
     all.masks = {.size = 16, .planes = EdgePlanes::table, .table_size = 16, .bands = 3};
     return out;
@@ -136,7 +136,7 @@ TEST(DynamicTransferEstimate, RefusesOptionsOutOfRange) {
     refuses([](DynamicTransferOptions& o) { o.masks.size = 33; });
     refuses([](DynamicTransferOptions& o) { o.masks.block = 3; });
     refuses([](DynamicTransferOptions& o) { o.masks.bands = 10; });
-    refuses([](DynamicTransferOptions& o) { o.bounces = 2; });
+    refuses([](DynamicTransferOptions& o) { o.interreflections = 2; });
     refuses([](DynamicTransferOptions& o) {
         o.coarse = {{0, 1, 2}};
         o.rings = 3;
@@ -155,7 +155,7 @@ TEST(DynamicTransferEstimate, GuessesTheTime) {
     const double usual = time({});
     EXPECT_GT(usual, 0.0);
     DynamicTransferOptions options;
-    options.bounces = 1;
+    options.interreflections = 1;
     EXPECT_GT(time(options), 1.5 * usual);
     options = {};
     options.gloss = false;

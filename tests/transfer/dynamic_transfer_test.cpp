@@ -311,9 +311,9 @@ TEST(DynamicTransferSolver, RefusesWhatItCannotDo) {
     options = {};
     options.coarse = {{0, 1, 9}};
     EXPECT_THROW(make(options), Error);
-    for (const int bounces : {-1, 2}) {
+    for (const int interreflections : {-1, 2}) {
         options = {};
-        options.bounces = bounces;
+        options.interreflections = interreflections;
         EXPECT_THROW(make(options), Error);
     }
     Scene other = scene;

@@ -120,7 +120,7 @@ TEST_P(TransferBounce, AgreesWithThePathTracer) {
     const DeviceScene device = test::on_device(scene);
     DynamicTransferOptions options;
     options.build.math = GetParam();
-    options.bounces = 1;
+    options.interreflections = 1;
     DynamicTransferSolver solver(test::programs(), test::device().queue, scene, device, options);
     ASSERT_TRUE(solver.run());
     const auto found = test::irradiance_of(solver, device);

@@ -20,7 +20,7 @@ CLGI_IN_BOTH_MATHS(Unshadowed);
 
 DynamicTransferOptions options_of(Math math, bool shadowed) {
     DynamicTransferOptions out;
-    out.shadowed = shadowed;
+    out.occlusion = shadowed ? Occlusion::automatic : Occlusion::none;
     out.build.math = math;
     return out;
 }
@@ -79,7 +79,7 @@ TEST_P(Unshadowed, IsWhatMasksFindWhereNothingBlocks) {
         DynamicTransferOptions options = options_of(GetParam(), true);
         options.window = window;
         Solved with(scene, options);
-        options.shadowed = false;
+        options.occlusion = Occlusion::none;
         Solved without(scene, options);
         ASSERT_EQ(with.irradiance.size(), without.irradiance.size());
         for (std::size_t i = 0; i < with.irradiance.size(); ++i)
@@ -228,11 +228,11 @@ TEST(UnshadowedSolver, RefusesWhatNeedsMasks) {
                                      options);
     };
     DynamicTransferOptions options;
-    options.shadowed = false;
-    options.bounces = 1;
+    options.occlusion = Occlusion::none;
+    options.interreflections = 1;
     EXPECT_THROW(make(options), Error);
     EXPECT_THROW(estimate(test::device().device, scene, device, options), Error);
-    options.bounces = 0;
+    options.interreflections = 0;
     DynamicTransferSolver solver(test::programs(), test::device().queue, scene, device, options);
     EXPECT_THROW(solver.look(), Error);
     EXPECT_THROW(solver.sets(), Error);

@@ -49,7 +49,7 @@ TEST_P(TransferWindow, LessensEveryDegreeByItsOwnFactor) {
                 DeviceScene device = test::on_device(scene);
                 DynamicTransferOptions options;
                 options.directional = true;
-                options.shadowed = shadowed;
+                options.occlusion = shadowed ? Occlusion::automatic : Occlusion::none;
                 options.window = window;
                 options.masks.bands = bands;
                 options.build.math = GetParam();

@@ -31,6 +31,11 @@ constexpr double usual_steps = 20.0;
 
 AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scene) {
     need_range(antiradiance_owner, "steps", options.steps, 0, 10000);
+    if (!blocks(options.occlusion))
+        throw Error(
+            "antiradiance: occlusion is none, automatic or always needed: implicit visibility is "
+            "the "
+            "method");
     need_range(antiradiance_owner, "through_steps", options.through_steps, 0, 1000);
     need_range(antiradiance_owner, "most_steps", options.most_steps, 1, 10000);
     need_range(antiradiance_owner, "least_gloss", options.least_gloss, 0.0, 1.0);

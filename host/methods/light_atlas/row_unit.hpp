@@ -6,7 +6,8 @@
 //
 // A: the area of all sites. A disc sends at most 1 / A_i to a place for a power of 1. Samples near
 // by are discs of a share of the area each, which tile the site; where they lie closer than even
-// ones they send more, and twice as much is allowed for. SPDX-License-Identifier: MIT
+// ones they send more, and twice as much is allowed for.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <clgi/shared/vpl.h>

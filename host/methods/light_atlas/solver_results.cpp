@@ -60,7 +60,8 @@ bool LightAtlasSolver::update(double least, const Progress& progress) {
     State& s = *state_;
     if (!(least >= 0.0))
         throw Error("light-atlas: least is " + std::to_string(least) + ", 0 or more needed");
-    return s.run(progress, s.ended && (s.b.seen_kept || !s.options.occlusion) ? least : -1.0);
+    return s.run(progress,
+                 s.ended && (s.b.seen_kept || !blocks(s.options.occlusion)) ? least : -1.0);
 }
 
 LightAtlasStatus LightAtlasSolver::status() const {

@@ -50,7 +50,7 @@ void DynamicTransferSolver::State::build() const {
     projection.build({"project_rows", "project_columns", "project_environment"});
     if (!vertices.fronts.empty()) sides.build({"other_sides"});
     if (integrates()) masks.build({"shade"});
-    if (!options.shadowed) {
+    if (!blocks(options.occlusion)) {
         projection.build({"open"});
         if (glossy) masks.build({"integrate_open_gloss"});
         return;
@@ -59,7 +59,7 @@ void DynamicTransferSolver::State::build() const {
     if (!levels.near.empty()) masks.build({"mask_near"});
     if (options.masks.planes == EdgePlanes::table) masks.build({"planes"});
     if (glossy) masks.build({"integrate_gloss"});
-    if (options.bounces > 0)
+    if (options.interreflections > 0)
         masks.build({"exitance", levels.near.empty() ? "bounce" : "bounce_near"});
 }
 
@@ -71,7 +71,7 @@ void DynamicTransferSolver::State::write(const Scene& file) {
     put(weights, cells.values);
     put(directions, cells.directions);
     sky.write(record);
-    if (options.shadowed) write_shadows(file);
+    if (blocks(options.occlusion)) write_shadows(file);
 }
 
 void DynamicTransferSolver::State::write_shadows(const Scene& file) {
@@ -84,7 +84,7 @@ void DynamicTransferSolver::State::write_shadows(const Scene& file) {
     put(fine.lists, std::vector<std::uint32_t>{0, 1});
     put(fine.ranges, std::vector<std::uint32_t>{0, fine_clusters});
     const std::vector<float> z = pixel_heights(options.masks.size);
-    if (options.bounces > 0) {
+    if (options.interreflections > 0) {
         put(reflectance, vertices.reflectances(file, scene, receivers.stride));
         put(heights, z);
     }
@@ -115,7 +115,7 @@ void DynamicTransferSolver::State::place_receivers() {
                  static_cast<std::uint32_t>(vertices.fronts.size()), receivers.stride, 0},
                 fronts, receivers, wait);
         });
-    if (!options.shadowed) return;
+    if (!blocks(options.occlusion)) return;
     record("transfer.blockers", both.triangle_count, [&](const WaitList& wait) {
         return masks.blockers(queue, triangles, scene.positions(), both, status, wait);
     });
@@ -123,7 +123,7 @@ void DynamicTransferSolver::State::place_receivers() {
 
 void DynamicTransferSolver::State::transfer() {
     place_receivers();
-    if (!options.shadowed) return;
+    if (!blocks(options.occlusion)) return;
     record("transfer.mask", receivers.count, [&](const WaitList& wait) {
         return masks.mask(queue, receivers, blockers, drawn, wait);
     });
@@ -140,9 +140,9 @@ void DynamicTransferSolver::State::shade(const cl::Buffer& vectors, const cl::Bu
 
 void DynamicTransferSolver::State::light() {
     sky.project(record, projection);
-    if (!options.shadowed) return light_openly();
+    if (!blocks(options.occlusion)) return light_openly();
     shade(receivers.transfer, irradiance);
-    if (options.bounces > 0) bounce();
+    if (options.interreflections > 0) bounce();
 }
 
 void DynamicTransferSolver::State::light_openly() {

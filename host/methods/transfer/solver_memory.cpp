@@ -13,11 +13,12 @@ namespace clgi {
 namespace {
 
 const DynamicTransferOptions& checked(const DynamicTransferOptions& options) {
-    need_range(transfer_owner, "bounces", options.bounces, 0, 1);
+    need_range(transfer_owner, "interreflections", options.interreflections, 0, 1);
     mask_table_bytes(options.masks);  // throws for masks out of range
-    if (!options.shadowed && options.bounces > 0)
+    if (!blocks(options.occlusion) && options.interreflections > 0)
         throw Error(
-            "dynamic-transfer: shadowed is false and bounces is 1, 0 needed: what receivers see of "
+            "dynamic-transfer: occlusion is none and interreflections is 1, 0 needed: what "
+            "receivers see of "
             "the scene is found with their masks");
     return options;
 }
@@ -35,11 +36,11 @@ TransferBuffers::TransferBuffers(const Scene& file, const DeviceScene& of,
       options(checked(wanted)),
       glossy(wanted.gloss && of.has_lobes()),
       vertices(file, of),
-      levels(wanted.shadowed
+      levels(blocks(wanted.occlusion)
                  ? blocker_levels(file, of, wanted.coarse, wanted.rings, wanted.memory_budget)
                  : BlockerLevels()),
       sky(scene, wanted.masks.bands, wanted.directional) {
-    if (options.shadowed) vertices.add_other_sides(levels);
+    if (blocks(options.occlusion)) vertices.add_other_sides(levels);
     receivers.count = vertices.count();
     receivers.stride = plane_stride(receivers.count);
     both.triangle_count = static_cast<std::uint32_t>(levels.triangles.size());
@@ -73,7 +74,7 @@ void TransferBuffers::add_shadows(BufferTable& t) {
         t.add(both.near_lists, "lists of singles", triangle, levels.near_lists.size() * word);
         t.add(both.near, "lists of singles", triangle, levels.near.size() * word);
     }
-    if (options.bounces > 0) {
+    if (options.interreflections > 0) {
         t.add(reflectance, "reflectances", "the scene's vertices", 3 * stride * word);
         t.add(exitance, "light of triangles", triangle,
               2 * levels.triangles.size() * sizeof(glm::vec4));
@@ -98,7 +99,7 @@ BufferTable TransferBuffers::table() {
         t.add(gloss, "gloss", vertex, 3 * stride * word);
         t.add(exponents, "exponents of lobes", vertex, stride * word);
     }
-    if (options.shadowed) add_shadows(t);
+    if (blocks(options.occlusion)) add_shadows(t);
     if (integrates()) {
         t.add(weights, "weights of cells", "bands", (mask_cells(options.masks) + 1) * terms * word);
         t.add(directions, "directions of cells", "mask size",
@@ -121,12 +122,12 @@ Estimate estimate(const cl::Device& device, const Scene& scene, const DeviceScen
     // In pairs of a point and a light, as measured on a CPU with packets of 16: a triangle that a
     // mask looks at is worth 10 of them, as most are culled with their cluster; a term of a cell 2.
     const double masks = 10.0 * static_cast<double>(buffers.listed_triangles);
-    const double integrals = (options.shadowed ? 1.0 : 0.0) + (buffers.glossy ? 1.0 : 0.0);
+    const double integrals = (blocks(options.occlusion) ? 1.0 : 0.0) + (buffers.glossy ? 1.0 : 0.0);
     const double cells =
         static_cast<double>(mask_cells(options.masks)) * sh::terms(options.masks.bands) * integrals;
     const double pairs =
-        masks * (1 + options.bounces) + 2.0 * (cells + sh::terms(options.masks.bands)) *
-                                            static_cast<double>(buffers.receivers.count);
+        masks * (1 + options.interreflections) + 2.0 * (cells + sh::terms(options.masks.bands)) *
+                                                     static_cast<double>(buffers.receivers.count);
     out.milliseconds = 1e3 * pairs / pairs_per_second(device);
     return out;
 }

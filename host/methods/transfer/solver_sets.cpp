@@ -32,9 +32,9 @@ void check(const VisibleSets& sets, std::uint32_t receivers, std::uint32_t trian
 
 // Visible sets say what blocks.
 void need_shadows(const DynamicTransferOptions& options, const char* call) {
-    if (!options.shadowed)
+    if (!blocks(options.occlusion))
         throw Error(std::string(transfer_owner) + ": " + call +
-                    " of a solver without shadows, DynamicTransferOptions::shadowed needed");
+                    " of a solver without shadows, DynamicTransferOptions::occlusion needed");
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ void DynamicTransferSolver::State::restrict(const VisibleSets& sets) {
     t.add(made.near, "lists of singles", "the scene's vertices",
           sets.near.size() * sizeof(std::uint32_t));
     masks.build({"mask_near"});
-    if (options.bounces > 0) masks.build({"bounce_near"});
+    if (options.interreflections > 0) masks.build({"bounce_near"});
     allocate_more(t);
     try {
         put(made.near_lists, sets.near_lists);

@@ -67,7 +67,7 @@ struct DynamicTransferView::State {
         write();
     }
 
-    bool shadowed() const { return solver.options().shadowed; }
+    bool shadowed() const { return blocks(solver.options().occlusion); }
     // Without shadows and lobes every pixel has its own light anyway.
     bool some_pixels() const { return !std::isinf(threshold) && (shadowed() || solver.glossy()); }
     bool all_pixels() const { return threshold == 0.0f && some_pixels(); }
@@ -158,7 +158,7 @@ struct DynamicTransferView::State {
                                              solver.directions(), wait);
         });
         shade(arriving);
-        if (solver.options().bounces == 0) return;
+        if (solver.options().interreflections == 0) return;
         record("transfer.bounce", run.count, [&](const WaitList& wait) {
             return solver.passes().bounce(queue, receivers, solver.blockers(), solver.heights(),
                                           solver.exitance(), arriving, picture.counter(), wait);

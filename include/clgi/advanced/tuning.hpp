@@ -55,8 +55,8 @@ CLGI_API std::optional<SecondOrderTuning> tune_second_order(
     const cl::CommandQueue& queue, const DeviceScene& scene, SecondOrderSolver& solver,
     const Camera& camera, const TuningTarget& request, const Progress& progress = nullptr);
 
-// A renderer of a plan of second-order illumination with a time: tunes its settings to that time, in
-// place of those that were predicted to take it. The plan then has them with the time that was
+// A renderer of a plan of second-order illumination with a time: tunes its settings to that time,
+// in place of those that were predicted to take it. The plan then has them with the time that was
 // measured; its error stays that of the predicted settings. Does nothing for other plans. Waits.
 // False if progress cancelled.
 CLGI_API bool tune(const cl::CommandQueue& queue, Renderer& renderer, Plan& plan,
