@@ -1,8 +1,8 @@
 // What rounding leaves in texels whose light was taken away again.
 //
 // A sum of differences is as exact as the largest sum that it ever was: the residue of light that
-// is gone has either sign. Where it would show, all light is sent anew. SPDX-License-Identifier:
-// MIT
+// is gone has either sign. Where it would show, all light is sent anew.
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 
