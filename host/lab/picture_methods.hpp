@@ -3,9 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/device_scene.hpp>
-#include <clgi/programs.hpp>
-#include <functional>
+#include <clgi/renderer.hpp>
 #include <string>
 #include <vector>
 
@@ -24,31 +22,34 @@ inline constexpr const char* full_truth = "full";
 inline constexpr const char* unshadowed_truth = "unshadowed";
 inline constexpr const char* indirect_truth = "indirect";
 
-// What all methods draw. What it refers to must outlive the methods.
+// What all methods draw. What it refers to must outlive the task.
 struct PictureTask {
     const SweepSetup& setup;
     const Camera& camera;
     int width, height;
-    const DeviceScene& scene;
+    DeviceScene& scene;
     const Programs& programs;
     const std::vector<SweepTruth>& truths;
     bool alone;       // one method: with all of its settings, and the error that it tells of itself
     int shadow_size;  // alike for all, but for second-order illumination, which varies it
 };
 
-struct PictureMethod {
-    std::vector<std::string> knobs;      // columns of tables
-    std::vector<SweepSetting> settings;  // each with the method's name
-    bool distinct = false;               // settings with the same knobs may differ in others
-    // As Turns::measure, of these settings; a result has its picture and all errors.
-    std::function<Measured(std::size_t setting, SweepPoint* result, const Progress& part)> measure;
+struct PictureSetting : SweepSetting {
+    RendererOptions options;
+    bool estimate = false;  // of antiradiance: its error, from a picture with twice as many bins
 };
 
-// Each throws what its solver throws.
-PictureMethod second_order_pictures(const PictureTask& task);
-PictureMethod antiradiance_pictures(const PictureTask& task);
-PictureMethod light_atlas_pictures(const PictureTask& task);
-PictureMethod dynamic_transfer_pictures(const PictureTask& task);
+struct PictureMethod {
+    std::vector<std::string> knobs;  // columns of tables
+    std::vector<PictureSetting> settings;
+};
+// name: one of the four.
+PictureMethod picture_method(const std::string& name, const PictureTask& task);
+
+// As Turns::measure; a result has its picture and all errors. first: of its method, whose kernels
+// are not built yet. Throws what Renderer throws, and Error when cancelled.
+Measured measure_picture(const PictureTask& task, const PictureSetting& setting, bool first,
+                         SweepPoint* result, const Progress& part);
 
 // Whether a method can light a scene at all; transfer needs an environment.
 bool admits(const Scene& scene, const std::string& method);

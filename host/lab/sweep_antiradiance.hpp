@@ -4,7 +4,7 @@
 
 #include <clgi/antiradiance.hpp>
 
-#include "lab/sweep.hpp"
+#include "lab/picture_methods.hpp"
 
 namespace clgi::lab {
 
@@ -12,12 +12,8 @@ std::string name_of(Iteration iteration);  // "auto", as --iteration has it
 
 // By series: the knob that is varied alone, from the least accurate value on, or "grid". Those of a
 // sweep of antiradiance alone, or quick ones beside other systems.
-struct AntiradianceSettings : SweepSetting {
-    AntiradianceOptions options;
-    bool estimate = false;  // its error, from a picture with twice as many bins
-};
-std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildOptions& build = {},
-                                                        bool alone = true);
+std::vector<PictureSetting> antiradiance_settings(bool quick, const BuildOptions& build = {},
+                                                  bool alone = true);
 
 // How the estimated errors of settings with different numbers of bins compare with the true ones:
 // the least and the greatest ratio of estimated to true error. Zeros where there are none.

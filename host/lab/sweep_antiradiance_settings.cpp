@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "lab/picture_methods.hpp"
 #include "lab/sweep_antiradiance.hpp"
 #include "lab/sweep_settings.hpp"
 
@@ -10,8 +9,8 @@ namespace {
 
 constexpr int most_bins = 1024;  // that are asked about an error, twice as many as are judged
 
-AntiradianceSettings named(AntiradianceSettings one, const std::string& series) {
-    const AntiradianceOptions& options = one.options;
+PictureSetting named(PictureSetting one, const std::string& series) {
+    const AntiradianceOptions& options = one.options.antiradiance;
     one.method = antiradiance_method;
     one.series = series;
     one.estimate = series != "grid" && 2 * options.bins <= most_bins;
@@ -21,7 +20,7 @@ AntiradianceSettings named(AntiradianceSettings one, const std::string& series) 
                  {"steps", options.steps == 0 ? "converged" : std::to_string(options.steps)},
                  {"spread", options.links.spread == Spread::precise ? "precise" : "none"},
                  {"bin-share", fmt::format("{:g}", options.links.bin_share)},
-                 {"storage", options.build.storage == Storage::half ? "half" : "full"}};
+                 {"storage", one.options.picture.build.storage == Storage::half ? "half" : "full"}};
     return one;
 }
 
@@ -33,42 +32,44 @@ std::string name_of(Iteration iteration) {
                                                 : "auto";
 }
 
-std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildOptions& build,
-                                                        bool alone) {
+std::vector<PictureSetting> antiradiance_settings(bool quick, const BuildOptions& build,
+                                                  bool alone) {
     const bool few = quick || !alone;  // of each knob
-    std::vector<AntiradianceSettings> out;
-    const auto add = [&](AntiradianceSettings one, const std::string& series) {
+    std::vector<PictureSetting> out;
+    const auto add = [&](PictureSetting one, const std::string& series) {
         out.push_back(named(std::move(one), series));
     };
-    AntiradianceSettings base;
-    base.options.bins = few ? 64 : 128;
-    base.options.elements.requested = few ? 1000 : 8192;
-    base.options.build = build;
-    const auto bins = [](AntiradianceSettings& to, int n) { to.options.bins = n; };
-    const auto elements = [](AntiradianceSettings& to, int n) {
-        to.options.elements.requested = static_cast<std::size_t>(n);
+    PictureSetting base;
+    base.options.method = Method::antiradiance;
+    base.options.antiradiance.bins = few ? 64 : 128;
+    base.options.antiradiance.elements.requested = few ? 1000 : 8192;
+    base.options.picture.build = build;
+    const auto bins = [](PictureSetting& to, int n) { to.options.antiradiance.bins = n; };
+    const auto elements = [](PictureSetting& to, int n) {
+        to.options.antiradiance.elements.requested = static_cast<std::size_t>(n);
     };
-    const auto steps = [](AntiradianceSettings& to, int n) { to.options.steps = n; };
+    const auto steps = [](PictureSetting& to, int n) { to.options.antiradiance.steps = n; };
     using Values = std::vector<int>;
     vary(base, "bins", few ? Values{32, 64, 128} : Values{64, 128, 208, 512, 1024}, bins, add);
     vary(base, "elements", few ? Values{250, 1000} : Values{500, 2000, 8192, 32768}, elements, add);
     vary(
         base, "iteration",
         std::vector<Iteration>{Iteration::symmetric, Iteration::asymmetric, Iteration::automatic},
-        [](AntiradianceSettings& to, Iteration kind) { to.options.iteration = kind; }, add);
-    AntiradianceSettings symmetric = base;
-    symmetric.options.iteration = Iteration::symmetric;
+        [](PictureSetting& to, Iteration kind) { to.options.antiradiance.iteration = kind; }, add);
+    PictureSetting symmetric = base;
+    symmetric.options.antiradiance.iteration = Iteration::symmetric;
     vary(symmetric, "steps", few ? Values{1, 4, 0} : Values{1, 2, 4, 8, 16, 0}, steps, add);
     vary(
         base, "spread", std::vector<Spread>{Spread::none, Spread::precise},
-        [](AntiradianceSettings& to, Spread kind) { to.options.links.spread = kind; }, add);
+        [](PictureSetting& to, Spread kind) { to.options.antiradiance.links.spread = kind; }, add);
     vary(
         base, "bin-share",
         few ? std::vector<double>{1.0, 0.5} : std::vector<double>{2.0, 1.0, 0.5, 0.25},
-        [](AntiradianceSettings& to, double share) { to.options.links.bin_share = share; }, add);
+        [](PictureSetting& to, double share) { to.options.antiradiance.links.bin_share = share; },
+        add);
     vary(
         base, "storage", std::vector<Storage>{Storage::half, Storage::full},
-        [](AntiradianceSettings& to, Storage kind) { to.options.build.storage = kind; }, add);
+        [](PictureSetting& to, Storage kind) { to.options.picture.build.storage = kind; }, add);
     if (quick) return out;
     // Together. Rows of many elements with many bins would fill the memory of most devices, and
     // take longer than what other systems are compared at.
@@ -77,7 +78,7 @@ std::vector<AntiradianceSettings> antiradiance_settings(bool quick, const BuildO
         for (const int n : alone ? Values{2000, 8192, 32768} : Values{500, 2000, 8192})
             for (const int k : alone ? Values{4, 0} : Values{4, 8, 0}) {
                 if (m * n > most_numbers) continue;
-                AntiradianceSettings one = base;
+                PictureSetting one = base;
                 bins(one, m);
                 elements(one, n);
                 steps(one, k);

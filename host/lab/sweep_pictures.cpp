@@ -8,6 +8,7 @@
 #include <clgi/error.hpp>
 #include <clgi/reference.hpp>
 #include <iterator>
+#include <set>
 
 #include "lab/reference_picture.hpp"
 #include "lab/sweep_run.hpp"
@@ -33,13 +34,6 @@ std::vector<Truth> truths_of(const std::vector<std::string>& methods, const Scen
     // What arrives from an environment is direct light to the path tracer, and no indirect light.
     if (!scene.environment) out.push_back({indirect_truth, "indirect"});
     return out;
-}
-
-PictureMethod make_method(const std::string& name, const PictureTask& task) {
-    return name == antiradiance_method       ? antiradiance_pictures(task)
-           : name == light_atlas_method      ? light_atlas_pictures(task)
-           : name == dynamic_transfer_method ? dynamic_transfer_pictures(task)
-                                             : second_order_pictures(task);
 }
 
 class Run {
@@ -123,7 +117,7 @@ private:
     void light() {
         const cl::Context context = setup_.queue.getInfo<CL_QUEUE_CONTEXT>();
         const cl::Device device = setup_.queue.getInfo<CL_QUEUE_DEVICE>();
-        const DeviceScene scene(context, device, setup_.scene);
+        DeviceScene scene(context, device, setup_.scene);
         const Programs programs(context, device);
         // Beside each other systems should not differ in direct light. An environment has many
         // maps.
@@ -131,34 +125,29 @@ private:
         const int shadow_size = alone || setup_.scene.environment ? 1024 : 2048;
         const PictureTask task{setup_,   camera_,     options_.width, options_.height, scene,
                                programs, out_.truths, alone,          shadow_size};
-        std::vector<PictureMethod> methods;
-        std::vector<SweepSetting> settings;
-        struct Place {
-            std::size_t method, setting;
-        };
-        std::vector<Place> places;
+        std::vector<PictureSetting> settings;
         for (const std::string& name : out_.methods) {
-            methods.push_back(make_method(name, task));
-            const PictureMethod& made = methods.back();
-            for (std::size_t i = 0; i < made.settings.size(); ++i) {
-                settings.push_back(made.settings[i]);
-                places.push_back({methods.size() - 1, i});
-            }
+            const PictureMethod made = picture_method(name, task);
+            settings.insert(settings.end(), made.settings.begin(), made.settings.end());
             for (const std::string& knob : made.knobs)
                 if (std::find(out_.knobs.begin(), out_.knobs.end(), knob) == out_.knobs.end())
                     out_.knobs.push_back(knob);
         }
+        std::set<std::string> begun;  // methods
         Turns turns;
         turns.rounds = setup_.rounds;
         turns.measure = [&](std::size_t i, SweepPoint* result, const Progress& part) {
-            return methods[places[i].method].measure(places[i].setting, result, part);
+            const bool first = begun.insert(settings[i].method).second;
+            return measure_picture(task, settings[i], first, result, part);
         };
+        // Of second-order illumination, maps of point lights have a size of their own.
         turns.same = [&](std::size_t a, std::size_t b) {
-            return !methods[places[a].method].distinct &&
+            return settings[a].method != second_order_method &&
                    settings[a].method == settings[b].method &&
                    settings[a].knobs == settings[b].knobs;
         };
-        for (SweepPoint& point : measure_in_turn(settings, turns, progress_, out_.non_finite))
+        for (SweepPoint& point :
+             measure_in_turn(names_of(settings), turns, progress_, out_.non_finite))
             out_.points.push_back(std::move(point));
     }
 

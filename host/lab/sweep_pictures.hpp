@@ -3,8 +3,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/second_order.hpp>
-
 #include "lab/picture_methods.hpp"
 #include "lab/sweep.hpp"
 #include "plan/second_order_fronts.hpp"
@@ -34,11 +32,7 @@ Sweep sweep_pictures(const SweepSetup& setup, const PictureSweep& pictures);
 // series that varies one knob is that knob's least accurate setting; that of "math" is strict math
 // on floats. front: of the scene's main light; a sweep that is not quick has a series "front" of
 // where each of its refinements begins to pay.
-struct Settings : SweepSetting {
-    SecondOrderOptions options;
-};
-std::vector<Settings> second_order_settings(int width, int height, bool quick,
-                                            const BuildOptions& build = {},
-                                            const SecondOrderFront* front = nullptr);
+std::vector<PictureSetting> second_order_settings(bool quick, const BuildOptions& build = {},
+                                                  const SecondOrderFront* front = nullptr);
 
 }  // namespace clgi::lab

@@ -14,7 +14,11 @@ std::string low_resolution_text(const SecondOrderOptions& options) {
     return fmt::format("{}/{:g}", options.low_resolution_step, options.discontinuity_threshold);
 }
 
-Settings settings(const std::string& series, const SecondOrderOptions& options) {
+PictureSetting setting(const std::string& series, const SecondOrderOptions& options) {
+    RendererOptions all;
+    all.picture.emitters = options.emitters;
+    all.picture.build = options.build;
+    all.second_order = options;
     return {{second_order_method,
              series,
              {{"vpls", std::to_string(options.emitters.vpls)},
@@ -24,23 +28,20 @@ Settings settings(const std::string& series, const SecondOrderOptions& options) 
               {"area-samples", std::to_string(options.emitters.area_samples)},
               {"math", options.build.math == Math::fast ? "fast" : "strict"},
               {"storage", options.build.storage == Storage::half ? "half" : "full"}}},
-            options};
+            all};
 }
 
 }  // namespace
 
-std::vector<Settings> second_order_settings(int width, int height, bool quick,
-                                            const BuildOptions& build,
-                                            const SecondOrderFront* front) {
+std::vector<PictureSetting> second_order_settings(bool quick, const BuildOptions& build,
+                                                  const SecondOrderFront* front) {
     SecondOrderOptions base;
     base.build = build;
-    base.width = width;
-    base.height = height;
     base.emitters.vpls = 300;
     base.negative_vpls = 150;
-    std::vector<Settings> out;
+    std::vector<PictureSetting> out;
     const auto add = [&](const std::string& series, const SecondOrderOptions& options) {
-        out.push_back(settings(series, options));
+        out.push_back(setting(series, options));
     };
     const std::vector<int> lights =
         quick ? std::vector<int>{30, 300, 3000} : std::vector<int>{30, 100, 300, 1000, 3000, 10000};

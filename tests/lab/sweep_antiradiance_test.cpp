@@ -31,7 +31,7 @@ TEST(AntiradianceSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
              {true, true}, {false, true}, {true, false}, {false, false}}) {
         std::map<std::string, std::map<std::string, std::set<std::string>>> values;
         std::set<std::string> seen;
-        for (const AntiradianceSettings& one : antiradiance_settings(quick, {}, alone)) {
+        for (const PictureSetting& one : antiradiance_settings(quick, {}, alone)) {
             std::string text = one.series;
             for (const auto& [name, value] : one.knobs) {
                 text += " " + name + " " + value;
@@ -39,15 +39,18 @@ TEST(AntiradianceSweepSettings, VaryEachKnobAloneAndAreNoTwoAlike) {
             }
             EXPECT_TRUE(seen.insert(text).second) << text;
             EXPECT_EQ(one.method, antiradiance_method);
-            EXPECT_EQ(one.knobs.at("bins"), std::to_string(one.options.bins));
-            EXPECT_EQ(one.knobs.at("elements"), std::to_string(one.options.elements.requested));
-            EXPECT_EQ(one.knobs.at("steps") == "converged", one.options.steps == 0);
-            EXPECT_EQ(one.knobs.at("spread") == "none", one.options.links.spread == Spread::none);
+            EXPECT_EQ(one.knobs.at("bins"), std::to_string(one.options.antiradiance.bins));
+            EXPECT_EQ(one.knobs.at("elements"),
+                      std::to_string(one.options.antiradiance.elements.requested));
+            EXPECT_EQ(one.knobs.at("steps") == "converged", one.options.antiradiance.steps == 0);
+            EXPECT_EQ(one.knobs.at("spread") == "none",
+                      one.options.antiradiance.links.spread == Spread::none);
             EXPECT_EQ(one.knobs.at("storage") == "half",
-                      one.options.build.storage == Storage::half);
+                      one.options.picture.build.storage == Storage::half);
             EXPECT_EQ(one.knobs.at("iteration") == "symmetric",
-                      one.options.iteration == Iteration::symmetric);
-            EXPECT_EQ(std::stod(one.knobs.at("bin-share")), one.options.links.bin_share);
+                      one.options.antiradiance.iteration == Iteration::symmetric);
+            EXPECT_EQ(std::stod(one.knobs.at("bin-share")),
+                      one.options.antiradiance.links.bin_share);
         }
         values.erase("grid");
         std::set<std::string> varied;
@@ -204,7 +207,7 @@ TEST(AntiradiancePictures, SayThatTheIterationWasGivenUp) {
     scene.cameras = {test::camera_at({0.05, 0.5, 0.5}, {0.9, 0.5, 0.5}, 1.2f)};
     const test::TempFolder folder;
     const SweepSetup setup = small_setup(scene, folder.path(), 4);
-    const DeviceScene device = test::on_device(scene);
+    DeviceScene device = test::on_device(scene);
     io::Image grey;
     grey.width = 16;
     grey.height = 12;
@@ -213,13 +216,12 @@ TEST(AntiradiancePictures, SayThatTheIterationWasGivenUp) {
     const std::vector<SweepTruth> truths = {{full_truth, "all", grey, 0.0}};
     const PictureTask task{setup, scene.cameras[0], 16, 12, device, test::programs(), truths, true,
                            64};
-    const PictureMethod method = antiradiance_pictures(task);
     int given_up = 0, found = 0;
-    for (std::size_t i = 0; i < method.settings.size(); ++i) {
-        if (method.settings[i].series != "iteration") continue;
-        const std::string& iteration = method.settings[i].knobs.at("iteration");
+    for (const PictureSetting& one : picture_method(antiradiance_method, task).settings) {
+        if (one.series != "iteration") continue;
+        const std::string& iteration = one.knobs.at("iteration");
         SweepPoint point;
-        method.measure(i, &point, [](double) { return true; });
+        measure_picture(task, one, true, &point, [](double) { return true; });
         EXPECT_EQ(point.given_up, iteration == "symmetric") << iteration;
         EXPECT_EQ(point.estimated_error.empty(), point.given_up) << iteration;
         ++(point.given_up ? given_up : found);

@@ -95,18 +95,17 @@ TEST(RelativeError, TakesTheNoiseOfTheTruthOut) {
 TEST(SweepSettings, TurnEachKnobAloneAndAreNoTwoAlike) {
     for (const bool quick : {true, false}) {
         std::map<std::string, std::set<std::string>> seen;
-        for (const Settings& setting : second_order_settings(64, 48, quick)) {
+        for (const PictureSetting& setting : second_order_settings(quick)) {
             std::string text;
             for (const auto& [name, value] : setting.knobs) text += name + value + " ";
             EXPECT_TRUE(seen[setting.series].insert(text).second) << setting.series << text;
-            EXPECT_EQ(setting.options.width, 64);
         }
         for (const char* series : {"vpls", "negative-vpls", "low-res", "shadow-size"}) {
             EXPECT_GE(seen[series].size(), 2u) << series;
         }
         for (const char* knob : {"vpls", "negative-vpls", "low-res", "shadow-size"}) {
             std::map<std::string, std::set<std::string>> values;
-            for (const Settings& setting : second_order_settings(64, 48, quick))
+            for (const PictureSetting& setting : second_order_settings(quick))
                 if (setting.series == knob)
                     for (const auto& [name, value] : setting.knobs) values[name].insert(value);
             for (const auto& [name, different] : values)
@@ -119,18 +118,17 @@ TEST(SweepSettings, TurnEachKnobAloneAndAreNoTwoAlike) {
 
 TEST(SweepSettings, HaveThoseOfTheFrontThatTuningUses) {
     const SecondOrderFront& front = second_order_front(MainLight::point);
-    std::vector<Settings> found;
-    for (const Settings& setting : second_order_settings(64, 48, false, {}, &front))
+    std::vector<PictureSetting> found;
+    for (const PictureSetting& setting : second_order_settings(false, {}, &front))
         if (setting.series == "front") found.push_back(setting);
     ASSERT_EQ(found.size(), front.refinements.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-        const SecondOrderOptions& options = found[i].options;
+        const SecondOrderOptions& options = found[i].options.second_order;
         const Refinement& refinement = front.refinements[i];
         EXPECT_EQ(options.emitters.vpls, refinement.from_vpls);
         EXPECT_EQ(options.negative_vpls, std::min(refinement.from_vpls, 4096));  // a share of 1
         EXPECT_EQ(options.low_resolution_step, refinement.step);
         EXPECT_EQ(options.discontinuity_threshold, refinement.threshold);
-        EXPECT_EQ(options.width, 64);
     }
 }
 
