@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
-#include <clgi/second_order.hpp>
+#include <clgi/renderer.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -28,55 +28,67 @@ struct Row {
     std::optional<double> paper_error;
 };
 
-SecondOrderOptions options_of(const BenchSetup& setup, int positive, int negative,
-                              float threshold) {
-    SecondOrderOptions options;
-    options.width = setup.width;
-    options.height = setup.height;
-    options.emitters.vpls = positive;
-    options.negative_vpls = negative;
-    options.discontinuity_threshold = threshold;
-    options.build = setup.build;
-    return options;
-}
+// With kernels that all share.
+struct Bench {
+    const BenchSetup& setup;
+    Programs programs;
+    DeviceScene scene;
+
+    explicit Bench(const BenchSetup& all)
+        : setup(all),
+          programs(all.queue.getInfo<CL_QUEUE_CONTEXT>(), all.queue.getInfo<CL_QUEUE_DEVICE>()),
+          scene(programs.context(), programs.device(), all.scene) {}
+
+    std::unique_ptr<Renderer> renderer(int positive, int negative, float threshold) {
+        RendererOptions options;
+        options.picture.width = setup.width;
+        options.picture.height = setup.height;
+        options.picture.build = setup.build;
+        options.second_order.emitters.vpls = positive;
+        options.second_order.negative_vpls = negative;
+        options.second_order.discontinuity_threshold = threshold;
+        auto made = std::make_unique<Renderer>(programs, setup.queue, setup.scene, scene, options);
+        made->build();
+        return made;
+    }
+};
 
 // The threshold that leaves this share of the pixels at low resolution, by bisection.
-float threshold_for(const BenchSetup& setup, const DeviceScene& scene, double share) {
+float threshold_for(Bench& bench, double share) {
     if (share >= 1.0) return std::numeric_limits<float>::infinity();
     if (share <= 0.0) return 0.0f;
     float low = 1e-9f;
     float high = 4.0f;
     for (int i = 0; i < 24; ++i) {
         const float middle = std::sqrt(low * high);
-        SecondOrderSolver solver(setup.queue, scene, options_of(setup, 1, 0, middle));
-        solver.render(setup.scene.cameras.front());
-        (solver.status().low_resolution_share > share ? high : low) = middle;
+        const auto renderer = bench.renderer(1, 0, middle);
+        renderer->render(bench.setup.scene.cameras.front());
+        (renderer->second_order()->status().low_resolution_share > share ? high : low) = middle;
     }
     return low;  // the side with no more low-resolution pixels than wanted
 }
 
-std::vector<std::uint8_t> preview(const BenchSetup& setup, SecondOrderSolver& solver,
+std::vector<std::uint8_t> preview(const BenchSetup& setup, const Renderer& renderer,
                                   float exposure) {
     const cl::Context context = setup.queue.getInfo<CL_QUEUE_CONTEXT>();
     std::vector<std::uint8_t> rgba(static_cast<std::size_t>(setup.width) * setup.height * 4);
     cl::Buffer buffer(context, CL_MEM_READ_WRITE, rgba.size());
     const TonemapParams params{static_cast<std::uint32_t>(setup.width),
-                               static_cast<std::uint32_t>(setup.height), solver.stride(), exposure};
-    solver.image_passes().tonemap(setup.queue, params, solver.radiance(), buffer);
+                               static_cast<std::uint32_t>(setup.height), renderer.stride(),
+                               exposure};
+    renderer.second_order()->image_passes().tonemap(setup.queue, params, renderer.radiance(),
+                                                    buffer);
     setup.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, rgba.size(), rgba.data());
     return rgba;
 }
 
 // Brings the mean luminance of the picture to a mid grey of 0.18.
-float grey_exposure(const BenchSetup& setup, SecondOrderSolver& solver) {
-    std::vector<float> radiance(RADIANCE_PLANES * static_cast<std::size_t>(solver.stride()));
-    setup.queue.enqueueReadBuffer(solver.radiance(), CL_TRUE, 0, radiance.size() * sizeof(float),
-                                  radiance.data());
+float grey_exposure(const Renderer& renderer) {
+    const auto radiance = renderer.read_radiance();
     double sum = 0.0;
-    const std::size_t pixels = static_cast<std::size_t>(setup.width) * setup.height;
+    const std::size_t pixels = radiance[0].size();
     for (std::size_t i = 0; i < pixels; ++i)
-        sum += 0.2126 * radiance[i] + 0.7152 * radiance[solver.stride() + i] +
-               0.0722 * radiance[2 * static_cast<std::size_t>(solver.stride()) + i];
+        sum += 0.2126 * radiance[0][i] + 0.7152 * radiance[1][i] + 0.0722 * radiance[2][i];
     return static_cast<float>(0.18 / std::max(sum / static_cast<double>(pixels), 1e-30));
 }
 
@@ -91,8 +103,8 @@ double rms_percent(const std::vector<std::uint8_t>& a, const std::vector<std::ui
     return 100.0 * std::sqrt(sum / (static_cast<double>(a.size()) * 0.75));
 }
 
-double gather_rate(const SecondOrderSolver& solver, double lights) {
-    for (const PassTime& pass : pass_times(solver))
+double gather_rate(const Renderer& renderer, double lights) {
+    for (const PassTime& pass : pass_times(renderer.times()))
         if (pass.name == "image.gather_low")
             return flops_per_pair * lights * static_cast<double>(pass.items) /
                    (pass.milliseconds * 1e6);
@@ -100,21 +112,17 @@ double gather_rate(const SecondOrderSolver& solver, double lights) {
 }
 
 BenchTable run(const BenchSetup& setup, const std::string& table, const std::vector<Row>& rows) {
-    const cl::Device device = setup.queue.getInfo<CL_QUEUE_DEVICE>();
-    const cl::Context context = setup.queue.getInfo<CL_QUEUE_CONTEXT>();
-    const DeviceScene scene(context, device, setup.scene);
+    Bench bench(setup);
     const Camera& camera = setup.scene.cameras.front();
     BenchTable out;
     out.table = table;
-    out.device = describe(device);
+    out.device = describe(bench.programs.device());
     out.scene = setup.scene.name;
 
-    std::vector<std::unique_ptr<SecondOrderSolver>> solvers;
-    for (const Row& row : rows) {
-        const float threshold = threshold_for(setup, scene, row.share);
-        solvers.push_back(std::make_unique<SecondOrderSolver>(
-            setup.queue, scene, options_of(setup, row.positive, row.negative, threshold)));
-    }
+    std::vector<std::unique_ptr<Renderer>> renderers;
+    for (const Row& row : rows)
+        renderers.push_back(
+            bench.renderer(row.positive, row.negative, threshold_for(bench, row.share)));
     PeakMeter meter(setup.queue);
     std::vector<std::vector<double>> times(rows.size());
     std::vector<double> peaks;
@@ -133,23 +141,23 @@ BenchTable run(const BenchSetup& setup, const std::string& table, const std::vec
             // Every round starts with another row, so none always follows the same one.
             const std::size_t row = (i + repeat + warm_up) % rows.size();
             // The frame before left another row's data in the caches.
-            time_frame(*solvers[row], setup.queue, camera);
-            const double ms = time_frame(*solvers[row], setup.queue, camera);
+            const auto frame = [&] { renderers[row]->render(camera); };
+            time_frame(setup.queue, frame);
+            const double ms = time_frame(setup.queue, frame);
             if (repeat >= 0) times[row].push_back(ms);
             if (repeat >= 0 && row == most) {
                 gathers.push_back(
-                    gather_rate(*solvers[row], rows[row].positive + rows[row].negative));
+                    gather_rate(*renderers[row], rows[row].positive + rows[row].negative));
                 peaks.push_back(meter.gflops());
             }
         }
     }
 
     // The picture without the optimisation, in full at every pixel.
-    SecondOrderSolver plain(setup.queue, scene,
-                            options_of(setup, rows[0].positive, rows[0].negative, 0.0f));
-    plain.render(camera);
-    const float exposure = grey_exposure(setup, plain);
-    const std::vector<std::uint8_t> truth = preview(setup, plain, exposure);
+    const auto plain = bench.renderer(rows[0].positive, rows[0].negative, 0.0f);
+    plain->render(camera);
+    const float exposure = grey_exposure(*plain);
+    const std::vector<std::uint8_t> truth = preview(setup, *plain, exposure);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         BenchRow row;
         row.name = rows[i].name;
@@ -157,11 +165,11 @@ BenchTable run(const BenchSetup& setup, const std::string& table, const std::vec
         row.clgi = 1000.0 / spread(times[i]).median;
         row.ratio = row.clgi / row.paper;
         row.unit = "frames/s";
-        row.low_res_share = solvers[i]->status().low_resolution_share;
-        row.threshold = solvers[i]->options().discontinuity_threshold;
+        row.low_res_share = renderers[i]->second_order()->status().low_resolution_share;
+        row.threshold = renderers[i]->options().second_order.discontinuity_threshold;
         if (rows[i].paper_error) {
             row.paper_error = rows[i].paper_error;
-            row.error = rms_percent(preview(setup, *solvers[i], exposure), truth);
+            row.error = rms_percent(preview(setup, *renderers[i], exposure), truth);
         }
         out.rows.push_back(row);
     }

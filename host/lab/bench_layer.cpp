@@ -5,6 +5,8 @@
 #include <clgi/advanced/kernel_source.hpp>
 #include <clgi/device.hpp>
 #include <clgi/device_scene.hpp>
+#include <clgi/passes/gbuffer.hpp>
+#include <clgi/passes/image.hpp>
 
 #include "lab/scenes/rooms.hpp"
 #include "lab/timing.hpp"

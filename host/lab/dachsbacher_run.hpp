@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/advanced/antiradiance_view.hpp>
 #include <clgi/io/image.hpp>
+#include <clgi/renderer.hpp>
 #include <clgi/scene_animator.hpp>
-
 #include <optional>
 
 #include "lab/bench_dachsbacher.hpp"
@@ -26,23 +25,20 @@ public:
     // it begins; at 0 it is the scene's own.
     Frame frame(double share);
 
-    // A picture of the light of the last frame, without or with direct light.
+    // A picture of the light of the last frame, without or with direct light. Later frames are like
+    // it.
     io::Image picture(int width, int height, bool direct);
 
-    const AntiradianceSolver& solver() const { return solver_; }
+    const AntiradianceSolver& solver() const { return *renderer_.antiradiance(); }
 
 private:
     // What changes from frame to frame: lights, and geometry where the scene has a clip.
     void move(double share);
-    PictureOptions picture_options(int width, int height, bool direct) const;
 
-    const DachsbacherSetup& setup_;
-    const Programs& programs_;
     std::vector<Light> lights_;
     Camera camera_;
     DeviceScene device_;
-    AntiradianceSolver solver_;
-    AntiradianceView view_;
+    Renderer renderer_;
     std::optional<SceneAnimator> animator_;  // where geometry moves
     double duration_ = 0.0;                  // seconds, of its clip
 };

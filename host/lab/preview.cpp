@@ -15,34 +15,8 @@ std::uint8_t encoded(float linear) {
     return static_cast<std::uint8_t>(s * 255.0f + 0.5f);
 }
 
-// Planes of radiance, stride floats apart.
-io::Image planes_as_picture(const cl::CommandQueue& queue, const cl::Buffer& radiance, int width,
-                            int height, std::size_t stride) {
-    io::Image image;
-    image.width = width;
-    image.height = height;
-    image.attributes = {{"clgi:quantity", "radiance"}, {"clgi:unit", "cd/m^2"}};
-    const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
-    for (std::size_t c = 0; c < RADIANCE_PLANES; ++c) {
-        std::vector<float> values(pixels);
-        queue.enqueueReadBuffer(radiance, CL_TRUE, c * stride * sizeof(float),
-                                pixels * sizeof(float), values.data());
-        image.channels.push_back({std::string(1, "RGB"[c]), std::move(values)});
-    }
-    return image;
-}
-
 }  // namespace
 
-io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver) {
-    return planes_as_picture(queue, solver.radiance(), solver.options().width,
-                             solver.options().height, solver.stride());
-}
-
-io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture) {
-    return planes_as_picture(queue, picture.radiance(), picture.options().width,
-                             picture.options().height, picture.stride());
-}
 io::Image radiance_picture(const Renderer& renderer) {
     const PictureOptions& options = renderer.options().picture;
     io::Image image;

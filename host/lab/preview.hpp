@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/advanced/kit/picture.hpp>
 #include <clgi/io/image.hpp>
 #include <clgi/renderer.hpp>
 #include <cstdint>
@@ -10,12 +9,7 @@
 
 namespace clgi::lab {
 
-// The solver's radiance as a picture with planes R, G and B. Waits for the queue.
-io::Image radiance_picture(const cl::CommandQueue& queue, const SecondOrderSolver& solver);
-
-io::Image radiance_picture(const cl::CommandQueue& queue, const Picture& picture);
-
-// The last picture of a renderer. Waits for it.
+// The last picture of a renderer, with planes R, G and B. Waits for it.
 io::Image radiance_picture(const Renderer& renderer);
 
 // A factor that leaves all but three in a hundred of the pixels that are not black below white.

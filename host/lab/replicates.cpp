@@ -11,9 +11,10 @@
 
 namespace clgi::lab {
 
-std::optional<Replicates> replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver,
-                                    const Camera& camera, int count, const Progress& progress) {
+std::optional<Replicates> replicate(Renderer& renderer, const Camera& camera, int count,
+                                    const Progress& progress) {
     if (count < 2) throw Error("replicates: at least 2 needed");
+    SecondOrderSolver& solver = *renderer.second_order();
     const std::uint32_t before = solver.options().emitters.replicate;
     std::vector<double> sums[3];
     ReplicateMean luminance;
@@ -25,8 +26,8 @@ std::optional<Replicates> replicate(const cl::CommandQueue& queue, SecondOrderSo
             return std::nullopt;
         }
         solver.set_replicate(static_cast<std::uint32_t>(k));
-        solver.render(camera);
-        out.mean = radiance_picture(queue, solver);
+        renderer.render(camera);
+        out.mean = radiance_picture(renderer);
         luminance.add(luminance_of(out.mean));
         for (std::size_t c = 0; c < 3; ++c) {
             const std::vector<float>& values = out.mean.channels[c].values;

@@ -4,7 +4,7 @@
 
 #include <clgi/advanced/kit/progress.hpp>
 #include <clgi/io/image.hpp>
-#include <clgi/second_order.hpp>
+#include <clgi/renderer.hpp>
 #include <optional>
 
 namespace clgi::lab {
@@ -19,9 +19,9 @@ struct Replicates {
 };
 
 // Renders replicates 1 to count, at least 2, and leaves the solver at the one it had. Nothing if
-// progress cancelled. Throws Error for a smaller count.
-std::optional<Replicates> replicate(const cl::CommandQueue& queue, SecondOrderSolver& solver,
-                                    const Camera& camera, int count,
+// progress cancelled. renderer: of second-order illumination, built. Throws Error for a smaller
+// count.
+std::optional<Replicates> replicate(Renderer& renderer, const Camera& camera, int count,
                                     const Progress& progress = nullptr);
 
 }  // namespace clgi::lab

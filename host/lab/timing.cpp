@@ -5,14 +5,6 @@
 
 namespace clgi::lab {
 
-double time_frame(SecondOrderSolver& solver, const cl::CommandQueue& queue, const Camera& camera) {
-    return time_frame(queue, [&] { solver.render(camera); });
-}
-
-std::vector<PassTime> pass_times(const SecondOrderSolver& solver) {
-    return pass_times(solver.events());
-}
-
 std::vector<PassTime> pass_times(const std::vector<PassEvent>& events) {
     std::vector<PassTime> out;
     for (const PassEvent& pass : events) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <clgi/second_order.hpp>
+#include <clgi/advanced/kit/recorder.hpp>
 #include <string>
 #include <vector>
 
@@ -16,9 +16,6 @@ using timing::Spread;
 using timing::spread;
 using timing::time_frame;
 
-// Renders one frame and waits for it.
-double time_frame(SecondOrderSolver& solver, const cl::CommandQueue& queue, const Camera& camera);
-
 struct PassTime {
     std::string name;
     double milliseconds = 0.0;  // on the device, all launches of the frame together
@@ -26,7 +23,6 @@ struct PassTime {
 };
 
 // Device times of a finished frame by pass, in order of first launch. Needs a profiling queue.
-std::vector<PassTime> pass_times(const SecondOrderSolver& solver);
 std::vector<PassTime> pass_times(const std::vector<PassEvent>& events);
 
 }  // namespace clgi::lab

@@ -194,9 +194,8 @@ private:
     }
 
     void replicate() {
-        record_.replicates =
-            lab::replicate(session_.queue, *renderer_->second_order(), camera_, flags_.replicates,
-                           [](double) { return !interrupted(); });
+        record_.replicates = lab::replicate(*renderer_, camera_, flags_.replicates,
+                                            [](double) { return !interrupted(); });
         if (!record_.replicates) throw Interrupted();
         save_picture(record_.replicates->mean, flags_.picture);
     }

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <clgi/procedural.hpp>
+#include <clgi/renderer.hpp>
 #include <cmath>
 
 #include "frames.hpp"
-#include "lab/preview.hpp"
 #include "lab/replicates.hpp"
 #include "scenes.hpp"
 
@@ -25,15 +25,22 @@ SecondOrderOptions options_for(int lights, int negative) {
     return options;
 }
 
-io::Image picture(SecondOrderSolver& solver, const Camera& camera) {
-    solver.render(camera);
-    return lab::radiance_picture(test::device().queue, solver);
+RendererOptions of_renderer(const SecondOrderOptions& options) {
+    RendererOptions out;
+    out.picture.width = options.width;
+    out.picture.height = options.height;
+    out.picture.emitters = options.emitters;
+    out.second_order = options;
+    return out;
 }
 
-bool equal(const io::Image& a, const io::Image& b) {
-    for (int c = 0; c < 3; ++c)
-        if (!test::same_bits(a.channels[c].values, b.channels[c].values)) return false;
-    return true;
+using Pixels = std::vector<glm::vec3>;
+
+Pixels picture(SecondOrderSolver& solver, const Camera& camera) {
+    solver.render(camera);
+    return test::vectors(test::device().queue, solver.radiance(), solver.stride(),
+                         static_cast<std::size_t>(solver.options().width) *
+                             static_cast<std::size_t>(solver.options().height));
 }
 
 TEST(Replicate, ZeroIsTheSequenceItselfAndOthersAreNot) {
@@ -42,17 +49,17 @@ TEST(Replicate, ZeroIsTheSequenceItselfAndOthersAreNot) {
         const DeviceScene device = test::on_device(scene);
         SecondOrderSolver solver(test::programs(), test::device().queue, device,
                                  options_for(200, 40));
-        const io::Image plain = picture(solver, scene.cameras[0]);
+        const Pixels plain = picture(solver, scene.cameras[0]);
         solver.set_replicate(7);
-        const io::Image seven = picture(solver, scene.cameras[0]);
+        const Pixels seven = picture(solver, scene.cameras[0]);
         solver.set_replicate(8);
-        const io::Image eight = picture(solver, scene.cameras[0]);
-        EXPECT_FALSE(equal(plain, seven));
-        EXPECT_FALSE(equal(seven, eight));
+        const Pixels eight = picture(solver, scene.cameras[0]);
+        EXPECT_FALSE(test::same_bits(plain, seven));
+        EXPECT_FALSE(test::same_bits(seven, eight));
         solver.set_replicate(7);
-        EXPECT_TRUE(equal(seven, picture(solver, scene.cameras[0])));
+        EXPECT_TRUE(test::same_bits(seven, picture(solver, scene.cameras[0])));
         solver.set_replicate(0);
-        EXPECT_TRUE(equal(plain, picture(solver, scene.cameras[0])));
+        EXPECT_TRUE(test::same_bits(plain, picture(solver, scene.cameras[0])));
     }
 }
 
@@ -78,23 +85,25 @@ TEST(Replicate, AcceptsAsManyLightsAsTheSequenceDoes) {
 
 TEST(Replicate, ReportsTheStandardErrorOfItsMean) {
     const Scene scene = cornell({.light = LightSource::spot});
-    const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(50, 0));
+    DeviceScene device = test::on_device(scene);
+    Renderer renderer(test::programs(), test::device().queue, scene, device,
+                      of_renderer(options_for(50, 0)));
+    renderer.build();
+    SecondOrderSolver& solver = *renderer.second_order();
     constexpr int count = 5;
-    const lab::Replicates found =
-        lab::replicate(test::device().queue, solver, scene.cameras[0], count).value();
+    const lab::Replicates found = lab::replicate(renderer, scene.cameras[0], count).value();
     EXPECT_EQ(solver.options().emitters.replicate, 0u);
-    std::vector<io::Image> each;
+    std::vector<Pixels> each;
     for (int k = 1; k <= count; ++k) {
         solver.set_replicate(static_cast<std::uint32_t>(k));
         each.push_back(picture(solver, scene.cameras[0]));
     }
     double whole = 0.0, spread = 0.0;
-    const std::size_t pixels = each[0].channels[0].values.size();
+    const std::size_t pixels = each[0].size();
     for (std::size_t i = 0; i < pixels; ++i) {
         const auto luminance = [&](int k) {
-            return 0.2126 * each[k].channels[0].values[i] + 0.7152 * each[k].channels[1].values[i] +
-                   0.0722 * each[k].channels[2].values[i];
+            const glm::vec3& rgb = each[k][i];
+            return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
         };
         double mean = 0.0, square = 0.0;
         for (int k = 0; k < count; ++k) mean += luminance(k) / count;
@@ -111,12 +120,15 @@ TEST(Replicate, ReportsTheStandardErrorOfItsMean) {
 
 TEST(Replicate, IsCancelledBetweenTwoAndLeavesTheSolverAsItWas) {
     const Scene scene = cornell({.light = LightSource::spot});
-    const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(50, 0));
+    DeviceScene device = test::on_device(scene);
+    Renderer renderer(test::programs(), test::device().queue, scene, device,
+                      of_renderer(options_for(50, 0)));
+    renderer.build();
+    SecondOrderSolver& solver = *renderer.second_order();
     solver.set_replicate(9);
     int asked = 0;
-    EXPECT_FALSE(lab::replicate(test::device().queue, solver, scene.cameras[0], 100,
-                                [&](double) { return ++asked < 3; }));
+    EXPECT_FALSE(
+        lab::replicate(renderer, scene.cameras[0], 100, [&](double) { return ++asked < 3; }));
     EXPECT_EQ(asked, 3);
     EXPECT_EQ(solver.options().emitters.replicate, 9u);
 }
@@ -125,11 +137,14 @@ TEST(Replicate, IsCancelledBetweenTwoAndLeavesTheSolverAsItWas) {
 // stays.
 TEST(Replicate, ErrsLessThanHalfWithSixteenTimesTheLights) {
     const Scene scene = cornell({.light = LightSource::spot});
-    const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::programs(), test::device().queue, device, options_for(100, 0));
+    DeviceScene device = test::on_device(scene);
+    Renderer renderer(test::programs(), test::device().queue, scene, device,
+                      of_renderer(options_for(100, 0)));
+    renderer.build();
+    SecondOrderSolver& solver = *renderer.second_order();
     const auto error = [&](int lights) {
         solver.reconfigure(options_for(lights, 0));
-        return lab::replicate(test::device().queue, solver, scene.cameras[0], 12)->single_error;
+        return lab::replicate(renderer, scene.cameras[0], 12)->single_error;
     };
     const double few = error(100), more = error(1600);
     EXPECT_LT(more, 0.5 * few);
@@ -149,7 +164,8 @@ TEST(Reconfigure, IsAsGoodAsANewSolver) {
     for (const SecondOrderOptions& options : others) {
         solver.reconfigure(options);
         SecondOrderSolver fresh(test::programs(), test::device().queue, device, options);
-        EXPECT_TRUE(equal(picture(solver, scene.cameras[0]), picture(fresh, scene.cameras[0])));
+        EXPECT_TRUE(
+            test::same_bits(picture(solver, scene.cameras[0]), picture(fresh, scene.cameras[0])));
         EXPECT_EQ(solver.bytes(), fresh.bytes());
     }
     SecondOrderOptions fast = options_for(60, 10);
@@ -157,6 +173,40 @@ TEST(Reconfigure, IsAsGoodAsANewSolver) {
     EXPECT_THROW(solver.reconfigure(fast), Error);
     fast = options_for(60, -1);
     EXPECT_THROW(solver.reconfigure(fast), Error);
+}
+
+TEST(Reconfigure, OfARendererIsAsGoodAsANewRenderer) {
+    const Scene scene = cornell({.light = LightSource::spot});
+    DeviceScene device = test::on_device(scene);
+    RendererOptions options = of_renderer(options_for(60, 10));
+    options.vpls.count = 50;
+    options.layout.size = 64;
+    options.antiradiance.elements.requested = 200;
+    options.antiradiance.bins = 32;
+    options.transfer.masks.size = 8;
+    PictureOptions other = options.picture;
+    other.width = 131;
+    other.direct = false;
+    for (const Method method : {Method::direct, Method::second_order, Method::light_atlas,
+                                Method::antiradiance, Method::dynamic_transfer}) {
+        const auto made = [&](const PictureOptions& picture) {
+            options.method = method;
+            options.picture = picture;
+            return std::make_unique<Renderer>(test::programs(), test::device().queue, scene, device,
+                                              options);
+        };
+        const auto changed = made(options.picture), fresh = made(other);
+        changed->render(scene.cameras[0]);
+        changed->reconfigure(other);
+        changed->render(scene.cameras[0]);
+        fresh->render(scene.cameras[0]);
+        EXPECT_EQ(changed->read_radiance(), fresh->read_radiance()) << name_of(method);
+        options.picture = of_renderer(options_for(60, 10)).picture;
+        PictureOptions fast = other;
+        fast.build.math = Math::fast;
+        EXPECT_THROW(changed->reconfigure(fast), Error) << name_of(method);
+        EXPECT_EQ(changed->options().picture.build.math, other.build.math);
+    }
 }
 
 }  // namespace
