@@ -207,7 +207,7 @@ TEST(AntiradiancePictures, SayThatTheIterationWasGivenUp) {
     scene.cameras = {test::camera_at({0.05, 0.5, 0.5}, {0.9, 0.5, 0.5}, 1.2f)};
     const test::TempFolder folder;
     const SweepSetup setup = small_setup(scene, folder.path(), 4);
-    const DeviceScene device = test::on_device(scene);
+    DeviceScene device = test::on_device(scene);
     io::Image grey;
     grey.width = 16;
     grey.height = 12;
@@ -216,13 +216,12 @@ TEST(AntiradiancePictures, SayThatTheIterationWasGivenUp) {
     const std::vector<SweepTruth> truths = {{full_truth, "all", grey, 0.0}};
     const PictureTask task{setup, scene.cameras[0], 16, 12, device, test::programs(), truths, true,
                            64};
-    const PictureMethod method = antiradiance_pictures(task);
     int given_up = 0, found = 0;
-    for (std::size_t i = 0; i < method.settings.size(); ++i) {
-        if (method.settings[i].series != "iteration") continue;
-        const std::string& iteration = method.settings[i].knobs.at("iteration");
+    for (const PictureSetting& one : picture_method(antiradiance_method, task).settings) {
+        if (one.series != "iteration") continue;
+        const std::string& iteration = one.knobs.at("iteration");
         SweepPoint point;
-        method.measure(i, &point, [](double) { return true; });
+        measure_picture(task, one, true, &point, [](double) { return true; });
         EXPECT_EQ(point.given_up, iteration == "symmetric") << iteration;
         EXPECT_EQ(point.estimated_error.empty(), point.given_up) << iteration;
         ++(point.given_up ? given_up : found);
