@@ -101,7 +101,7 @@ PlanCost atlas(const Plan& plan) {
     double texels = 0.75 * plan.layout.size * plan.layout.size;
     if (bakes_static_part(plan)) texels += most_volume_points * VOLUME_DIRECTIONS;
     const auto bake =
-        light_atlas::bake_cost(vpls, texels, triangles(plan), blocks(plan.light_atlas.occlusion));
+        light_atlas::bake_cost(vpls, texels, triangles(plan), occludes(plan.light_atlas.occlusion));
     const bool environment = has_sky(plan);
     const Amount maps = shadow_maps(plan, lamps_of(plan, plan.light_atlas.emitters, environment),
                                     plan.light_atlas.emitters.shadows);
@@ -150,7 +150,7 @@ PlanCost dynamic_transfer(const Plan& plan) {
     const double receivers = 0.6 * triangles(plan);
     const double terms = 25.0;
     Amount vectors{2.0, receivers * 40.0};
-    if (blocks(plan.transfer.occlusion)) {
+    if (occludes(plan.transfer.occlusion)) {
         const double masks = receivers * triangles(plan) * 2e-6 + receivers * 8e-3;
         vectors +=
             {masks * (1 + plan.transfer.interreflections), receivers * (terms * 4.0 + 128.0)};

@@ -66,7 +66,7 @@ ordered_json settings_json(const Plan& plan) {
             return {{"bands", plan.transfer.masks.bands},
                     {"interreflections", plan.transfer.interreflections},
                     {"gloss", plan.transfer.gloss},
-                    {"shadowed", blocks(plan.transfer.occlusion)}};
+                    {"shadowed", occludes(plan.transfer.occlusion)}};
     }
     return ordered_json::object();
 }

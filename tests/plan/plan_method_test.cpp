@@ -133,14 +133,14 @@ TEST(Plan, SwitchesTheOcclusionOfLightAtlasesOff) {
     PlanRequest request;
     request.method = Method::light_atlas;
     const Plan hidden = make_plan(device, analysis, request);
-    EXPECT_TRUE(blocks(hidden.light_atlas.occlusion));
+    EXPECT_TRUE(occludes(hidden.light_atlas.occlusion));
     request.without = {Effect::indirect_occlusion};
     EXPECT_FALSE(blocks(make_plan(device, analysis, request).light_atlas.occlusion));
     request.without = {};
     analysis.proof.surfaces_open = true;
     request.error = 0.034;  // the settings of which both kinds of scene are known
     const Plan open = make_plan(device, analysis, request);
-    EXPECT_FALSE(blocks(open.light_atlas.occlusion));
+    EXPECT_FALSE(occludes(open.light_atlas.occlusion));
     EXPECT_GT(hidden.effects[static_cast<std::size_t>(Effect::indirect_occlusion)].milliseconds,
               0.0);
 }
@@ -214,7 +214,7 @@ TEST(Plan, BringsItsSettingsToTheEffects) {
     PlanRequest request;
     request.method = Method::dynamic_transfer;
     const Plan sky = make_plan(device, shining, request);
-    EXPECT_TRUE(blocks(sky.transfer.occlusion));
+    EXPECT_TRUE(occludes(sky.transfer.occlusion));
     EXPECT_TRUE(sky.transfer.gloss);
     EXPECT_EQ(sky.transfer.interreflections, 1);
     request.without = {Effect::environment_shadows};

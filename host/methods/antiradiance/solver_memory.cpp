@@ -31,7 +31,7 @@ constexpr double usual_steps = 20.0;
 
 AntiradianceOptions checked(AntiradianceOptions options, const DeviceScene& scene) {
     need_range(antiradiance_owner, "steps", options.steps, 0, 10000);
-    if (!blocks(options.occlusion))
+    if (!occludes(options.occlusion))
         throw Error(
             "antiradiance: occlusion is none, automatic or always needed: implicit visibility is "
             "the "

@@ -39,7 +39,7 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene, const VplO
     check_bake_fits(device, vpls);
     const double texels = 0.75 * atlas.size * atlas.size;
     const auto cost = light_atlas::bake_cost(vpls.count, texels, scene.info().triangle_count,
-                                             blocks(options.occlusion));
+                                             occludes(options.occlusion));
     const std::size_t samples = std::size_t{vpls.count} * vpls.samples_per_vpl;
     return {static_cast<std::size_t>(cost.bytes) + light_atlas_least_bytes(vpls.count, samples),
             cost.ms * fitted_pairs / pairs_per_second(device)};

@@ -71,7 +71,7 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     if (atlas_layout.texels.empty()) throw Error("light-atlas: there is no texel");
     check_points(bake_points, options);
     AtlasBlocks made;
-    if (blocks(options.occlusion) && options.filling == Filling::gather && options.refine > 1)
+    if (occludes(options.occlusion) && options.filling == Filling::gather && options.refine > 1)
         made = make_blocks(atlas_layout, options.refine);
     const BufferTable all =
         table(b, emitters, scene, vpl_layout, atlas_layout, bake_points.size(), made, options,
@@ -95,7 +95,7 @@ void LightAtlasSolver::State::build() {
     vpl.build({"place", "points", "receive", "balance_receivers", "balance_shooters", "emit",
                "shoot", "send"});
     atlas.build({"complete"});
-    if (!blocks(options.occlusion)) {
+    if (!occludes(options.occlusion)) {
         vpl.build({"transport_open", "reach_open"});
         atlas.build({"gather_open"});
         return;

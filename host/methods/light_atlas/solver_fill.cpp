@@ -52,7 +52,7 @@ void LightAtlasSolver::State::send(float least) {
 }
 
 void LightAtlasSolver::State::gather(std::uint32_t first, std::uint32_t count) {
-    if (!blocks(options.occlusion)) {
+    if (!occludes(options.occlusion)) {
         record("atlas.gather_open", std::size_t{count} * b.receiver_count,
                [&](const WaitList& wait) {
                    return atlas.gather_open(queue, fill_params(first, count), b.sites,
@@ -69,7 +69,7 @@ void LightAtlasSolver::State::gather(std::uint32_t first, std::uint32_t count) {
 // The share of each texel's hemisphere that meets surfaces: that of the VPL nearest to it, or,
 // where it is the same for all, as in a closed room without occlusion, that of any.
 void LightAtlasSolver::State::find_reach() {
-    if (!blocks(options.occlusion)) {
+    if (!occludes(options.occlusion)) {
         const std::size_t n = b.sites.site_count;
         std::vector<float> reach(n);
         record.wait();
@@ -102,7 +102,7 @@ void LightAtlasSolver::State::fill() {
         if (!bake_points.empty()) leave_points();
     }
     near_known = !record.cancelled();
-    const bool drawn = blocks(options.occlusion) && !b.seen_kept;
+    const bool drawn = occludes(options.occlusion) && !b.seen_kept;
     const std::uint32_t most = b.seen_kept ? gathered_at_once : b.batch;
     while (filled_vpls < n && !record.cancelled()) {
         const std::uint32_t first = filled_vpls, count = std::min(most, n - first);

@@ -45,7 +45,7 @@ void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count
                                  0,
                                  lift};
     const std::size_t pairs = std::size_t{count} * b.sites.site_count * b.sites.per_site;
-    if (!blocks(options.occlusion)) {
+    if (!occludes(options.occlusion)) {
         record("vpl.transport_open", pairs, [&](const WaitList& wait) {
             return vpl.transport_open(queue, params, b.sites, b.rows, wait);
         });

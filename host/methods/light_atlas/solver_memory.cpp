@@ -24,7 +24,7 @@ void check(const LightAtlasOptions& options) {
     if (options.refine != 1 && options.refine != 2 && options.refine != 4)
         throw Error("light-atlas: refine is " + std::to_string(options.refine) +
                     ", 1, 2 or 4 needed");
-    if (!blocks(options.occlusion) && options.filling == Filling::project)
+    if (!occludes(options.occlusion) && options.filling == Filling::project)
         throw Error("light-atlas: occlusion is off, which Filling::project needs");
     need_range<double>("light-atlas", "kernel", options.kernel, 0, 64);
     need_range<double>("light-atlas", "mesh", options.mesh, 8, 131072);
@@ -152,7 +152,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     b.texels.stride = b.texel_stride;
     // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits
     // each. Without maps a batch is what a report may wait for.
-    b.batch = blocks(options.occlusion) ? std::uint32_t{SEEN_VPLS} : unseen_vpls;
+    b.batch = occludes(options.occlusion) ? std::uint32_t{SEEN_VPLS} : unseen_vpls;
 
     BufferTable t("light-atlas");
     emitters.add_to(t);
@@ -189,7 +189,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     t.add(b.filled, "form factors of texels", size, word * b.texel_stride);
     t.add(b.strongest, "maxima", vpls, sizeof(ArgMax));
     t.add(b.arg_max_scratch, "maxima of tiles", vpls, arg_max_scratch_bytes(sites));
-    if (blocks(options.occlusion)) {
+    if (occludes(options.occlusion)) {
         t.add(b.views, "views", vpls, 5 * b.batch * sizeof(View));
         const auto side = static_cast<std::size_t>(options.hemicube_size);
         t.add(b.pixels, "hemicubes", "hemicube_size",
@@ -203,7 +203,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     };
     const std::size_t row = s.stride * sizeof(cl_half);
     // What a batch sees has to fit beside the rows.
-    const bool looked_up = blocks(options.occlusion) && options.filling == Filling::gather;
+    const bool looked_up = occludes(options.occlusion) && options.filling == Filling::gather;
     b.kept = fits(sites * row, looked_up ? b.texel_stride : 0);
     t.add(b.rows, "rows of transport", vpls,
           (b.kept ? sites : std::min<std::size_t>(b.batch, sites)) * row);

@@ -61,7 +61,7 @@ bool LightAtlasSolver::update(double least, const Progress& progress) {
     if (!(least >= 0.0))
         throw Error("light-atlas: least is " + std::to_string(least) + ", 0 or more needed");
     return s.run(progress,
-                 s.ended && (s.b.seen_kept || !blocks(s.options.occlusion)) ? least : -1.0);
+                 s.ended && (s.b.seen_kept || !occludes(s.options.occlusion)) ? least : -1.0);
 }
 
 LightAtlasStatus LightAtlasSolver::status() const {

@@ -50,7 +50,7 @@ void DynamicTransferSolver::State::build() const {
     projection.build({"project_rows", "project_columns", "project_environment"});
     if (!vertices.fronts.empty()) sides.build({"other_sides"});
     if (integrates()) masks.build({"shade"});
-    if (!blocks(options.occlusion)) {
+    if (!occludes(options.occlusion)) {
         projection.build({"open"});
         if (glossy) masks.build({"integrate_open_gloss"});
         return;
@@ -71,7 +71,7 @@ void DynamicTransferSolver::State::write(const Scene& file) {
     put(weights, cells.values);
     put(directions, cells.directions);
     sky.write(record);
-    if (blocks(options.occlusion)) write_shadows(file);
+    if (occludes(options.occlusion)) write_shadows(file);
 }
 
 void DynamicTransferSolver::State::write_shadows(const Scene& file) {
@@ -115,7 +115,7 @@ void DynamicTransferSolver::State::place_receivers() {
                  static_cast<std::uint32_t>(vertices.fronts.size()), receivers.stride, 0},
                 fronts, receivers, wait);
         });
-    if (!blocks(options.occlusion)) return;
+    if (!occludes(options.occlusion)) return;
     record("transfer.blockers", both.triangle_count, [&](const WaitList& wait) {
         return masks.blockers(queue, triangles, scene.positions(), both, status, wait);
     });
@@ -123,7 +123,7 @@ void DynamicTransferSolver::State::place_receivers() {
 
 void DynamicTransferSolver::State::transfer() {
     place_receivers();
-    if (!blocks(options.occlusion)) return;
+    if (!occludes(options.occlusion)) return;
     record("transfer.mask", receivers.count, [&](const WaitList& wait) {
         return masks.mask(queue, receivers, blockers, drawn, wait);
     });
@@ -140,7 +140,7 @@ void DynamicTransferSolver::State::shade(const cl::Buffer& vectors, const cl::Bu
 
 void DynamicTransferSolver::State::light() {
     sky.project(record, projection);
-    if (!blocks(options.occlusion)) return light_openly();
+    if (!occludes(options.occlusion)) return light_openly();
     shade(receivers.transfer, irradiance);
     if (options.interreflections > 0) bounce();
 }

@@ -15,7 +15,7 @@ namespace {
 const DynamicTransferOptions& checked(const DynamicTransferOptions& options) {
     need_range(transfer_owner, "interreflections", options.interreflections, 0, 1);
     mask_table_bytes(options.masks);  // throws for masks out of range
-    if (!blocks(options.occlusion) && options.interreflections > 0)
+    if (!occludes(options.occlusion) && options.interreflections > 0)
         throw Error(
             "dynamic-transfer: occlusion is none and interreflections is 1, 0 needed: what "
             "receivers see of "
@@ -36,11 +36,11 @@ TransferBuffers::TransferBuffers(const Scene& file, const DeviceScene& of,
       options(checked(wanted)),
       glossy(wanted.gloss && of.has_lobes()),
       vertices(file, of),
-      levels(blocks(wanted.occlusion)
+      levels(occludes(wanted.occlusion)
                  ? blocker_levels(file, of, wanted.coarse, wanted.rings, wanted.memory_budget)
                  : BlockerLevels()),
       sky(scene, wanted.masks.bands, wanted.directional) {
-    if (blocks(options.occlusion)) vertices.add_other_sides(levels);
+    if (occludes(options.occlusion)) vertices.add_other_sides(levels);
     receivers.count = vertices.count();
     receivers.stride = plane_stride(receivers.count);
     both.triangle_count = static_cast<std::uint32_t>(levels.triangles.size());
@@ -99,7 +99,7 @@ BufferTable TransferBuffers::table() {
         t.add(gloss, "gloss", vertex, 3 * stride * word);
         t.add(exponents, "exponents of lobes", vertex, stride * word);
     }
-    if (blocks(options.occlusion)) add_shadows(t);
+    if (occludes(options.occlusion)) add_shadows(t);
     if (integrates()) {
         t.add(weights, "weights of cells", "bands", (mask_cells(options.masks) + 1) * terms * word);
         t.add(directions, "directions of cells", "mask size",
@@ -122,7 +122,7 @@ Estimate estimate(const cl::Device& device, const Scene& scene, const DeviceScen
     // In pairs of a point and a light, as measured on a CPU with packets of 16: a triangle that a
     // mask looks at is worth 10 of them, as most are culled with their cluster; a term of a cell 2.
     const double masks = 10.0 * static_cast<double>(buffers.listed_triangles);
-    const double integrals = (blocks(options.occlusion) ? 1.0 : 0.0) + (buffers.glossy ? 1.0 : 0.0);
+    const double integrals = (occludes(options.occlusion) ? 1.0 : 0.0) + (buffers.glossy ? 1.0 : 0.0);
     const double cells =
         static_cast<double>(mask_cells(options.masks)) * sh::terms(options.masks.bands) * integrals;
     const double pairs =

@@ -32,7 +32,7 @@ void check(const VisibleSets& sets, std::uint32_t receivers, std::uint32_t trian
 
 // Visible sets say what blocks.
 void need_shadows(const DynamicTransferOptions& options, const char* call) {
-    if (!blocks(options.occlusion))
+    if (!occludes(options.occlusion))
         throw Error(std::string(transfer_owner) + ": " + call +
                     " of a solver without shadows, DynamicTransferOptions::occlusion needed");
 }

@@ -36,7 +36,7 @@ struct TransferBuffers {
     void add_shadows(BufferTable& table);
 
     // Sums over the cells of masks are needed.
-    bool integrates() const { return blocks(options.occlusion) || glossy; }
+    bool integrates() const { return occludes(options.occlusion) || glossy; }
 
     const DeviceScene& scene;
     DynamicTransferOptions options;

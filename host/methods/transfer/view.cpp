@@ -67,7 +67,7 @@ struct DynamicTransferView::State {
         write();
     }
 
-    bool shadowed() const { return blocks(solver.options().occlusion); }
+    bool shadowed() const { return occludes(solver.options().occlusion); }
     // Without shadows and lobes every pixel has its own light anyway.
     bool some_pixels() const { return !std::isinf(threshold) && (shadowed() || solver.glossy()); }
     bool all_pixels() const { return threshold == 0.0f && some_pixels(); }

@@ -10,6 +10,6 @@ enum class Occlusion {
     always,     // also where nothing can; the same light, for measurements of what automatic saves
 };
 
-constexpr bool blocks(Occlusion occlusion) { return occlusion != Occlusion::none; }
+constexpr bool occludes(Occlusion occlusion) { return occlusion != Occlusion::none; }
 
 }  // namespace clgi
