@@ -1,5 +1,5 @@
 // Costs of methods, predicted from analysis and settings: fits of times on two cores of a CPU with
-// packets of 16 (docs/effects.md), scaled by clock, units and lanes of the device.
+// packets of 16 (docs/results/plans.md), scaled by clock, units and lanes of the device.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/advanced/static_bake.hpp>

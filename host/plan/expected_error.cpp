@@ -22,7 +22,7 @@ bool exact_direct_light(const Plan& plan) {
 }
 
 // What moves through a bake has no indirect shadow, and light of a few points: what that changes of
-// a picture, as measured (docs/effects.md).
+// a picture, as measured (docs/results/plans.md).
 constexpr double moving_error = 0.05;
 
 double direct_error(const Plan& plan) {

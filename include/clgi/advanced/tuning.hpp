@@ -1,5 +1,5 @@
 // Settings of second-order illumination for a frame time or an error: fronts of time against error,
-// measured once, scaled by pictures of this scene on this device (docs/accuracy.md).
+// measured once, scaled by pictures of this scene on this device (docs/plan.md).
 // SPDX-License-Identifier: MIT
 #pragma once
 
