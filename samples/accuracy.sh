@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What accuracy costs in time, measured again: the figures of docs/accuracy.md.
+# What accuracy costs in time, measured again: the figures of docs/results/accuracy.md.
 #
 #   ./samples/accuracy.sh [mesh.glb]     a mesh for the box; without, a generated one
 #

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What plans save, and how far they get: the tables and the plot of docs/effects.md.
+"""What plans save, and how far they get: the tables and the plot of docs/results/plans.md.
 
     samples/effects.py saving build/clgi out/ SCENE.glb ...
     samples/effects.py same build/clgi out/ SCENE.glb ...

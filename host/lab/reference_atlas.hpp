@@ -1,4 +1,4 @@
-// Evidence truth for light atlases: irradiance where a scene's lightmap has texels.
+// Ground truth for light atlases: irradiance where a scene's lightmap has texels.
 // SPDX-License-Identifier: MIT
 #pragma once
 

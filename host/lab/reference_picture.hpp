@@ -1,4 +1,4 @@
-// Evidence truth as pictures with their own standard error, kept in files between runs.
+// Ground truth as pictures with their own standard error, kept in files between runs.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -20,7 +20,7 @@ constexpr std::size_t most_glossy_triangles = 20000;
 // What moves casts no indirect shadow and reflects nothing onto what a bake holds.
 constexpr double little_moves = 0.1;  // of the area
 
-// Whether a bake of what stands still lights the scene while the rest moves through it.
+// Whether a bake of the static part lights the scene while the rest moves through it.
 bool bakes_the_rest(const Plan& plan) {
     const MotionAnalysis& motion = plan.analysis.motion;
     return bakes_static_part(plan) && !plan.on(Effect::moving_lights) &&
@@ -56,7 +56,7 @@ Choice candidates_for(const Plan& plan) {
             "light goes on between surfaces"};
 }
 
-// Whether a method can do what is on, and without what is off by request.
+// Whether a method has all effects that are on, and can leave out those that are off by request.
 bool suits(Method method, const Plan& plan) {
     if (!unavoidable(plan, method).empty()) return false;
     switch (method) {
@@ -82,7 +82,7 @@ Choice methods_for(const Plan& plan) {
     std::vector<Method> suitable;
     for (const Method method : out.methods)
         if (suits(method, plan)) suitable.push_back(method);
-    // What no candidate can do, one of the others may.
+    // If no candidate is suitable, one of the other methods may be.
     const bool indirect = plan.on(Effect::first_bounce);
     if (suitable.empty() && indirect && !plan.request.animated && suits(Method::light_atlas, plan))
         suitable = {Method::light_atlas};

@@ -1,4 +1,4 @@
-// Which methods bring the effects of a plan.
+// Which methods have the effects of a plan.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,5 +1,5 @@
-// Costs of methods, predicted from analysis and settings: fits of times on two cores of a CPU with
-// packets of 16 (docs/effects.md), scaled by clock, units and lanes of the device.
+// Costs of methods, predicted from the analysis and the settings: fits of times on two cores of a
+// CPU with packets of 16 (docs/plan.md), scaled by clock, units and lanes of the device.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/advanced/static_bake.hpp>
@@ -28,7 +28,7 @@ void operator+=(Amount& a, const Amount& b) {
 // other methods take less than their pictures.
 constexpr double loading = 110.0;
 
-constexpr double scene_bytes = 200.0;  // of a triangle of what stands still, which is there twice
+constexpr double scene_bytes = 200.0;  // of a triangle of the static part, which is there twice
 
 double triangles(const Plan& plan) { return static_cast<double>(plan.analysis.surfaces.triangles); }
 
@@ -58,7 +58,7 @@ Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment
 
 Amount shadow_maps(const Plan& plan, const Lamps& lamps, bool drawn) {
     if (!drawn) return {};
-    // What is finely modelled covers pixels several times.
+    // Fine triangles cover pixels several times.
     const double pixel = 6e-7 + 1e-11 * triangles(plan);
     return {lamps.views * (0.05 + 2e-5 * triangles(plan)) + pixel * lamps.pixels,
             4.0 * lamps.pixels};

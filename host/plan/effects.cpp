@@ -28,8 +28,8 @@ constexpr std::array<const char*, effect_count> names = {"point-light",
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-// What a probe of a few thousand pixels, one bounce and no shadows of it tells may be so many times
-// too small: a margin, not a proof (docs/effects.md).
+// A probe has a few thousand pixels and one unshadowed bounce. What it finds may be so many times
+// too small: a margin, not a proof (docs/plan.md).
 constexpr double probe_margin = 2.0;
 
 struct Decision {

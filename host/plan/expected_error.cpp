@@ -21,8 +21,8 @@ bool exact_direct_light(const Plan& plan) {
            !plan.on(Effect::environment_light);
 }
 
-// What moves through a bake has no indirect shadow, and light of a few points: what that changes of
-// a picture, as measured (docs/effects.md).
+// Geometry that moves through a bake casts no indirect shadow and is lit by a few points of a
+// volume: by how much that changes a picture, as measured (docs/results/plans.md).
 constexpr double moving_error = 0.05;
 
 double direct_error(const Plan& plan) {
@@ -48,7 +48,7 @@ std::optional<double> expected_error(const Plan& plan, const Preset& preset) {
         const double whole = preset.error[static_cast<std::size_t>(kind_of(plan))];
         return whole > 0.0 ? std::optional(whole) : std::nullopt;
     }
-    // A few lights for all of the sky: nobody measured that.
+    // A few lights for the whole sky: not measured.
     if (plan.method == Method::direct && has_sky(plan)) return std::nullopt;
     const std::optional<double> indirect = indirect_error(plan, preset);
     if (!indirect) return std::nullopt;

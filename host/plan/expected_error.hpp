@@ -16,11 +16,11 @@ namespace clgi {
 // is. None where nothing was measured. plan: as the preset sets it.
 std::optional<double> expected_error(const Plan& plan, const Preset& preset);
 
-// Whether the plan lacks an effect because of the request: its error against all light is not
-// known, but the errors of settings still compare.
+// Whether the plan lacks an effect because of the request: then its error against all light is not
+// known, but errors of settings can be compared.
 bool left_out_by_request(const Plan& plan);
 
-// What the error of a plan stands on.
+// What the expected error of a plan is based on.
 std::string evidence_of_error(const Plan& plan);
 
 }  // namespace clgi

@@ -1,4 +1,4 @@
-// Which method brings the effects of a plan, with which settings, at what cost.
+// Which method renders the effects of a plan, with which settings, at what cost.
 // SPDX-License-Identifier: MIT
 #pragma once
 

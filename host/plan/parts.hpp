@@ -1,4 +1,4 @@
-// The parts that SceneAnalysis are made of. Every scene here is sound, as validate() says.
+// The parts of a SceneAnalysis. Every scene here has passed validate().
 // SPDX-License-Identifier: MIT
 #pragma once
 

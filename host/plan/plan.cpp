@@ -1,5 +1,5 @@
-// From analysis and a request to a plan: effects, then the method and its settings, then what each
-// costs.
+// From the analysis and a request to a plan: effects, then the method and its settings, then the
+// cost of each effect.
 // SPDX-License-Identifier: MIT
 #include <clgi/plan.hpp>
 
@@ -43,7 +43,7 @@ void check(const PlanRequest& request) {
              std::string(name_of(effect)) + " is both with and without");
 }
 
-// called: what the whole scene calls for.
+// called: what the whole scene needs.
 void overrule(EffectChoices& effects, const EffectChoices& called, const SceneAnalysis& analysis,
               const PlanRequest& request) {
     const auto set = [&](Effect effect, bool on) {
@@ -51,16 +51,17 @@ void overrule(EffectChoices& effects, const EffectChoices& called, const SceneAn
         if (choice.on == on) return;
         choice.on = on;
         choice.evidence = Evidence::requested;
-        choice.why = std::string(on ? "asked for; without: " : "left out by wish; ") + choice.why;
+        choice.why =
+            std::string(on ? "asked for; without: " : "left out by request; ") + choice.why;
     };
     for (const Effect effect : request.without) {
-        // The analysis no longer have what is left out, so it would count as absent.
+        // The analysis no longer has what is left out, so it would count as absent.
         EffectChoice& choice = effects[static_cast<std::size_t>(effect)];
         if (!choice.on) choice = called[static_cast<std::size_t>(effect)];
         set(effect, false);
     }
     for (const Effect effect : request.with) set(effect, true);
-    // What is left of indirect light needs its first bounce, and follows where it is asked for.
+    // The other parts of indirect light need its first bounce, which is on if they are requested.
     const Effect rest[] = {Effect::further_bounces, Effect::indirect_occlusion};
     for (const Effect effect : rest)
         if (asked(request.with, effect)) set(Effect::first_bounce, true);

@@ -45,7 +45,7 @@ const char* name_of(SceneKind kind) {
 
 const std::vector<Preset>& presets() {
     // Of pictures of 160x120 against the path tracer's indirect light, the largest of the scenes of
-    // a kind (docs/effects.md). Convex: two empty rooms. Furnished: Cornell box, a furnished room,
+    // a kind (docs/plan.md). Convex: two empty rooms. Furnished: Cornell box, a furnished room,
     // the corridor. Finely modelled: box with the bunny. Open: a yard, the office, oriental-like.
     // Lit indirectly: the dark one of two chambers, the maze.
     static const std::vector<Preset> out = {

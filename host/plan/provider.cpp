@@ -32,7 +32,7 @@ Provider environment_shadows(const Plan& plan, Method method) {
     return {"shadow maps", of_lights || places_by_maps(plan, method)};
 }
 
-// Of what stands still, and of what moves.
+// Of the static part, and of what moves.
 Provider baked(const Plan& plan) {
     return {bakes_static_part(plan) ? "baked VPLs; moving: volume" : "baked VPLs"};
 }

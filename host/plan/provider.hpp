@@ -1,4 +1,4 @@
-// Which part of a method brings an effect.
+// Which part of a method provides an effect.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -13,7 +13,7 @@ struct Provider {
 // Given what else is on in the plan.
 Provider provider_of(const Plan& plan, Method method, Effect effect);
 
-// Effects that are off by request, and that the method renders all the same.
+// Effects that are off by request, but that the method cannot leave out.
 std::vector<Effect> unavoidable(const Plan& plan, Method method);
 
 }  // namespace clgi

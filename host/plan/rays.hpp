@@ -1,5 +1,5 @@
 // Many rays against all triangles of a scene, on the host and without a tree: for the few thousand
-// rays that analysis take.
+// rays of an analysis.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -19,8 +19,7 @@ public:
     void add(const glm::dvec3& from, const glm::dvec3& along, double longest,
              Search search = nearest);
 
-    // What lies in the place of the start, the own triangle
-    // above all, is not met.
+    // A ray does not meet what lies in the place of its start, such as its own triangle.
     void trace(const std::vector<LocalTriangle>& triangles);
 
     std::size_t count() const { return nearest_.size(); }

@@ -1,4 +1,4 @@
-// The analysis that decide, once a request has been heard.
+// The analysis that decisions are based on, with the request applied.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace clgi {
 
-// Without the lights and the gloss that the request leaves out, so that nothing else is decided by
-// them. Where lights will change, dark ones count as lights, and nothing is proven of any.
+// Without the lights and the gloss that the request leaves out, so that they decide nothing else.
+// If lights will change, dark lights count as lights, and nothing is proven about any light.
 SceneAnalysis requested_analysis(SceneAnalysis analysis, const PlanRequest& request);
 
 }  // namespace clgi

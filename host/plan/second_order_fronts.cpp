@@ -11,8 +11,8 @@ namespace {
 constexpr float none = INFINITY;  // no pixel is lit in full
 
 // Measured at 320x240 with 64 to 4096 VPLs, negative shares of 0.1, 1/3 and 1, steps of 4, 2 and
-// 1 and thresholds from none to 0.005 (docs/accuracy.md says how): what is on the front of frame
-// time against error to the converged picture.
+// 1 and thresholds from none to 0.005 (docs/results/accuracy.md says how): the front of frame time
+// against error to the converged picture.
 //
 // With a few hundred VPLs, sampling errs so much more than interpolation that lighting any pixel
 // in full is wasted. Half as many points across come to pay before low thresholds at a quarter do.

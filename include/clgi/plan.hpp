@@ -1,5 +1,5 @@
-// A plan: which effects a scene calls for, the method that brings them within a time or an error,
-// and its settings. Plain data, made before anything runs.
+// A plan: which effects a scene needs, the method that renders them within a time or an error, and
+// its settings. Plain data, made before anything runs.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -17,15 +17,15 @@ namespace clgi {
 struct PlanRequest {
     int width = 640;  // pixels
     int height = 480;
-    // Effects may be left out that change a picture by at most this together: root of the mean
-    // squared difference of luminance over its mean.
+    // Effects are left out if together they are estimated to change a picture by at most this: root
+    // of the mean squared difference of luminance over its mean.
     double tolerance = 0.01;
-    // A picture may take so long, with all that is done before it but loading, upload and kernels.
-    // None: what the method takes by default.
+    // The time of a picture with all that is done before it, but without loading, upload and
+    // kernels; if animated, the time of a frame. None: 1 s, and 0.1 s for a frame.
     std::optional<double> seconds;
-    // Of the picture, against all light, as tolerance is measured. None: none in particular.
+    // Error of the picture against all light, measured as the tolerance. None: any.
     std::optional<double> error;
-    // The scene moves from picture to picture, as its animation says: what is done before may not
+    // The scene moves from picture to picture, as its animation says: what is prepared must not
     // depend on where things are.
     bool animated = false;
     bool lights_change = false;  // set_light() will be called: nothing is proven of lights, and
@@ -46,45 +46,46 @@ struct PlanCost {
     double total_ms() const { return once_ms + frame_ms; }
 };
 
-// The options of a Renderer, and why they are so.
+// The options of a Renderer, and the reasons for them.
 struct Plan : RendererOptions {
     Plan() { method = Method::direct; }
 
     PlanRequest request;
-    SceneAnalysis
-        analysis;  // of the scene without the lights and the gloss that the request leaves out
+    // Of the scene without the lights and the gloss that the request leaves out.
+    SceneAnalysis analysis;
     std::optional<ProbeResult> probe;
     EffectChoices effects;
-    double bound = 0.0;  // what all effects that are left out for the tolerance change at most
+    // What all effects that are left out for the tolerance change: 0 where that is proven,
+    // otherwise an estimate by the probe with a margin.
+    double bound = 0.0;
 
     std::string why;  // a sentence: the method
-    // Off by request, but the method cannot do without: they are rendered all the same.
+    // Effects that are off by request, but that the method cannot leave out.
     std::vector<Effect> unavoidable;
     PlanCost cost;
-    // Error against all light that the method reaches with such settings on scenes of this kind, as
-    // measured, and where; none where nothing was measured, the probe saw no light, or the request
-    // leaves out what the scene calls for.
+    // The error against all light that these settings had in measured scenes of this kind, and in
+    // which. None if nothing was measured, the probe saw no light, or the request leaves out an
+    // effect that the scene needs.
     std::optional<double> error;
     std::string error_evidence;
-    // As predicted; true where nothing was asked for, meets_error false where the error is unknown.
+    // As predicted. True if nothing was requested; meets_error is false if the error is unknown.
     bool meets_time = true, meets_error = true;
 
     bool on(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
 };
 
-// From analysis alone. Throws Error for a request out of range or one that excludes itself.
+// From the analysis alone. Throws Error for a request that is out of range or contradicts itself.
 CLGI_API Plan make_plan(const cl::Device& device, const SceneAnalysis& analysis,
                         const PlanRequest& request);
 
-// Reads the analysis and, where they leave open whether indirect light matters, uploads the scene
-// and draws two small pictures of it.
+// Analyses the scene. If the analysis leaves open whether indirect light matters, uploads the scene
+// and draws a few small pictures of it.
 CLGI_API Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
                         const Camera& camera, const PlanRequest& request);
 
-// The scene with what the plan renders alone: without lights, emission, environment, gloss,
-// textures, alpha masks and animation whose effects are off. What is off because it changes nothing
-// (a texture of one colour, a mask without holes) is replaced by what it comes to. Textures that
-// are not read any more are dropped, the others renumbered.
+// The scene without the lights, emission, environment, gloss, textures, alpha masks and animation
+// whose effects are off. A texture of one colour is replaced by this colour. Textures that are no
+// longer read are dropped, and the others are renumbered.
 CLGI_API Scene planned_scene(const Scene& scene, const Plan& plan);
 
 }  // namespace clgi

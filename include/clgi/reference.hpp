@@ -1,4 +1,4 @@
-// Evidence truth: an independent path tracer on the host, through Embree. It shares no transport
+// Ground truth: an independent path tracer on the host, through Embree. It shares no transport
 // code with the library; materials follow docs/materials.md, lights KHR_lights_punctual.
 // SPDX-License-Identifier: MIT
 #pragma once

@@ -5,7 +5,7 @@
 //                                                   [Kautz04, section 2.1: L_in]
 //
 // T writes Y_lm as waves of the polar angle: Y_lm(theta, 0) = sum over k of T_lmk wave_k(theta). R
-// turns the picture's frame, whose polar axis is z, into that of the light (clgi/sh.hpp).
+// turns the picture's frame, whose polar axis is z, into that of the light (clgi/advanced/sh.hpp).
 //
 // Work size    1D, one work-item a term; any local size; tail guarded
 // Writes       its own term; what is not finite stays so

@@ -1,7 +1,7 @@
 // Pixels in a square of four probes, one of which fails, are flagged: interpolation between vertices
-// misses what arrives there. In all other squares what is shown is sanitised by what its probes miss,
+// misses what arrives there. In all other squares what is shown is corrected by what its probes miss,
 // bilinearly, so that no border of flagged squares is seen. Where less is shown than at the probes it
-// is sanitised by as much less: there may be another surface, such as a thin one before a bright wall.
+// is corrected by as much less: there may be another surface, such as a thin one before a bright wall.
 //                             [Kautz04, section 4.1, per-vertex sampling; derived: see compare_probes]
 //
 // Work size    1D, one work-item a pixel; any local size; tail guarded

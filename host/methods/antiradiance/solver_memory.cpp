@@ -168,7 +168,7 @@ Estimate estimate(const cl::Device& device, const Scene& scene, const DeviceScen
     out.bytes = table.bytes();
 
     // In pairs of a point and a light, as measured on a CPU with packets of 16
-    // (docs/benchmarks.md).
+    // (docs/results/benchmarks.md).
     const double bins = options.bins, elements = static_cast<double>(buffers.made.elements.size());
     const double step = 4.0 * sample.total + bins * (7.0 * elements + 3.0 * rows) +
                         0.36 * bins * bins * buffers.gloss.count;

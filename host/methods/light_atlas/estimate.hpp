@@ -10,7 +10,7 @@ struct BakeCost {
 };
 
 // Layout, transport and filling; without occlusion nothing is drawn. A fit of times on two cores of
-// a CPU with packets of 16 (docs/effects.md).
+// a CPU with packets of 16 (docs/plan.md).
 BakeCost bake_cost(double vpls, double texels, double triangles, bool occlusion);
 
 }  // namespace clgi::light_atlas

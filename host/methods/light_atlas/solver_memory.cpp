@@ -52,7 +52,7 @@ void check_sizes(std::size_t vpls, std::size_t samples, std::size_t texels, std:
 }
 
 // Light through the openings of a building is too much by a fifth with maps of 512 pixels, by 1 %
-// with 2048 (docs/accuracy.md).
+// with 2048 (docs/results/accuracy.md).
 int usual_shadow_size(const DeviceScene& scene, const EmitterOptions& emitters) {
     constexpr std::size_t most_pixels = std::size_t{1} << 24;  // of all maps
     constexpr int most = 2048, least = 512;

@@ -1,4 +1,4 @@
-// What a scene has and what it does not: read on the host, before anything runs on a device.
+// What a scene has and what it does not have, found on the host before anything runs on a device.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -102,7 +102,7 @@ struct SceneAnalysis {
     // pixels of shadow maps or leaves are larger.
     double thin = 0.0, thinnest = 0.0;
 
-    double milliseconds = 0.0;  // that reading the analysis took
+    double milliseconds = 0.0;  // that the analysis took
 };
 
 // Throws InputError for a broken scene, as validate() does, and if a clip moves a vertex beyond

@@ -1,4 +1,4 @@
-// The effects that a picture may have, and which of them a scene calls for.
+// The effects that a picture may have, and which of them a scene needs.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -33,11 +33,11 @@ constexpr std::size_t effect_count = 15;
 CLGI_API const char* name_of(Effect effect);
 CLGI_API std::optional<Effect> effect_of(const std::string& name);
 
-// What a decision stands on.
+// What a decision is based on.
 enum class Evidence {
     absent,     // the scene has nothing of it
     proven,     // a picture without it is the same
-    measured,   // a probe bounds what a picture loses without it
+    measured,   // a probe estimates what a picture loses without it
     needed,     // nothing bounds what a picture would lose
     requested,  // the caller decided
 };
@@ -47,19 +47,20 @@ struct EffectChoice {
     Effect effect = Effect::point_light;
     bool on = false;
     Evidence evidence = Evidence::absent;
-    // What a picture without it differs by at most: root of the mean squared difference of
-    // luminance over the mean luminance. Infinite where nothing bounds it.
+    // By how much a picture without it differs: root of the mean squared difference of luminance
+    // over the mean luminance. 0 if that is proven, an estimate with a margin if `measured`,
+    // infinite if it is not known.
     double bound = 0.0;
     std::string why;  // a sentence
-    // What brings it with the method of a plan, such as "shadow maps"; "nothing" where it is on and
-    // the method cannot, empty where it is off or no method is chosen yet.
+    // What provides it in the method of a plan, such as "shadow maps". "nothing" if it is on and
+    // the method does not have it; empty if it is off or no method is chosen yet.
     std::string by;
-    double milliseconds = 0.0;  // that it adds to a picture and what is done before, predicted
+    double milliseconds = 0.0;  // predicted, that it adds to a picture and what precedes it
     double megabytes = 0.0;     // and to the buffers
 };
 using EffectChoices = std::array<EffectChoice, effect_count>;  // by Effect
 
-// What small pictures tell beyond the analysis.
+// What small pictures tell in addition to the analysis.
 // 0 where no surface reflects light. Infinite where the camera sees none; the first two also where
 // no VPL has any.
 struct ProbeResult {
@@ -77,9 +78,9 @@ struct ProbeResult {
     double milliseconds = 0.0;  // that the pictures took, without building kernels
 };
 
-// Decides each effect: off where the scene has nothing of it, where the proofs say that it changes
-// nothing, or where the probe bounds what it changes by `tolerance`. Without a probe only the first
-// two.
+// Decides each effect. It is off if the scene has nothing of it, if a proof says that it changes
+// nothing, or if the probe estimates that it changes at most `tolerance`. Without a probe only the
+// first two count.
 CLGI_API EffectChoices choose_effects(const SceneAnalysis& analysis, double tolerance,
                                       const std::optional<ProbeResult>& probe = std::nullopt);
 

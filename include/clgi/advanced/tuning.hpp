@@ -1,5 +1,5 @@
 // Settings of second-order illumination for a frame time or an error: fronts of time against error,
-// measured once, scaled by pictures of this scene on this device (docs/accuracy.md).
+// measured once, scaled by pictures of this scene on this device (docs/plan.md).
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -22,7 +22,8 @@ struct SecondOrderSettings {
 CLGI_API SecondOrderOptions with_settings(SecondOrderOptions options,
                                           const SecondOrderSettings& settings);
 
-// What is asked for, one at least. With both, the error counts as far as the time allows.
+// What tuning is to reach; at least one of the two. With both, the error counts as far as the time
+// allows.
 struct TuningTarget {
     // Median time of a frame, ms above 0: to be met, not only to stay under. A frame lasts, on the
     // host's clock, from render() until the queue is empty, shadow maps and G-buffer included.
@@ -39,8 +40,8 @@ struct SecondOrderTuning {
 
     SecondOrderSettings settings;
     double frame_ms = 0.0;        // of the last pictures with these settings, median
-    std::optional<double> error;  // estimated; none where only a time was asked for
-    // Of what was asked for. A time is met within a tenth, an error with a margin of 15 %.
+    std::optional<double> error;  // estimated; none if only a time was requested
+    // Whether the target was reached. A time is met within a tenth, an error with a margin of 15 %.
     bool meets_time = true, meets_error = true;
     double milliseconds = 0.0;  // that tuning took
 };
@@ -55,10 +56,10 @@ CLGI_API std::optional<SecondOrderTuning> tune_second_order(
     const cl::CommandQueue& queue, const DeviceScene& scene, SecondOrderSolver& solver,
     const Camera& camera, const TuningTarget& request, const Progress& progress = nullptr);
 
-// A renderer of a plan of second-order illumination with a time: tunes its settings to that time,
-// in place of those that were predicted to take it. The plan then has them with the time that was
-// measured; its error stays that of the predicted settings. Does nothing for other plans. Waits.
-// False if progress cancelled.
+// Tunes the renderer of a plan that chose second-order illumination for a time: settings whose time
+// was measured replace those whose time was predicted. The plan then has them with the measured
+// time; its error stays that of the predicted settings. Does nothing for other plans. Waits. False
+// if progress cancelled.
 CLGI_API bool tune(const cl::CommandQueue& queue, Renderer& renderer, Plan& plan,
                    const Camera& camera, const Progress& progress = nullptr);
 

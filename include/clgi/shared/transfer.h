@@ -1,4 +1,4 @@
-// Light and visibility in spherical harmonics (clgi/sh.hpp has the conventions).
+// Light and visibility in spherical harmonics (clgi/advanced/sh.hpp has the conventions).
 // SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_TRANSFER_H
 #define CLGI_SHARED_TRANSFER_H
