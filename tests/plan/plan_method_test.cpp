@@ -135,7 +135,7 @@ TEST(Plan, SwitchesTheOcclusionOfLightAtlasesOff) {
     const Plan hidden = make_plan(device, analysis, request);
     EXPECT_TRUE(occludes(hidden.light_atlas.occlusion));
     request.without = {Effect::indirect_occlusion};
-    EXPECT_FALSE(blocks(make_plan(device, analysis, request).light_atlas.occlusion));
+    EXPECT_FALSE(occludes(make_plan(device, analysis, request).light_atlas.occlusion));
     request.without = {};
     analysis.proof.surfaces_open = true;
     request.error = 0.034;  // the settings of which both kinds of scene are known
@@ -218,7 +218,7 @@ TEST(Plan, BringsItsSettingsToTheEffects) {
     EXPECT_TRUE(sky.transfer.gloss);
     EXPECT_EQ(sky.transfer.interreflections, 1);
     request.without = {Effect::environment_shadows};
-    EXPECT_FALSE(blocks(make_plan(device, shining, request).transfer.occlusion));
+    EXPECT_FALSE(occludes(make_plan(device, shining, request).transfer.occlusion));
     request.method = Method::antiradiance;
     request.without = {};
     EXPECT_LT(make_plan(device, shining, request).antiradiance.least_gloss, 1.0);

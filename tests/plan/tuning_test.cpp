@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Lights, TuneFor,
 class Tune : public testing::Test {
 protected:
     const Scene scene_ = cornell({.light = LightSource::spot});
-    const DeviceScene device_ = test::on_device(scene_);
+    DeviceScene device_ = test::on_device(scene_);
     const Camera& camera_ = scene_.cameras[0];
     std::unique_ptr<SecondOrderSolver> solver_ = std::make_unique<SecondOrderSolver>(
         test::programs(), test::device().queue, device_, small_picture());

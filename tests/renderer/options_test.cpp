@@ -59,10 +59,13 @@ TEST(Options, RefuseWhatIsNoValue) {
         }
         if (row.least < row.most && row.choices.empty()) {
             EXPECT_THROW(row.set(options, std::to_string(row.least - 1.0)), Error);
-            if (!std::isinf(row.most))
+            if (!std::isinf(row.most)) {
                 EXPECT_THROW(row.set(options, std::to_string(2.0 * row.most + 1.0)), Error);
+            }
         }
-        if (row.kind == OptionRow::Kind::integer) EXPECT_THROW(row.set(options, "8.5"), Error);
+        if (row.kind == OptionRow::Kind::integer) {
+            EXPECT_THROW(row.set(options, "8.5"), Error);
+        }
     }
 }
 
@@ -71,7 +74,9 @@ TEST(Options, HaveOneRowForAMethodAndAName) {
     for (const OptionRow& row : option_table()) {
         EXPECT_FALSE(row.help.empty());
         for (unsigned bit = 1; bit <= of_vectors; bit <<= 1)
-            if (row.of(bit)) EXPECT_TRUE(seen.insert({row.name, bit}).second) << row.name;
+            if (row.of(bit)) {
+                EXPECT_TRUE(seen.insert({row.name, bit}).second) << row.name;
+            }
     }
     EXPECT_THROW(option("no-such"), Error);
     EXPECT_EQ(option("vpls").get({}), "300");
@@ -97,7 +102,9 @@ TEST(Options, AreTheKeyOfABake) {
         row.set(b, another(row));
         const bool same = option_text(a, of_bakes) == option_text(b, of_bakes);
         // Those of pictures that a bake shares reach it too.
-        if (row.of(of_bakes)) EXPECT_FALSE(same) << row.name;
+        if (row.of(of_bakes)) {
+            EXPECT_FALSE(same) << row.name;
+        }
     }
 }
 

@@ -289,10 +289,11 @@ TEST(Renderer, HasTheTimesOfWhatWasDoneForThePicture) {
         picture_of(renderer);
         const std::size_t second = renderer.times().size();
         EXPECT_GT(second, 0u);
-        if (method == Method::direct || method == Method::second_order)
+        if (method == Method::direct || method == Method::second_order) {
             EXPECT_EQ(first, second);
-        else
+        } else {
             EXPECT_LT(second, first);  // nothing is prepared for the second
+        }
     }
 }
 
@@ -308,8 +309,9 @@ TEST(Renderer, EstimatesBeforeItAllocates) {
         EXPECT_THROW(renderer.estimate(), Error);
         // Views have a picture of their own, and a bake's texels are only guessed.
         EXPECT_GT(renderer.bytes(), estimate.bytes / 8);
-        if (method == Method::direct || method == Method::second_order)
+        if (method == Method::direct || method == Method::second_order) {
             EXPECT_EQ(renderer.bytes(), estimate.bytes);
+        }
     }
 }
 
