@@ -103,6 +103,8 @@ public:
         PictureOptions& picture = options_.picture;
         check_picture("render", flags_.picture, picture.width, picture.height);
         const TuningTarget target = planned ? TuningTarget() : request_of("render", flags_.ask);
+        if (planned)
+            plan_request(flags_);  // what is wrong with it is said before anything is loaded
         const bool tunes = target.frame_ms || target.error;
         scene_ = open_scene(flags_.scene, flags_.scene_index, flags_.environment, quiet,
                             planned || flags_.method == "atlas");

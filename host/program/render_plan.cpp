@@ -12,7 +12,27 @@
 namespace clgi::program {
 namespace {
 
-PlanRequest request_of(const RenderFlags& flags) {
+std::string unmet(const Plan& plan) {
+    std::string out;
+    if (!plan.meets_time)
+        out = fmt::format(
+            "the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of {}",
+            plan.request.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
+            1e3 * *plan.request.seconds, plan.request.animated ? "--frame-time" : "--time-budget");
+    const auto add = [&](const std::string& more) { out += (out.empty() ? "" : "; ") + more; };
+    if (!plan.meets_error && plan.error)
+        add(fmt::format("no method is known to reach the error of {:.3g} % in such scenes",
+                        100.0 * *plan.request.error));
+    else if (!plan.meets_error)
+        add("the error of the method in such scenes is not known");
+    for (const Effect effect : plan.unavoidable)
+        add(fmt::format("no method that suits can leave out {}: it is rendered", name_of(effect)));
+    return out;
+}
+
+}  // namespace
+
+PlanRequest plan_request(const RenderFlags& flags) {
     PlanRequest out = request_of("render", flags.plan);
     const PictureOptions& picture = flags.options.picture;
     out.width = picture.width;
@@ -36,32 +56,12 @@ PlanRequest request_of(const RenderFlags& flags) {
     return out;
 }
 
-std::string unmet(const Plan& plan) {
-    std::string out;
-    if (!plan.meets_time)
-        out = fmt::format(
-            "the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of {}",
-            plan.request.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
-            1e3 * *plan.request.seconds, plan.request.animated ? "--frame-time" : "--time-budget");
-    const auto add = [&](const std::string& more) { out += (out.empty() ? "" : "; ") + more; };
-    if (!plan.meets_error && plan.error)
-        add(fmt::format("no method is known to reach the error of {:.3g} % in such scenes",
-                        100.0 * *plan.request.error));
-    else if (!plan.meets_error)
-        add("the error of the method in such scenes is not known");
-    for (const Effect effect : plan.unavoidable)
-        add(fmt::format("no method that suits can leave out {}: it is rendered", name_of(effect)));
-    return out;
-}
-
-}  // namespace
-
 std::shared_ptr<const Planned> make_render_plan(const RenderFlags& flags, const Session& session,
                                                 const Programs& programs, Scene& scene) {
     auto planned = std::make_shared<Planned>();
     Plan& plan = planned->plan;
     plan = make_plan(session.queue, programs, scene,
-                     scene.cameras[static_cast<std::size_t>(flags.camera)], request_of(flags));
+                     scene.cameras[static_cast<std::size_t>(flags.camera)], plan_request(flags));
     planned->milliseconds = plan.analysis.milliseconds;
     if (plan.probe) planned->milliseconds += plan.probe->milliseconds;
     scene = planned_scene(scene, plan);

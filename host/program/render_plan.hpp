@@ -14,6 +14,9 @@ struct Planned {
     double milliseconds = 0.0;  // that analysis and probe took
 };
 
+// What the flags ask of a plan. Throws Error for invalid ones.
+PlanRequest plan_request(const RenderFlags& flags);
+
 // Plans by the flags, says so, and leaves of the scene what the plan renders.
 std::shared_ptr<const Planned> make_render_plan(const RenderFlags& flags, const Session& session,
                                                 const Programs& programs, Scene& scene);

@@ -156,7 +156,7 @@ TEST(Renderer, FollowsLights) {
 TEST(Renderer, FollowsLightsThatOutgrowTheirBuffers) {
     Scene scene = open_scene();
     scene.lights = {test::spot_light({0.4, 1.5, 0.6}, {-0.2, -1.0, -0.3}, 0.5, 4.0f),
-                    test::point_light({-0.8, 1.0, 0.5}, 0.5f)};
+                    test::spot_light({-0.8, 1.0, 0.5}, {0.4, -1.0, -0.2}, 0.6, 1.0f)};
     scene.lights[0].intensity = {4.0f, 2.0f, 1.0f};
     Scene changed = scene;
     changed.lights[0].outer_angle = changed.lights[0].inner_angle = 1.3f;
