@@ -36,8 +36,6 @@ kernel void atlas_complete(
     for (int c = 0; c < 3; ++c) {
         uint place = c * params.stride + at;
         floatp value = packet_load(gathered + place) * factor;
-        // Light that was taken away again leaves residues of rounding.
-        value = packet_select(value, packet_zero, value < packet_zero);
         worst = max(worst, packet_magnitude(value));
         // Light that was taken away again leaves residues of rounding. By bits: what is not finite
         // stays so.
