@@ -32,7 +32,6 @@ void expect_reference(const Scene& scene, double beyond = -1.0) {
     }
     reference::Options tracing;
     tracing.effects.emission = tracing.effects.direct = false;
-    tracing.effects.last_bounce = static_cast<int>(options.bounces);
     tracing.samples = 4096;
     const reference::Irradiance wanted =
         reference::PathTracer(bakery.scene).irradiance(places, tracing);
