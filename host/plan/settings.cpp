@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/opencl/variants.hpp"
 #include "plan/sky.hpp"
 
 namespace clgi {
@@ -33,7 +34,7 @@ void apply_effects(Plan& plan) {
     plan.light_atlas.bounces = plan.on(Effect::further_bounces) ? 0 : 1;
     plan.light_atlas.occlusion =
         plan.on(Effect::indirect_occlusion) ? Occlusion::automatic : Occlusion::none;
-    plan.light_atlas.build = build;
+    plan.light_atlas.build = full(build);
 
     emitters(plan.antiradiance.emitters);
     if (!plan.on(Effect::gloss)) plan.antiradiance.least_gloss = 1.0;

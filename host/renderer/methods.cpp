@@ -8,6 +8,8 @@
 #include <clgi/device.hpp>
 #include <utility>
 
+#include "core/opencl/variants.hpp"
+
 namespace clgi::renderer {
 namespace {
 
@@ -37,7 +39,7 @@ SecondOrderOptions second_order_options(const RendererOptions& options) {
 
 LightAtlasOptions light_atlas_options(const RendererOptions& options) {
     LightAtlasOptions out = options.light_atlas;
-    out.build = options.picture.build;
+    out.build = full(options.picture.build);  // the view alone may be half
     return out;
 }
 

@@ -70,7 +70,7 @@ struct LightAtlasOptions {
     // The transport between all pairs of VPLs is kept if it fits, else computed anew each bounce;
     // then which texels each VPL sees, else the scene is drawn again to fill the atlas.
     std::size_t memory_budget = 0;
-    BuildOptions build;
+    BuildOptions build;  // storage is full: texels are sums of thousands of VPLs
 };
 
 // What a bake found out. Power is in lumen, the three channels summed.

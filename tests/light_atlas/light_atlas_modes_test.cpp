@@ -349,6 +349,8 @@ TEST(LightAtlasModes, RefuseWhatCannotWork) {
     EXPECT_NE(refused([](Options& o) { o.threshold = 0.0f; }).find("threshold"), std::string::npos);
     EXPECT_NE(refused([&](Options& o) { o.threshold = nan; }).find("threshold"), std::string::npos);
     EXPECT_NE(refused([](Options& o) { o.hemicube_size = 65; }).find("even"), std::string::npos);
+    EXPECT_NE(refused([](Options& o) { o.build.storage = Storage::half; }).find("storage is half"),
+              std::string::npos);
     EXPECT_NE(refused([](Options& o) { o.hemicube_size = 2048; }).find("hemicube_size"),
               std::string::npos);
 

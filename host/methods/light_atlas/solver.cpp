@@ -20,7 +20,6 @@ LightAtlasOptions checked(LightAtlasOptions options, const DeviceScene& scene) {
     options.build.textures = options.build.textures && scene.needs_textures();
     if (options.emitters.shadow_size == 0)
         options.emitters.shadow_size = usual_shadow_size(scene, options.emitters);
-    options.build.storage = Storage::full;  // sums of thousands of VPLs
     return options;
 }
 

@@ -14,6 +14,10 @@ namespace clgi {
 namespace light_atlas {
 
 void check(const LightAtlasOptions& options) {
+    if (options.build.storage != Storage::full)
+        throw Error(
+            "light-atlas: storage is half, full needed: texels are sums of thousands of "
+            "VPLs; views of the atlas may be half");
     need_range<double>("light-atlas", "bounces", options.bounces, 0, 1000);
     need_range<double>("light-atlas", "exchange_samples", options.exchange_samples, 0, 4096);
     need_range<double>("light-atlas", "threshold", options.threshold, 1e-7, 1);
