@@ -1,21 +1,27 @@
-# Precompiled headers of clgi's own targets: what many of their files include, from other projects.
+# Fewer seconds of compilation for clgi's own targets: headers of other projects are compiled once,
+# and source files in batches.
 #
-#   clgi_precompile(target <header>...)      compiles them for this target
-#   clgi_precompile(target REUSE owner)      takes those of another one with the same flags
+#   clgi_precompile(target <header>... [BATCH n] [TEXT])   precompiles the headers for this target
+#   clgi_precompile(target REUSE owner [BATCH n])          takes those of another one with the same flags
 #
-#   clgi_precompile(... TEXT)                for code that is mostly std::string
+# BATCH n: so many source files are compiled as one (CMake's unity builds). TEXT: for code that is
+# mostly std::string.
 #
-# They change nothing but the time: each file includes what it uses and compiles without them. They
-# are off where clgi is part of another project, and beside compiler caches and clang-tidy, which
-# work on files that stand alone.
-set(CLGI_PCH_DEFAULT ${PROJECT_IS_TOP_LEVEL})
+# Neither changes anything but the time: each file includes what it uses and compiles alone. Both are
+# off where clgi is part of another project, and beside compiler caches and clang-tidy, which work on
+# files that stand alone. Who edits one file often sets CLGI_UNITY to OFF.
+set(CLGI_QUICK_BUILD ${PROJECT_IS_TOP_LEVEL})
 if(CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_CLANG_TIDY)
-    set(CLGI_PCH_DEFAULT OFF)
+    set(CLGI_QUICK_BUILD OFF)
 endif()
-option(CLGI_PCH "Precompiled headers" ${CLGI_PCH_DEFAULT})
+option(CLGI_PCH "Precompiled headers" ${CLGI_QUICK_BUILD})
+option(CLGI_UNITY "Source files are compiled in batches" ${CLGI_QUICK_BUILD})
 
 function(clgi_precompile target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT" "REUSE" "")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT" "REUSE;BATCH" "")
+    if(CLGI_UNITY AND arg_BATCH)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${arg_BATCH})
+    endif()
     if(NOT CLGI_PCH)
         return()
     endif()

@@ -14,8 +14,8 @@
 namespace clgi::lab {
 namespace {
 
-constexpr int rounds = 3;
-constexpr int warm_up = 3;
+constexpr int dachsbacher_rounds = 3;
+constexpr int dachsbacher_warm_up = 3;
 constexpr int error_width = 320, error_height = 240;
 
 Programs programs_of(const DachsbacherSetup& setup) {
@@ -26,12 +26,13 @@ Programs programs_of(const DachsbacherSetup& setup) {
 // Frames over the way of the light, in rounds that do not repeat each other: f(round, frame).
 template <typename F>
 void play(const DachsbacherSetup& setup, DachsbacherRun& run, double begin, double part, F&& f) {
-    for (int k = 0; k < warm_up; ++k) run.frame(0.0);
-    for (int round = 0; round < rounds; ++round)
+    for (int k = 0; k < dachsbacher_warm_up; ++k) run.frame(0.0);
+    for (int round = 0; round < dachsbacher_rounds; ++round)
         for (int k = 0; k < setup.repeats; ++k) {
-            const double share = (k + static_cast<double>(round) / rounds) / setup.repeats;
+            const double share =
+                (k + static_cast<double>(round) / dachsbacher_rounds) / setup.repeats;
             f(round, run.frame(share));
-            const double done = (round + (k + 1.0) / setup.repeats) / rounds;
+            const double done = (round + (k + 1.0) / setup.repeats) / dachsbacher_rounds;
             if (setup.progress && !setup.progress(begin + part * done))
                 throw Error("bench: cancelled");
         }
@@ -69,12 +70,12 @@ DachsbacherRow1 row1(const DachsbacherSetup& setup, const Programs& programs,
     row.pairs = solver.link_pairs();
     row.links = solver.link_count();
 
-    std::vector<double> frames[rounds], lights[rounds];
+    std::vector<double> frames[dachsbacher_rounds], lights[dachsbacher_rounds];
     play(setup, run, begin, part, [&](int round, const DachsbacherRun::Frame& frame) {
         frames[round].push_back(frame.light_ms + frame.picture_ms);
         lights[round].push_back(frame.light_ms);
     });
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < dachsbacher_rounds; ++round) {
         row.fps = std::max(row.fps, 1e3 / spread(frames[round]).median);
         row.light_fps = std::max(row.light_fps, 1e3 / spread(lights[round]).median);
     }

@@ -13,8 +13,8 @@
 namespace clgi::lab {
 namespace {
 
-constexpr int rounds = 3;
-constexpr int warm_up = 5;
+constexpr int kautz_rounds = 3;
+constexpr int kautz_warm_up = 5;
 
 Programs programs_of(const KautzSetup& setup) {
     return Programs(setup.queue.getInfo<CL_QUEUE_CONTEXT>(),
@@ -28,15 +28,15 @@ void report_done(const KautzSetup& setup, double done) {
 // Frames spread over the clip, in rounds: f(round, seconds).
 template <typename F>
 void play(int frames, double duration, F&& f) {
-    for (int round = 0; round < rounds; ++round)
+    for (int round = 0; round < kautz_rounds; ++round)
         for (int k = 0; k < frames; ++k)
-            f(round, duration * (k + static_cast<double>(round) / rounds) / frames);
+            f(round, duration * (k + static_cast<double>(round) / kautz_rounds) / frames);
 }
 
 KautzShares shares_of(const KautzSetup& setup, KautzRun& run) {
     std::vector<double> whole;
     KautzShares out;
-    for (int k = 0; k < warm_up; ++k) run.steps(0.0);
+    for (int k = 0; k < kautz_warm_up; ++k) run.steps(0.0);
     play(setup.repeats, run.duration(), [&](int, double seconds) {
         const KautzRun::Steps steps = run.steps(seconds);
         double of[4] = {0.0, 0.0, steps.pose_ms, 0.0};
@@ -66,7 +66,7 @@ KautzGloss gloss_of(const KautzSetup& setup, const Programs& programs, const Kau
     KautzRun run(setup, programs, scene, hand.coarse, settings);
     const glm::dvec3 eye = scene.cameras.at(0).position;
     std::vector<double> mask, diffuse, gloss;
-    for (int k = 0; k < warm_up; ++k) run.steps(0.0, eye);
+    for (int k = 0; k < kautz_warm_up; ++k) run.steps(0.0, eye);
     play(setup.repeats, run.duration(), [&](int, double seconds) {
         for (const PassTime& pass : pass_times(run.steps(seconds, eye).passes)) {
             if (pass.name == "transfer.mask") mask.push_back(pass.milliseconds);
@@ -103,9 +103,9 @@ KautzRow kautz_row(const KautzSetup& setup, const Programs& programs, const Kaut
     }
     row.paper_error = scene.error;
 
-    for (int k = 0; k < warm_up; ++k) run.frame(0.0);
+    for (int k = 0; k < kautz_warm_up; ++k) run.frame(0.0);
     const int frames = settings.coarse > 0.0 ? setup.repeats : std::max(setup.repeats / 10, 1);
-    std::vector<double> times[rounds];
+    std::vector<double> times[kautz_rounds];
     play(frames, run.duration(),
          [&](int round, double seconds) { times[round].push_back(run.frame(seconds)); });
     double all = 0.0;
@@ -113,7 +113,7 @@ KautzRow kautz_row(const KautzSetup& setup, const Programs& programs, const Kaut
         row.fps = std::max(row.fps, 1e3 / spread(round).median);
         all += std::accumulate(round.begin(), round.end(), 0.0);
     }
-    row.mean_fps = 1e3 * rounds * frames / all;
+    row.mean_fps = 1e3 * kautz_rounds * frames / all;
     if (row.paper_fps) row.ratio = row.fps / *row.paper_fps;
     if (!truth) return row;
 

@@ -14,8 +14,9 @@
 namespace clgi::lab {
 namespace {
 
-constexpr std::uint32_t width = 640, height = 480, pixels = width * height, stride = pixels;
-constexpr std::uint32_t low_stride = width / 4 * height / 4;
+constexpr std::uint32_t layer_width = 640, layer_height = 480, pixels = layer_width * layer_height,
+                        stride = pixels;
+constexpr std::uint32_t low_stride = layer_width / 4 * layer_height / 4;
 constexpr std::uint32_t vpl_count = 64;
 constexpr std::size_t group = 64;  // what passes take when nothing else is asked for
 
@@ -32,8 +33,7 @@ public:
     Hand(const cl::CommandQueue& queue, const std::string& room, const std::string& pass)
         : queue_(queue()) {
         const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
-        cl::Program program(queue.getInfo<CL_QUEUE_CONTEXT>(),
-                            kernel_source(room + "/" + pass));
+        cl::Program program(queue.getInfo<CL_QUEUE_CONTEXT>(), kernel_source(room + "/" + pass));
         program.build(device, compiler_options(device).c_str());
         kernel_ = cl::Kernel(program, (room + "_" + pass).c_str());
     }
@@ -70,7 +70,7 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
     const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
     const Scene world = box();
     const DeviceScene scene(context, device, world);
-    const View view = make_view(world.cameras[0], scene.frame(), width, height);
+    const View view = make_view(world.cameras[0], scene.frame(), layer_width, layer_height);
     const auto upload = [&](auto values) {
         return cl::Buffer(context, values.begin(), values.end(), false);
     };
@@ -89,10 +89,10 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
     const ViewSpan span = span_of({view}, 0, 1);
     const RasterBuffers raster{room(pixels * sizeof(cl_ulong)), {}, {}, {}, room(16)};
     const cl::Buffer low = room(POINT_PLANES * sizeof(float) * low_stride);
-    const DownsampleParams down{width, height, stride, low_stride, 4, 0, 0, 0};
+    const DownsampleParams down{layer_width, layer_height, stride, low_stride, 4, 0, 0, 0};
     const RasterParams none{};
     const GatherParams gather{stride, vpl_count, 0, 0};
-    const TonemapParams tonemap{width, height, stride, 1.0f};
+    const TonemapParams tonemap{layer_width, layer_height, stride, 1.0f};
 
     const GBufferPasses gbuffer(context, device);
     const ImagePasses image(context, device);
@@ -103,7 +103,7 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
         {"gbuffer.clear", [&] { clear(pixels / 16, none, views, raster.pixels, raster.counts); },
          [&] { gbuffer.clear(queue, span, views, raster); }},
         {"gbuffer.downsample",
-         [&] { downsample(width / 4 / packet * height / 4, down, points, low); },
+         [&] { downsample(layer_width / 4 / packet * layer_height / 4, down, points, low); },
          [&] { gbuffer.downsample(queue, down, points, low); }},
         {"image.gather",
          [&] { lit(pixels / packet, gather, count, points, lights, lights, irradiance); },

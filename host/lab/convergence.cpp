@@ -16,9 +16,9 @@ namespace {
 constexpr double least_residual = 1e-6;  // what floats still tell
 constexpr int solution_steps = 2000;
 
-class Run {
+class ConvergenceRun {
 public:
-    explicit Run(const ConvergenceSetup& setup)
+    explicit ConvergenceRun(const ConvergenceSetup& setup)
         : setup_(setup),
           progress_(setup.progress),
           device_(setup.queue.getInfo<CL_QUEUE_CONTEXT>(), setup.queue.getInfo<CL_QUEUE_DEVICE>(),
@@ -112,7 +112,7 @@ std::string first_below(const std::vector<double>& values, double bound) {
 
 }  // namespace
 
-Convergence measure_convergence(const ConvergenceSetup& setup) { return Run(setup)(); }
+Convergence measure_convergence(const ConvergenceSetup& setup) { return ConvergenceRun(setup)(); }
 
 std::vector<std::string> summary(const Convergence& convergence) {
     std::vector<std::string> out;

@@ -14,13 +14,13 @@ namespace clgi::lab {
 namespace {
 
 constexpr double most_turn = 0.08;  // radians, of the light to either side
-constexpr int width = 640, height = 480;
+constexpr int paper_width = 640, paper_height = 480;
 
 RendererOptions options_of(const DachsbacherSetup& setup, const DachsbacherScene& scene) {
     RendererOptions out;
     out.method = Method::antiradiance;
-    out.picture.width = width;
-    out.picture.height = height;
+    out.picture.width = paper_width;
+    out.picture.height = paper_height;
     out.picture.build = setup.build;
     out.antiradiance = scene.options();
     return out;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int paper_bins = 128, motion_poses = 16;
 
-Scene made(const std::string& name) {
+Scene interior(const std::string& name) {
     if (name == "office") return office();
     if (name == "character") return character();
     if (name == "oriental") return oriental_like();
@@ -84,14 +84,14 @@ std::vector<DachsbacherScene> dachsbacher_scenes(const std::vector<std::string>&
                            [&](const DachsbacherScene& row) { return row.name == name; });
     };
     for (const std::string& name : names)
-        if (!is_row(name)) made(name);  // which says the names
+        if (!is_row(name)) interior(name);  // which says the names
     std::vector<DachsbacherScene> out;
     for (const DachsbacherScene& row : table) {
         if (!names.empty() && std::find(names.begin(), names.end(), row.name) == names.end())
             continue;
         out.push_back(row);
         Scene& scene = out.back().scene;
-        scene = made(row.name);
+        scene = interior(row.name);
         if (scene.animation) scene.moving_bounds = motion_bounds(scene, 0);
     }
     return out;

@@ -10,7 +10,7 @@
 namespace clgi::lab {
 namespace {
 
-Scene made(const std::string& name) {
+Scene deforming(const std::string& name) {
     if (name == "cloth") return cloth();
     if (name == "fight") return fight_like();
     if (name == "chess") return chess();
@@ -28,14 +28,14 @@ const KautzScene paper[] = {
 }  // namespace
 
 std::vector<KautzScene> kautz_scenes(const std::vector<std::string>& names) {
-    for (const std::string& name : names) made(name);
+    for (const std::string& name : names) deforming(name);
     std::vector<KautzScene> out;
     for (const KautzScene& row : paper) {
         if (!names.empty() && std::find(names.begin(), names.end(), row.name) == names.end())
             continue;
         out.push_back(row);
         Scene& scene = out.back().scene;
-        scene = made(row.name);
+        scene = deforming(row.name);
         scene.moving_bounds = motion_bounds(scene, 0);
         for (Material& material : scene.materials) material.double_sided = false;
     }

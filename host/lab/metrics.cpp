@@ -20,7 +20,7 @@ double ratio(double numerator, double denominator, double if_both_zero) {
     return numerator == 0.0 ? if_both_zero : std::numeric_limits<double>::infinity();
 }
 
-double mean(const RgbPlanes& planes, const Mask& mask) {
+double masked_mean(const RgbPlanes& planes, const Mask& mask) {
     Sum sum;
     for (const std::vector<float>* plane : planes) {
         for (std::size_t i = 0; i < plane->size(); ++i) {
@@ -99,8 +99,8 @@ Comparison compare(const io::Image& a, const io::Image& b, const CompareOptions&
     result.width = a.width;
     result.height = a.height;
     result.pixels = mask.pixels;
-    result.mean_a = mean(planes_a, mask);
-    result.mean_b = mean(planes_b, mask);
+    result.mean_a = masked_mean(planes_a, mask);
+    result.mean_b = masked_mean(planes_b, mask);
     result.energy_ratio = ratio(result.mean_a, result.mean_b, 1.0);
     result.nonfinite_a = nonfinite_share(planes_a, mask);
     result.nonfinite_b = nonfinite_share(planes_b, mask);

@@ -44,8 +44,8 @@ std::optional<Replicates> replicate(Renderer& renderer, const Camera& camera, in
     io::Image::Channel error{"error.Y", {}};
     for (const double each : variance) error.values.push_back(static_cast<float>(std::sqrt(each)));
     out.mean.channels.push_back(std::move(error));
-    const double level = mean(luminance.mean());
-    if (level > 0.0) out.error = std::sqrt(mean(variance)) / level;
+    const double level = clgi::mean(luminance.mean());
+    if (level > 0.0) out.error = std::sqrt(clgi::mean(variance)) / level;
     out.single_error = out.error * std::sqrt(count);
     return out;
 }

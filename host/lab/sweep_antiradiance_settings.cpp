@@ -18,7 +18,7 @@ PictureSetting named(PictureSetting one, const std::string& series) {
                  {"elements", std::to_string(options.elements.requested)},
                  {"iteration", name_of(options.iteration)},
                  {"steps", options.steps == 0 ? "converged" : std::to_string(options.steps)},
-                 {"spread", options.links.spread == Spread::precise ? "precise" : "none"},
+                 {"spread", options.links.spread == clgi::Spread::precise ? "precise" : "none"},
                  {"bin-share", fmt::format("{:g}", options.links.bin_share)},
                  {"storage", one.options.picture.build.storage == Storage::half ? "half" : "full"}};
     return one;
@@ -60,8 +60,9 @@ std::vector<PictureSetting> antiradiance_settings(bool quick, const BuildOptions
     symmetric.options.antiradiance.iteration = Iteration::symmetric;
     vary(symmetric, "steps", few ? Values{1, 4, 0} : Values{1, 2, 4, 8, 16, 0}, steps, add);
     vary(
-        base, "spread", std::vector<Spread>{Spread::none, Spread::precise},
-        [](PictureSetting& to, Spread kind) { to.options.antiradiance.links.spread = kind; }, add);
+        base, "spread", std::vector<clgi::Spread>{clgi::Spread::none, clgi::Spread::precise},
+        [](PictureSetting& to, clgi::Spread kind) { to.options.antiradiance.links.spread = kind; },
+        add);
     vary(
         base, "bin-share",
         few ? std::vector<double>{1.0, 0.5} : std::vector<double>{2.0, 1.0, 0.5, 0.25},

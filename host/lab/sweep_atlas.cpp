@@ -17,11 +17,11 @@
 namespace clgi::lab {
 namespace {
 
-constexpr const char* effects = "indirect";
+constexpr const char* baked_effects = "indirect";
 
-class Run {
+class AtlasRun {
 public:
-    Run(const SweepSetup& setup, const AtlasSweep& atlas)
+    AtlasRun(const SweepSetup& setup, const AtlasSweep& atlas)
         : setup_(setup),
           atlas_(atlas),
           progress_(setup.progress),
@@ -49,8 +49,8 @@ public:
         if (setup_.path_tracer)
             trace_irradiance(
                 out_, setup_, out_.truths.front(), tracer, places_.places,
-                [&](const auto& found) { return atlas_image(places_, found, effects); }, counted_,
-                progress_);
+                [&](const auto& found) { return atlas_image(places_, found, baked_effects); },
+                counted_, progress_);
         progress_.part(0.5, 0.5);
         if (setup_.solver) bake();
         mark_fronts(out_);
@@ -71,12 +71,13 @@ private:
 
     // Counted are texels that both the truth and the bakes have.
     void find_truth(const reference::PathTracer& tracer) {
-        SweepTruth truth{"full", effects, {}, 0.0};
+        SweepTruth truth{"full", baked_effects, {}, 0.0};
         truth.picture =
             !atlas_.reference.empty()
                 ? given_reference()
-                : cached_atlas(tracer, places_, tracing(effects, setup_.reference_samples), effects,
-                               setup_.folder / "reference-atlas.exr", scene_key(setup_.scene),
+                : cached_atlas(tracer, places_, tracing(baked_effects, setup_.reference_samples),
+                               baked_effects, setup_.folder / "reference-atlas.exr",
+                               scene_key(setup_.scene),
                                [&](double done) { return progress_.goes_on(done); });
         if (truth.picture.channels.empty()) throw_cancelled();
         truth.noise = stated_error(truth.picture);
@@ -129,7 +130,7 @@ private:
         turns.measure = [&](std::size_t i, SweepPoint* result, const Progress& part) {
             const TimedBake made = bake_one(settings[i], part);
             if (result) {
-                result->picture = baked_image(layout_, made.irradiance, effects, false);
+                result->picture = baked_image(layout_, made.irradiance, baked_effects, false);
                 judge(*result, out_.truths, &counted_);
             }
             return Measured{{1e3 * made.seconds}, {}, made.status.non_finite, made.seconds <= slow};
@@ -150,6 +151,8 @@ private:
 
 }  // namespace
 
-Sweep sweep_atlas(const SweepSetup& setup, const AtlasSweep& atlas) { return Run(setup, atlas)(); }
+Sweep sweep_atlas(const SweepSetup& setup, const AtlasSweep& atlas) {
+    return AtlasRun(setup, atlas)();
+}
 
 }  // namespace clgi::lab

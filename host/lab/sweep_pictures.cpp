@@ -36,9 +36,9 @@ std::vector<Truth> truths_of(const std::vector<std::string>& methods, const Scen
     return out;
 }
 
-class Run {
+class PicturesRun {
 public:
-    Run(const SweepSetup& setup, const PictureSweep& pictures)
+    PicturesRun(const SweepSetup& setup, const PictureSweep& pictures)
         : setup_(setup),
           camera_(setup.scene.cameras.at(static_cast<std::size_t>(pictures.camera))),
           progress_(setup.progress) {
@@ -168,7 +168,7 @@ bool admits(const Scene& scene, const std::string& method) {
 }
 
 Sweep sweep_pictures(const SweepSetup& setup, const PictureSweep& pictures) {
-    return Run(setup, pictures)();
+    return PicturesRun(setup, pictures)();
 }
 
 }  // namespace clgi::lab

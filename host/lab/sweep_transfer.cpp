@@ -19,7 +19,7 @@
 namespace clgi::lab {
 namespace {
 
-constexpr const char* effects = "emission,direct";
+constexpr const char* traced_effects = "emission,direct";
 constexpr int smooth_bands = sh::default_bands, smooth_texels = 256;
 
 // The environment alone lights it.
@@ -36,9 +36,9 @@ Scene without_lamps(const Scene& scene) {
     return out;
 }
 
-class Run {
+class TransferRun {
 public:
-    Run(const SweepSetup& setup, const TransferSweep& motion)
+    TransferRun(const SweepSetup& setup, const TransferSweep& motion)
         : setup_(setup),
           motion_(motion),
           progress_(setup.progress),
@@ -114,7 +114,7 @@ private:
     io::Image image_of(const reference::Irradiance& found) const {
         return irradiance_image(
             blank_irradiance(out_.width, out_.height, {"R", "G", "B", "error.Y"}), vertices_, found,
-            effects);
+            traced_effects);
     }
 
     void find_truth(const std::string& name, const reference::PathTracer& tracer,
@@ -122,14 +122,15 @@ private:
         progress_.part(from, 0.2);
         Hash hash;
         hash.add(tracer_version, setup_.reference_samples);
-        SweepTruth truth{name, effects, {}, 0.0};
-        truth.picture = kept_image(setup_.folder / ("reference-" + name + ".exr"),
-                                   "vertices " + hash.text() + " " + scene_key(scene), [&] {
-                                       const reference::Irradiance found = tracer.irradiance(
-                                           places_, tracing(effects, setup_.reference_samples),
-                                           [&](double done) { return progress_.goes_on(done); });
-                                       return found.cancelled ? io::Image() : image_of(found);
-                                   });
+        SweepTruth truth{name, traced_effects, {}, 0.0};
+        truth.picture =
+            kept_image(setup_.folder / ("reference-" + name + ".exr"),
+                       "vertices " + hash.text() + " " + scene_key(scene), [&] {
+                           const reference::Irradiance found = tracer.irradiance(
+                               places_, tracing(traced_effects, setup_.reference_samples),
+                               [&](double done) { return progress_.goes_on(done); });
+                           return found.cancelled ? io::Image() : image_of(found);
+                       });
         if (truth.picture.channels.empty()) throw_cancelled();
         truth.noise = stated_error(truth.picture);
         out_.truths.push_back(std::move(truth));
@@ -246,7 +247,7 @@ private:
 }  // namespace
 
 Sweep sweep_transfer(const SweepSetup& setup, const TransferSweep& motion) {
-    return Run(setup, motion)();
+    return TransferRun(setup, motion)();
 }
 
 }  // namespace clgi::lab

@@ -11,13 +11,13 @@ namespace {
 
 using Flat = std::array<glm::dvec2, 3>;
 
-struct Range {
+struct Extent {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
 };
 
-Range along(const Flat& triangle, const glm::dvec2& axis) {
-    Range out;
+Extent along(const Flat& triangle, const glm::dvec2& axis) {
+    Extent out;
     for (const glm::dvec2& corner : triangle) {
         out.low = std::min(out.low, glm::dot(axis, corner));
         out.high = std::max(out.high, glm::dot(axis, corner));
@@ -25,7 +25,7 @@ Range along(const Flat& triangle, const glm::dvec2& axis) {
     return out;
 }
 
-bool apart(const Range& a, const Range& b) {
+bool apart(const Extent& a, const Extent& b) {
     return std::min(a.high, b.high) - std::max(a.low, b.low) <= same_place;
 }
 
@@ -49,7 +49,7 @@ bool triangles_overlap(const std::vector<LocalTriangle>& triangles,
     const glm::dvec3 right = glm::normalize(glm::cross(normal, helper));
     const glm::dvec3 up = glm::cross(normal, right);
     struct Entry {
-        Range x, y;
+        Extent x, y;
         Flat corners;
     };
     std::vector<Entry> entries;

@@ -10,7 +10,7 @@
 namespace clgi {
 namespace {
 
-constexpr std::size_t block = 256;  // vertices between two looks at what was found
+constexpr std::size_t batch = 256;  // vertices between two looks at what was found
 constexpr std::size_t few = 512;    // vertices that tell most planes apart from supporting ones
 // Below this cosine a triangle that lies in a plane to within rounding does not tell its front.
 constexpr double least_facing = 0.5;
@@ -85,8 +85,8 @@ bool SupportingPlanes::spend(std::size_t tests) {
 // Both where it was not found out: such a plane supports nothing.
 Sides SupportingPlanes::sides_of(const Plane& plane) {
     Sides out;
-    for (std::size_t first = 0; first < x_.size() && !(out.above && out.below); first += block) {
-        const std::size_t end = std::min(first + block, x_.size());
+    for (std::size_t first = 0; first < x_.size() && !(out.above && out.below); first += batch) {
+        const std::size_t end = std::min(first + batch, x_.size());
         if (!spend(end - first)) return {true, true};
         double most = 0.0, least = 0.0;
         for (std::size_t v = first; v < end; ++v) {

@@ -21,18 +21,6 @@ constexpr float right_angle = std::numbers::pi_v<float> / 2.0f;
 
 [[noreturn]] void fail(const std::string& what) { throw InputError("scene: " + what); }
 
-std::string entry(const char* array, std::size_t i) {
-    return std::string(array) + " " + std::to_string(i);
-}
-
-template <typename Vector>
-bool is_finite(const Vector& v) {
-    for (int i = 0; i < Vector::length(); ++i) {
-        if (!std::isfinite(v[i])) return false;
-    }
-    return true;
-}
-
 template <typename Vector>
 bool is_unit(const Vector& v) {
     return std::abs(glm::length(v) - 1.0f) <= unit_tolerance;  // false for NaN

@@ -3,9 +3,22 @@
 #pragma once
 
 #include <clgi/scene.hpp>
+#include <cmath>
 #include <string>
 
 namespace clgi {
+
+// "light 3"
+inline std::string entry(const char* array, std::size_t i) {
+    return std::string(array) + " " + std::to_string(i);
+}
+
+template <typename Vector>
+bool is_finite(const Vector& v) {
+    for (int i = 0; i < Vector::length(); ++i)
+        if (!std::isfinite(v[i])) return false;
+    return true;
+}
 
 // Throws InputError that names the light and what is wrong with it.
 void validate_light(const Light& light, std::size_t index);

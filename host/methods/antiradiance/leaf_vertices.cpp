@@ -7,7 +7,7 @@
 namespace clgi {
 namespace {
 
-constexpr double alike = 0.9;  // cosine between the normals of leaves that share a vertex
+constexpr double one_surface = 0.9;  // cosine between the normals of leaves that share a vertex
 
 }  // namespace
 
@@ -48,7 +48,7 @@ LeafVertices leaf_vertices(const ElementTree& tree, const std::vector<std::uint3
             const glm::dvec3& normal = tree.normals[rows[row]];
             std::vector<std::uint32_t>& here = at_place[places[corner++]];
             std::size_t v = 0;
-            while (v < here.size() && glm::dot(normals[here[v]], normal) <= alike) ++v;
+            while (v < here.size() && glm::dot(normals[here[v]], normal) <= one_surface) ++v;
             if (v == here.size()) {
                 here.push_back(static_cast<std::uint32_t>(normals.size()));
                 normals.push_back(normal);

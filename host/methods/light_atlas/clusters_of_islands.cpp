@@ -17,15 +17,15 @@ int kind_of(const Island& island) {
     return 4 * axis + (island.normal[axis] < 0.0 ? 2 : 0) + (island.double_sided ? 1 : 0);
 }
 
-struct Cluster {
+struct IslandCluster {
     std::vector<std::uint32_t> members;  // of the islands
     double area = 0.0;
     double moment = 0.0;  // area times squared diagonal: what a single VPL gets wrong
     int longest = 0;      // axis
 };
 
-Cluster cluster_of(const std::vector<Island>& islands, std::vector<std::uint32_t> members) {
-    Cluster out;
+IslandCluster cluster_of(const std::vector<Island>& islands, std::vector<std::uint32_t> members) {
+    IslandCluster out;
     glm::dvec3 low = islands[members[0]].centre, high = low;
     for (const std::uint32_t m : members) {
         out.area += islands[m].area;
@@ -41,7 +41,7 @@ Cluster cluster_of(const std::vector<Island>& islands, std::vector<std::uint32_t
 }
 
 // Two parts of nearly equal area, none empty.
-std::array<Cluster, 2> cut(const std::vector<Island>& islands, Cluster cluster) {
+std::array<IslandCluster, 2> cut(const std::vector<Island>& islands, IslandCluster cluster) {
     const int axis = cluster.longest;
     std::sort(
         cluster.members.begin(), cluster.members.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -64,7 +64,7 @@ std::vector<std::vector<std::uint32_t>> cluster_islands(const std::vector<Island
                                                         std::int64_t room) {
     std::array<std::vector<std::uint32_t>, 12> kinds;
     for (std::uint32_t s = 0; s < islands.size(); ++s) kinds[kind_of(islands[s])].push_back(s);
-    std::vector<Cluster> clusters;
+    std::vector<IslandCluster> clusters;
     std::priority_queue<std::tuple<double, std::size_t>> widest;
     const auto cost = [&](std::size_t c) {
         return islands[clusters[c].members[0]].double_sided ? 2 : 1;
@@ -80,14 +80,14 @@ std::vector<std::vector<std::uint32_t>> cluster_islands(const std::vector<Island
         widest.pop();
         if (clusters[c].members.size() < 2 || cost(c) > room) continue;
         room -= cost(c);
-        std::array<Cluster, 2> parts = cut(islands, std::move(clusters[c]));
+        std::array<IslandCluster, 2> parts = cut(islands, std::move(clusters[c]));
         clusters[c] = std::move(parts[0]);
         clusters.push_back(std::move(parts[1]));
         widest.push({clusters[c].moment, c});
         widest.push({clusters.back().moment, clusters.size() - 1});
     }
     std::vector<std::vector<std::uint32_t>> out;
-    for (const Cluster& cluster : clusters) {
+    for (const IslandCluster& cluster : clusters) {
         out.emplace_back();
         for (const std::uint32_t m : cluster.members) out.back().push_back(islands[m].id);
     }

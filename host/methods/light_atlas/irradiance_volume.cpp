@@ -8,7 +8,7 @@ namespace clgi {
 namespace {
 
 // Corner i of an icosahedron, as kernels/atlas/volume.cl has it.
-glm::vec3 direction(int i) {
+glm::vec3 volume_direction(int i) {
     const int zero = i / 4;
     glm::vec3 out(0.0f);
     out[(zero + 1) % 3] = i & 1 ? VOLUME_SHORT : -VOLUME_SHORT;
@@ -59,7 +59,7 @@ std::vector<BakePoint> points_of(const IrradianceVolume& volume) {
             for (int x = 0; x < volume.count.x; ++x)
                 for (int i = 0; i < VOLUME_DIRECTIONS; ++i)
                     out.push_back(
-                        {volume.first + volume.spacing * glm::dvec3(x, y, z), direction(i)});
+                        {volume.first + volume.spacing * glm::dvec3(x, y, z), volume_direction(i)});
     return out;
 }
 

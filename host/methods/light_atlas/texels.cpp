@@ -15,7 +15,7 @@ namespace clgi {
 namespace {
 
 // What one chart covers of one texel.
-struct Share {
+struct ChartShare {
     double coverage = 0.0;          // texels^2
     double area = 0.0;              // m^2
     std::uint32_t next = no_index;  // share of the same texel
@@ -113,7 +113,7 @@ public:
                 const bool at_centre = centre.covers(column, row, weights.x, weights.y);
                 if (!at_centre && !(part.area > least)) continue;
                 listed += part.area;
-                Share& share = find(chart, column, row);
+                ChartShare& share = find(chart, column, row);
                 share.coverage += part.area;
                 share.area += part.area / edges.area() * on_surface;
                 const float rank = at_centre ? at_the_centre : static_cast<float>(part.area);
@@ -133,7 +133,7 @@ public:
         layout.texels.reserve(shares_.size());
         for (std::size_t texel = 0; texel < first_.size(); ++texel) {
             if (first_[texel] == no_index) continue;
-            const Share* chosen = &shares_[first_[texel]];
+            const ChartShare* chosen = &shares_[first_[texel]];
             shared += chosen->next != no_index;
             for (std::uint32_t i = chosen->next; i != no_index; i = shares_[i].next)
                 if (better(shares_[i], *chosen)) chosen = &shares_[i];
@@ -164,7 +164,7 @@ private:
         return static_cast<std::size_t>(std::min(covered, 1e18));
     }
 
-    Share& find(std::uint32_t chart, int column, int row) {
+    ChartShare& find(std::uint32_t chart, int column, int row) {
         const auto page = static_cast<std::size_t>(placed_.charts[chart].page);
         const std::size_t texel = (page * side_ + static_cast<std::size_t>(row)) * side_ +
                                   static_cast<std::size_t>(column);
@@ -174,21 +174,21 @@ private:
             link = &shares_[*link].next;
         }
         *link = static_cast<std::uint32_t>(shares_.size());
-        Share share;
+        ChartShare share;
         share.chart = chart;
         shares_.push_back(share);
         return shares_.back();
     }
 
     // Of several centres the first triangle counts, as for the reference.
-    static bool better(const Share& a, const Share& b) {
+    static bool better(const ChartShare& a, const ChartShare& b) {
         const bool centre = a.largest == at_the_centre;
         if (centre != (b.largest == at_the_centre)) return centre;
         if (centre) return a.triangle < b.triangle;
         return a.coverage != b.coverage ? a.coverage > b.coverage : a.chart < b.chart;
     }
 
-    static AtlasTexel listed(std::uint32_t texel, const Share& share) {
+    static AtlasTexel listed(std::uint32_t texel, const ChartShare& share) {
         AtlasTexel out{};
         out.texel = texel;
         out.triangle = share.triangle;
@@ -207,7 +207,7 @@ private:
     int size_;
     std::size_t side_;
     std::vector<std::uint32_t> first_;  // [pages * size * size] share, or no_index
-    std::vector<Share> shares_;
+    std::vector<ChartShare> shares_;
     double skipped_ = 0.0;
 };
 

@@ -6,14 +6,14 @@
 namespace clgi {
 namespace {
 
-void check(const IrradianceVolume& volume) {
+void check_volume(const IrradianceVolume& volume) {
     const glm::dvec3& at = volume.first;
     if (!std::isfinite(at.x + at.y + at.z) || !std::isfinite(volume.spacing) ||
         !(volume.spacing > 0.0) || glm::any(glm::lessThan(volume.count, glm::ivec3(1))))
         throw Error("light-atlas-view: the volume is not finite, or has no points");
 }
 
-void check(const AtlasLayout& atlas, const DeviceScene& scene) {
+void check_layout(const AtlasLayout& atlas, const DeviceScene& scene) {
     const std::size_t triangles = scene.triangle_order().size();
     if (atlas.triangle_page.size() != triangles || atlas.triangle_chart.size() != triangles ||
         atlas.uvs.size() != 3 * triangles)
@@ -38,8 +38,8 @@ struct LightAtlasView::State {
           picture(programs, queue, of, options, "light-atlas-view"),
           atlas(programs, picture.options().build),
           volume(within) {
-        check(layout, scene);
-        if (volume) check(*volume);
+        check_layout(layout, scene);
+        if (volume) check_volume(*volume);
         BufferTable all = picture.table();
         add_to(all, layout);
         picture.allocate(all);

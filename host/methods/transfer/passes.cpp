@@ -21,7 +21,7 @@ std::size_t blocks_of(const ProjectParams& params) {
     return (std::size_t{params.height} + PROJECT_ROWS - 1) / PROJECT_ROWS;
 }
 
-std::size_t waves_of(int bands) { return SH_WAVES(static_cast<std::size_t>(bands)); }
+std::size_t wave_count(int bands) { return SH_WAVES(static_cast<std::size_t>(bands)); }
 std::size_t terms_of(int bands) { return static_cast<std::size_t>(sh::terms(bands)); }
 
 void need_picture(const PassKernel& pass, const ProjectParams& params) {
@@ -37,13 +37,13 @@ void need_picture(const PassKernel& pass, const ProjectParams& params) {
 
 void need_sums(const PassKernel& pass, const ProjectParams& params, int bands,
                const ProjectionBuffers& b) {
-    need(pass, "sums", b.sums, word * blocks_of(params) * waves_of(bands) * params.stride);
+    need(pass, "sums", b.sums, word * blocks_of(params) * wave_count(bands) * params.stride);
 }
 
 void need_leaves(const PassKernel& pass, const ProjectParams& params, int bands,
                  const ProjectionBuffers& b) {
     need(pass, "leaves", b.leaves,
-         params.stride / PROJECT_LEAF * waves_of(bands) * static_cast<std::size_t>(bands) *
+         params.stride / PROJECT_LEAF * wave_count(bands) * static_cast<std::size_t>(bands) *
              sizeof(float4));
 }
 
@@ -51,7 +51,7 @@ void need_rows(const PassKernel& pass, const ProjectParams& params, int bands,
                const ProjectionBuffers& b) {
     need_picture(pass, params);
     need(pass, "texels", b.texels, 3 * word * params.width * params.height);
-    need(pass, "row_weights", b.row_weights, word * waves_of(bands) * params.height);
+    need(pass, "row_weights", b.row_weights, word * wave_count(bands) * params.height);
     need_sums(pass, params, bands, b);
     need(pass, "non_finite", b.non_finite, word);
 }
@@ -60,7 +60,7 @@ void need_columns(const PassKernel& pass, const ProjectParams& params, int bands
                   const ProjectionBuffers& b) {
     need_picture(pass, params);
     need_sums(pass, params, bands, b);
-    need(pass, "column_weights", b.column_weights, word * waves_of(bands) * params.stride);
+    need(pass, "column_weights", b.column_weights, word * wave_count(bands) * params.stride);
     need_leaves(pass, params, bands, b);
 }
 
@@ -121,7 +121,7 @@ cl::Event TransferPasses::project_columns(const cl::CommandQueue& queue,
                                           const ProjectParams& params, const ProjectionBuffers& b,
                                           const WaitList& wait) const {
     need_columns(project_columns_, params, bands_, b);
-    return launch_rows(project_columns_, queue, params.stride / PROJECT_LEAF, waves_of(bands_),
+    return launch_rows(project_columns_, queue, params.stride / PROJECT_LEAF, wave_count(bands_),
                        wait, params, b.sums, b.column_weights, b.leaves);
 }
 
