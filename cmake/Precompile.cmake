@@ -4,8 +4,8 @@
 #   clgi_precompile(target <header>... [BATCH n] [TEXT])   precompiles the headers for this target
 #   clgi_precompile(target REUSE owner [BATCH n])          takes those of another one with the same flags
 #
-# BATCH n: so many source files are compiled as one (CMake's unity builds). TEXT: for code that is
-# mostly std::string.
+# BATCH n: so many source files of a folder are compiled as one (CMake's unity builds). TEXT: for code
+# that is mostly std::string.
 #
 # Neither changes anything but the time: each file includes what it uses and compiles alone. Both are
 # off where clgi is part of another project, and beside compiler caches and clang-tidy, which work on
@@ -20,7 +20,17 @@ option(CLGI_UNITY "Source files are compiled in batches" ${CLGI_QUICK_BUILD})
 function(clgi_precompile target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "TEXT" "REUSE;BATCH" "")
     if(CLGI_UNITY AND arg_BATCH)
-        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${arg_BATCH})
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+        get_target_property(sources ${target} SOURCES)
+        list(FILTER sources INCLUDE REGEX "\\.cpp$")
+        foreach(source IN LISTS sources)
+            get_filename_component(folder "${source}" DIRECTORY)
+            file(RELATIVE_PATH folder "${PROJECT_SOURCE_DIR}/x" "${folder}")
+            string(MAKE_C_IDENTIFIER "${folder}" folder)
+            math(EXPR batch "0${count_${folder}} / ${arg_BATCH}")
+            set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}_${batch}")
+            math(EXPR count_${folder} "0${count_${folder}} + 1")
+        endforeach()
     endif()
     if(NOT CLGI_PCH)
         return()

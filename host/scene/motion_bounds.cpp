@@ -9,7 +9,7 @@
 namespace clgi {
 namespace {
 
-constexpr std::size_t most_keys = 10000, most_samples = 1000;  // with times between keys
+constexpr std::size_t most_keys = 10000, most_moments = 1000;  // with times between keys
 constexpr std::size_t most_steps = std::size_t{1} << 22;       // over all samples: a second of work
 
 struct Box {
@@ -94,7 +94,7 @@ std::vector<double> sample_times(const AnimationClip& clip, std::size_t most) {
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     std::vector<double> out = even_choice(keys, std::min(most, most_keys));
     const std::size_t left =
-        std::min(most, most_samples) - std::min({most, most_samples, out.size()});
+        std::min(most, most_moments) - std::min({most, most_moments, out.size()});
     std::vector<double> between;
     for (std::size_t key = 0; key + 1 < out.size(); ++key)
         for (int i = 1; i < 4; ++i)

@@ -2,6 +2,7 @@
 // them cost.
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <numbers>
 
 #include "glossy_scenes.hpp"
 #include "math_modes.hpp"
@@ -14,7 +15,7 @@ using test::GlossyPicture;
 using test::lobe_albedo_at;
 using test::metal;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(GlossyLeaves);
 

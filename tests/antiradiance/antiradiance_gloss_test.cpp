@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 #include "math_modes.hpp"
 #include "random_elements.hpp"
@@ -14,8 +15,8 @@ namespace {
 
 using test::HandElements;
 
-constexpr double pi = 3.14159265358979323846;
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using std::numbers::pi;
+using test::nan;
 constexpr std::uint32_t all_of_it = LOCAL_RECEIVE | LOCAL_REFLECT | LOCAL_GO_THROUGH;
 
 CLGI_IN_BOTH_MATHS(AntiradianceGloss);

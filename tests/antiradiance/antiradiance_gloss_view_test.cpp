@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/reference.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "glossy_scenes.hpp"
 #include "math_modes.hpp"
@@ -16,7 +17,7 @@ using test::metal;
 using test::shown_height;
 using test::shown_width;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(GlossyPixels);
 

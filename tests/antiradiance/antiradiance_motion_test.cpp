@@ -20,7 +20,7 @@ namespace {
 
 CLGI_IN_BOTH_MATHS(MovingAntiradiance);
 
-AntiradianceOptions options_of(const test::Build& build, std::size_t leaves, int bins = 128) {
+AntiradianceOptions motion_options(const test::Build& build, std::size_t leaves, int bins = 128) {
     AntiradianceOptions out;
     out.bins = bins;
     out.elements.requested = leaves;
@@ -28,11 +28,11 @@ AntiradianceOptions options_of(const test::Build& build, std::size_t leaves, int
     return out;
 }
 
-struct Solved {
+struct MovingSolution {
     DeviceScene scene;
     AntiradianceSolver solver;
     SceneMover mover;
-    Solved(const Scene& of, const AntiradianceOptions& options)
+    MovingSolution(const Scene& of, const AntiradianceOptions& options)
         : scene(test::on_device(of)),
           solver(test::programs(), test::device().queue, of, scene, options),
           mover(test::device().queue, scene) {}
@@ -51,19 +51,19 @@ struct Solved {
 
 // Leaves by triangle, side and number within it: clusters differ from solver to solver.
 using Leaf = std::tuple<std::uint32_t, std::uint8_t, std::uint32_t>;
-struct Light {
+struct LeafLight {
     glm::dvec3 irradiance;
     double area;
     bool moves;
 };
-std::map<Leaf, Light> by_leaf(const Solved& of, const test::MovingRoom& room) {
+std::map<Leaf, LeafLight> by_leaf(const MovingSolution& of, const test::MovingRoom& room) {
     const ElementTree& tree = of.solver.elements();
     std::map<std::uint32_t, std::uint32_t> rows;
     for (std::uint32_t row = 0; row < of.solver.leaf_elements().size(); ++row)
         rows[of.solver.leaf_elements()[row]] = row;
     const std::vector<glm::vec4> light = of.irradiances();
     std::map<std::pair<std::uint32_t, std::uint8_t>, std::uint32_t> counts;
-    std::map<Leaf, Light> out;
+    std::map<Leaf, LeafLight> out;
     for (std::uint32_t i = 0; i < tree.count(); ++i) {
         if (!tree.is_leaf(i)) continue;
         const std::uint32_t triangle = tree.triangles[i];
@@ -76,7 +76,8 @@ std::map<Leaf, Light> by_leaf(const Solved& of, const test::MovingRoom& room) {
 }
 
 // Root mean square difference over the root mean square.
-double difference(const std::map<Leaf, Light>& a, const std::map<Leaf, Light>& b, bool moving) {
+double difference(const std::map<Leaf, LeafLight>& a, const std::map<Leaf, LeafLight>& b,
+                  bool moving) {
     double off = 0.0, all = 0.0;
     for (const auto& [leaf, light] : b) {
         if (moving && !light.moves) continue;
@@ -94,15 +95,15 @@ double difference(const std::map<Leaf, Light>& a, const std::map<Leaf, Light>& b
 
 TEST_P(MovingAntiradiance, FindsTheLightOfASolverMadeAnew) {
     const test::MovingRoom room;
-    AntiradianceOptions options = options_of(GetParam(), 1500);
+    AntiradianceOptions options = motion_options(GetParam(), 1500);
     options.poses = room.poses(9);
-    Solved moving(room.scene, options);
+    MovingSolution moving(room.scene, options);
     options.poses = {};
     for (const double time : {0.0, 0.4, 0.9}) {
         moving.at(room, time);
-        Solved anew(room.posed(time), options);
+        MovingSolution anew(room.posed(time), options);
         anew.solver.run();
-        Solved old(room.scene, options);
+        MovingSolution old(room.scene, options);
         room.move(old.mover, time);
         old.solver.run();
         const auto wanted = by_leaf(anew, room), found = by_leaf(moving, room);
@@ -118,10 +119,10 @@ TEST_P(MovingAntiradiance, FindsTheLightOfASolverMadeAnew) {
 
 TEST(AntiradianceMotionBits, ComeBackWithTheGeometry) {
     const test::MovingRoom room;
-    AntiradianceOptions options = options_of(Math::strict, 600, 64);
+    AntiradianceOptions options = motion_options(Math::strict, 600, 64);
     options.poses = room.poses(5);
     options.steps = 8;
-    Solved solved(room.scene, options);
+    MovingSolution solved(room.scene, options);
     EXPECT_TRUE(solved.solver.run());
     const auto first = solved.irradiances();
     const auto there = solved.at(room, 0.63);
@@ -139,12 +140,12 @@ CLGI_IN_ALL_MODES(NothingMoves);
 
 TEST_P(NothingMoves, AreThoseOfAStillSceneWhereNothingMoves) {
     const Scene scene = test::furnished_room(5);
-    AntiradianceOptions options = options_of(GetParam(), 600, 64);
+    AntiradianceOptions options = motion_options(GetParam(), 600, 64);
     options.steps = 8;
-    Solved still(scene, options);
+    MovingSolution still(scene, options);
     EXPECT_TRUE(still.solver.run());
     options.poses = {scene.positions, scene.positions};
-    Solved posed(scene, options);
+    MovingSolution posed(scene, options);
     EXPECT_TRUE(posed.solver.run());
     EXPECT_EQ(posed.irradiances(), still.irradiances());
     EXPECT_EQ(posed.solver.bytes(), still.solver.bytes());
@@ -168,9 +169,9 @@ TEST_P(MovingAntiradiance, KeepsTheEnergyOfClosedRooms) {
             out[v] += time * glm::dvec3(0.6, 0.05, 0.2);
         return out;
     };
-    AntiradianceOptions options = options_of(GetParam(), 2000, 512);
+    AntiradianceOptions options = motion_options(GetParam(), 2000, 512);
     options.poses = {at(0.0), at(0.5), at(1.0)};
-    Solved solved(scene, options);
+    MovingSolution solved(scene, options);
     for (const double time : {0.0, 0.3, 1.0}) {
         solved.mover.move(0, at(time), scene.normals).wait();
         solved.solver.geometry_changed();
@@ -188,10 +189,10 @@ TEST_P(MovingAntiradiance, KeepsTheEnergyOfClosedRooms) {
 
 TEST(AntiradianceMotion, WaitsForTheMove) {
     const test::MovingRoom room;
-    AntiradianceOptions options = options_of(Math::strict, 200, 32);
+    AntiradianceOptions options = motion_options(Math::strict, 200, 32);
     options.poses = room.poses(3);
     options.steps = 2;
-    Solved solved(room.scene, options);
+    MovingSolution solved(room.scene, options);
     solved.solver.run();
     const cl::UserEvent gate(test::device().context);
     solved.solver.geometry_changed({gate});
@@ -208,9 +209,9 @@ TEST(AntiradianceMotion, WaitsForTheMove) {
 
 TEST(AntiradianceMotion, RefusesAnotherFrame) {
     const test::MovingRoom room;
-    AntiradianceOptions options = options_of(Math::strict, 200, 32);
+    AntiradianceOptions options = motion_options(Math::strict, 200, 32);
     options.poses = room.poses(3);
-    Solved solved(room.scene, options);
+    MovingSolution solved(room.scene, options);
     std::vector<glm::dvec3> far = room.scene.positions;
     for (glm::dvec3& p : far) p = 3.0 * p;
     solved.mover.move(0, far, room.scene.normals, true).wait();
@@ -220,14 +221,14 @@ TEST(AntiradianceMotion, RefusesAnotherFrame) {
 // Pictures show what moves where it is, in its light.
 TEST(AntiradianceMotion, IsSeenInPictures) {
     const test::MovingRoom room;
-    AntiradianceOptions options = options_of(Math::strict, 1500);
+    AntiradianceOptions options = motion_options(Math::strict, 1500);
     options.poses = room.poses(9);
-    Solved moving(room.scene, options);
+    MovingSolution moving(room.scene, options);
     PictureOptions picture;
     picture.width = 64;
     picture.height = 48;
     const Camera camera = test::camera_at({0.15, 2.2, 2.85}, {2.4, 0.8, 1.2}, 1.1f);
-    const auto picture_of = [&](const Solved& of) {
+    const auto picture_of = [&](const MovingSolution& of) {
         AntiradianceView view(test::programs(), test::device().queue, of.scene, of.solver, picture);
         view.render(camera).wait();
         std::vector<float> out;  // planes without what lies between them
@@ -241,7 +242,7 @@ TEST(AntiradianceMotion, IsSeenInPictures) {
     moving.at(room, 0.4);
     const auto found = picture_of(moving);
     options.poses = {};
-    Solved anew(room.posed(0.4), options), before(room.scene, options);
+    MovingSolution anew(room.posed(0.4), options), before(room.scene, options);
     anew.solver.run();
     before.solver.run();
     const auto wanted = picture_of(anew), old = picture_of(before);

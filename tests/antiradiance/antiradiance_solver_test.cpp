@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "device.hpp"
 #include "math_modes.hpp"
@@ -14,7 +15,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 CLGI_IN_ALL_MODES(AntiradianceLight);
 CLGI_IN_ALL_MODES(AntiradianceEffects);

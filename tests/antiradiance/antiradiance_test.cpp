@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <random>
 
 #include "math_modes.hpp"
@@ -21,7 +22,7 @@ using test::HandElements;
 using test::random_elements;
 using test::scaled;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr std::uint32_t all_of_it = LOCAL_RECEIVE | LOCAL_REFLECT | LOCAL_GO_THROUGH;
 
 CLGI_IN_ALL_MODES(Antiradiance);

@@ -12,7 +12,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Near borders of squares and of bins as elsewhere, and for any number of bins.
 TEST(BinGrid, FindsTheNearestBin) {

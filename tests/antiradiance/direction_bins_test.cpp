@@ -7,12 +7,13 @@
 #include <clgi/error.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 glm::dvec3 any_direction(std::mt19937& random) {
     std::normal_distribution<double> normal;

@@ -6,6 +6,7 @@
 #include <clgi/advanced/moving_elements.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "methods/antiradiance/linking.hpp"
 #include "rooms.hpp"
@@ -13,7 +14,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // Of every pair of clusters, near or far, whatever the oracle would refine: light that is let
 // through goes on along the bin beyond both spheres, or not at all.

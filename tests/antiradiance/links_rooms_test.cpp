@@ -8,6 +8,7 @@
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <set>
 
 #include "links_checks.hpp"
@@ -16,7 +17,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 Scene room(int boxes) {
     Scene scene = test::plain_scene();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "links_checks.hpp"
 #include "methods/antiradiance/solid_angle.hpp"
@@ -16,7 +17,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 const ElementOptions whole{.max_area = 1e6, .backs = false};
 
 // A small equilateral triangle that faces `normal`.

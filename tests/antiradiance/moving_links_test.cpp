@@ -8,6 +8,7 @@
 #include <clgi/error.hpp>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "moving_room.hpp"
@@ -15,7 +16,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 struct Linked {
     ElementTree tree;

@@ -4,6 +4,7 @@
 
 #include <clgi/advanced/links.hpp>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "links_checks.hpp"
@@ -14,7 +15,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 TEST(SpreadTable, RowsSumToOneWithinTheirCone) {
     for (const int count : {32, 128, 512}) {

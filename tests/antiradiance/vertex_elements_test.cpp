@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "lab/scenes/rooms.hpp"
 #include "links_checks.hpp"
@@ -15,7 +16,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 TEST(VertexElements, OfASphereAreItsVertices) {
     Scene scene = test::plain_scene();

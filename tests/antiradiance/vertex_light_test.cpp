@@ -3,6 +3,7 @@
 #include <clgi/advanced/antiradiance_view.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "frames.hpp"
 #include "math_modes.hpp"
@@ -11,7 +12,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int width = 96, height = 72;
 
 CLGI_IN_BOTH_MATHS(VertexLight);

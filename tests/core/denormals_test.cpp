@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "math_modes.hpp"
 #include "oblique.hpp"
@@ -12,7 +13,8 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi, u = 0x1p-24;
+using std::numbers::pi;
+constexpr double u = 0x1p-24;
 
 // Kernels of its own: those of other tests are built without the option.
 struct Flushing {

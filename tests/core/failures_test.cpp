@@ -16,12 +16,12 @@ namespace {
 
 using test::calls;
 
-const Scene& room() {
+const Scene& failing_room() {
     static const Scene scene = cornell({.light = LightSource::spot});
     return scene;
 }
 
-SecondOrderOptions small() {
+SecondOrderOptions failing_frame() {
     SecondOrderOptions options;
     options.build = test::usual_build();
     options.width = 48;
@@ -32,7 +32,7 @@ SecondOrderOptions small() {
 }
 
 std::vector<glm::vec3> picture() {
-    return test::render(room(), room().cameras[0], small()).radiance;
+    return test::render(failing_room(), failing_room().cameras[0], failing_frame()).radiance;
 }
 
 // With every kind of light.
@@ -90,39 +90,39 @@ TEST_F(Failures, OfACompilerShowItsLog) {
 }
 
 TEST_F(Failures, OfMemoryNameTheBuffer) {
-    const DeviceScene scene = test::on_device(room());
+    const DeviceScene scene = test::on_device(failing_room());
     for (const int which : {1, 7, 20}) {
         calls.fail_buffer = which;
         calls.code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
-        expect_in(failure([&] { SecondOrderSolver(test::device().queue, scene, small()); }),
+        expect_in(failure([&] { SecondOrderSolver(test::device().queue, scene, failing_frame()); }),
                   {"second-order: no room for a buffer of", "out of device memory",
                    "CL_MEM_OBJECT_ALLOCATION_FAILURE"});
     }
     calls.fail_buffer = 2;
-    expect_in(failure([] { test::on_device(room()); }),
+    expect_in(failure([] { test::on_device(failing_room()); }),
               {"scene: no room for positions", "out of device memory"});
 }
 
 // Whichever pass it is that the device is lost before, the solver itself goes on afterwards.
 TEST_F(Failures, BetweenPassesNameThePass) {
-    const DeviceScene scene = test::on_device(room());
+    const DeviceScene scene = test::on_device(failing_room());
     const auto expect_names = [&](cl_command_queue_properties order) {
         const cl::CommandQueue queue(test::device().context, test::device().device, order);
-        SecondOrderSolver solver(test::programs(), queue, scene, small());
-        solver.render(room().cameras[0]).wait();
+        SecondOrderSolver solver(test::programs(), queue, scene, failing_frame());
+        solver.render(failing_room().cameras[0]).wait();
         const auto whole = test::read_frame(queue, scene, solver).radiance;
         std::vector<std::string> names;
         for (const PassEvent& pass : solver.events()) names.push_back(pass.name);
         for (std::size_t pass = 0; pass < names.size(); ++pass) {
             calls.fail_enqueue = static_cast<int>(pass) + 1;
             calls.code = pass % 2 == 0 ? CL_DEVICE_NOT_AVAILABLE : CL_OUT_OF_RESOURCES;
-            const std::string text = failure([&] { solver.render(room().cameras[0]); });
+            const std::string text = failure([&] { solver.render(failing_room().cameras[0]); });
             const std::string kernel =
                 names[pass] == "image.gather_low" ? "image.gather" : names[pass];
             EXPECT_EQ(text.rfind(kernel + ": clEnqueueNDRangeKernel failed: the device ", 0), 0u)
                 << text;
             EXPECT_EQ(solver.events().size(), pass);
-            solver.render(room().cameras[0]).wait();
+            solver.render(failing_room().cameras[0]).wait();
             EXPECT_TRUE(test::same_bits(test::read_frame(queue, scene, solver).radiance, whole))
                 << names[pass];
         }
@@ -157,8 +157,8 @@ TEST_F(Failures, OfAnyCallLeaveNothingBehind) {
     };
     const std::function<void()> solvers[] = {
         [&] {
-            SecondOrderSolver solver(test::programs(), queue, placed, small());
-            solver.render(room().cameras[0]).wait();
+            SecondOrderSolver solver(test::programs(), queue, placed, failing_frame());
+            solver.render(failing_room().cameras[0]).wait();
         },
         [&] { LightAtlasSolver(test::programs(), queue, placed, bake.vpls, bake.atlas).run(); },
         [&] { DynamicTransferSolver(test::programs(), queue, scene, placed).run(); },
@@ -205,20 +205,20 @@ TEST_F(Failures, OfAnyCallLeaveNothingBehind) {
 
 // What a frame waits for may fail long after the call.
 TEST_F(Failures, OfWhatAFrameWaitsForEndThatFrameOnly) {
-    const DeviceScene scene = test::on_device(room());
+    const DeviceScene scene = test::on_device(failing_room());
     for (const cl_command_queue_properties order :
          {cl_command_queue_properties{0},
           cl_command_queue_properties{CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE}}) {
         const cl::CommandQueue queue(test::device().context, test::device().device, order);
-        SecondOrderSolver solver(queue, scene, small());
-        solver.render(room().cameras[0]).wait();
+        SecondOrderSolver solver(queue, scene, failing_frame());
+        solver.render(failing_room().cameras[0]).wait();
         const auto whole = test::read_frame(queue, scene, solver).radiance;
         cl::UserEvent gate(test::device().context);
-        const cl::Event done = solver.render(room().cameras[0], {gate});
+        const cl::Event done = solver.render(failing_room().cameras[0], {gate});
         gate.setStatus(CL_DEVICE_NOT_AVAILABLE);
         EXPECT_THROW(done.wait(), cl::Error);
         EXPECT_LT(done.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(), 0);
-        ASSERT_TRUE(solver.run(room().cameras[0], [](double) { return true; }));
+        ASSERT_TRUE(solver.run(failing_room().cameras[0], [](double) { return true; }));
         EXPECT_TRUE(test::same_bits(test::read_frame(queue, scene, solver).radiance, whole));
     }
 }

@@ -16,7 +16,8 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi, u = 0x1p-24;
+using std::numbers::pi;
+constexpr double u = 0x1p-24;
 
 // Metallic and roughness of twelve materials, each of another colour.
 constexpr float metals[] = {0.0f, 0.35f, 1.0f}, roughs[] = {0.12f, 0.3f, 0.6f, 1.0f};

@@ -11,7 +11,7 @@ using test::GltfDraft;
 using test::json;
 using test::posed_at;
 
-constexpr double near = 2e-7;  // rotations are floats
+constexpr double curve_error = 2e-7;  // rotations are floats
 
 // Tangents that no key reads are -50 and the like. t^3, t^2 and -t are their own cubics.
 TEST(GltfCurves, CubicTranslationsHaveTangentsBesideTheirValues) {
@@ -70,7 +70,7 @@ TEST(GltfCurves, RotationsMayBeNormalisedShorts) {
                                                     {1.0, {-1, 0, 0}},
                                                     {2.0, {0, 1, 0}}};
     for (const auto& [time, place] : wanted)
-        EXPECT_VEC_NEAR(posed_at(scene, time).positions[1], place, near) << time;
+        EXPECT_VEC_NEAR(posed_at(scene, time).positions[1], place, curve_error) << time;
 }
 
 // As if each joint stood at the origin of the mesh: (2,0,0) is two before the second joint.
@@ -78,10 +78,10 @@ TEST(GltfCurves, SkinsWithoutInverseBindMatricesHaveIdentities) {
     GltfDraft draft = test::strip_draft();
     draft.document["skins"][0].erase("inverseBindMatrices");
     const Scene bent = posed_at(draft.load(), 1.0);
-    EXPECT_VEC_NEAR(bent.positions[0], glm::dvec3(0, 0, 0), near);
-    EXPECT_VEC_NEAR(bent.positions[2], glm::dvec3(1, 0.5, 0), near);
-    EXPECT_VEC_NEAR(bent.positions[4], glm::dvec3(1, 2, 0), near);
-    EXPECT_VEC_NEAR(bent.positions[5], glm::dvec3(1, 2, -1), near);
+    EXPECT_VEC_NEAR(bent.positions[0], glm::dvec3(0, 0, 0), curve_error);
+    EXPECT_VEC_NEAR(bent.positions[2], glm::dvec3(1, 0.5, 0), curve_error);
+    EXPECT_VEC_NEAR(bent.positions[4], glm::dvec3(1, 2, 0), curve_error);
+    EXPECT_VEC_NEAR(bent.positions[5], glm::dvec3(1, 2, -1), curve_error);
 }
 
 }  // namespace

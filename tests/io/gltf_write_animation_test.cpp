@@ -9,12 +9,6 @@
 namespace clgi::test {
 namespace {
 
-Scene reload(const Scene& scene) {
-    const TempFolder folder;
-    io::save_glb(scene, folder.path() / "saved.glb");
-    return io::load_gltf(folder.path() / "saved.glb");
-}
-
 // The corners of a triangle with their normals. Parts may change places in a file; a part is found
 // again by its first appearance in the sorted list.
 struct Soup {

@@ -7,12 +7,6 @@
 namespace clgi::test {
 namespace {
 
-Scene reload(const Scene& scene) {
-    const TempFolder folder;
-    io::save_glb(scene, folder.path() / "saved.glb");
-    return io::load_gltf(folder.path() / "saved.glb");
-}
-
 // Two triangles far from the origin, of two materials, in two parts, textured and colored.
 Scene furnished() {
     Scene scene;

@@ -119,12 +119,12 @@ TEST(Interiors, NoTriangleIsDegenerateOrTurnedAgainstItsNormals) {
 }
 
 // Luminance of a small picture from the scene's camera, and how many of its pixels have light.
-struct Light {
+struct SeenLight {
     double mean = 0.0;
     double share = 0.0;
 };
 
-Light seen(const Scene& scene, const std::string& effects) {
+SeenLight seen(const Scene& scene, const std::string& effects) {
     const reference::PathTracer tracer(scene);
     reference::Options options;
     options.width = 96;
@@ -132,7 +132,7 @@ Light seen(const Scene& scene, const std::string& effects) {
     options.samples = 32;
     options.effects = reference::parse_effects(effects);
     const reference::Picture picture = tracer.render(scene.cameras[0], options);
-    Light out;
+    SeenLight out;
     for (const glm::vec3& radiance : picture.radiance) {
         const double y = 0.2126 * radiance.x + 0.7152 * radiance.y + 0.0722 * radiance.z;
         out.mean += y / static_cast<double>(picture.radiance.size());
@@ -149,7 +149,7 @@ TEST(Interiors, CamerasSeeLittleDirectLight) {
     for (const auto& one : cases) {
         const Room& room = rooms()[static_cast<std::size_t>(one.room)];
         EXPECT_LE(seen(room.scene, "direct").share, one.most) << room.name;
-        const Light indirect = seen(room.scene, "indirect");
+        const SeenLight indirect = seen(room.scene, "indirect");
         EXPECT_GT(indirect.share, 0.9) << room.name;
         EXPECT_GT(indirect.mean, 0.0) << room.name;
     }

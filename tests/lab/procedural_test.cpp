@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/gtc/constants.hpp>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ using namespace geometry;
 using clgi::LightSource;
 using clgi::Scene;
 
-constexpr double pi = glm::pi<double>();
+using std::numbers::pi;
 
 struct Named {
     std::string name;

@@ -13,7 +13,7 @@ namespace {
 using test::SitePlace;
 using test::SurfacePlace;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 
 // ---- nearest
 // ----------------------------------------------------------------------------------------

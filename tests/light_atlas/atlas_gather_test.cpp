@@ -12,7 +12,7 @@ namespace {
 using test::SitePlace;
 using test::SurfacePlace;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 constexpr std::uint32_t site_count = 23, listed_count = 18, texel_count = 197;
 
 // VPLs and texels all over the place; of the VPLs some are listed, in any order. The others have

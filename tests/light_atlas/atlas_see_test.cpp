@@ -10,7 +10,7 @@ namespace clgi {
 namespace {
 
 constexpr std::uint32_t shooters = 16, texels = 403, size = 128;
-constexpr cl_uchar untouched = 0xa5;
+constexpr cl_uchar not_looked_up = 0xa5;
 
 struct Box {
     glm::dvec3 low, high;
@@ -90,15 +90,16 @@ struct Furnished {
     }
 };
 
-struct Batch {
+struct SeenBatch {
     std::uint32_t first, count, first_row, first_texel = 0;
     std::size_t rows() const { return first_row + seen_rows(count) + 1; }
 };
 
-std::vector<cl_uchar> see(const Furnished& in, const Batch& batch, const AtlasPasses& passes) {
+std::vector<cl_uchar> see(const Furnished& in, const SeenBatch& batch, const AtlasPasses& passes) {
     const test::Sites sites(in.places, in.order);
     const std::uint32_t stride = test::padded(texels);
-    const cl::Buffer seen = test::upload(std::vector<cl_uchar>(batch.rows() * stride, untouched));
+    const cl::Buffer seen =
+        test::upload(std::vector<cl_uchar>(batch.rows() * stride, not_looked_up));
     test::see(test::hemicubes(sites, &in.scene, {batch.first, batch.count, size, 2e-5f}), texels,
               test::upload_points(in.surface, stride, GBUFFER_GEOMETRIC + 3), seen, batch.first_row,
               passes, batch.first_texel);
@@ -111,14 +112,15 @@ TEST_P(See, IsABitForEveryVplThatSeesATexel) {
     const Furnished in;
     const std::uint32_t stride = test::padded(texels);
     int yes = 0, hidden = 0;
-    for (const Batch batch : {Batch{0, 16, 0}, {3, 1, 0}, {5, 7, 2}, {8, 8, 1}, {2, 9, 3}}) {
+    for (const SeenBatch batch :
+         {SeenBatch{0, 16, 0}, {3, 1, 0}, {5, 7, 2}, {8, 8, 1}, {2, 9, 3}}) {
         const auto found = see(in, batch, test::atlas_passes(GetParam()));
         const std::size_t last_row = batch.first_row + seen_rows(batch.count);
         for (std::size_t row = 0; row < batch.rows(); ++row)
             for (std::size_t t = 0; t < stride; ++t) {
                 const unsigned byte = found[row * stride + t];
                 if (row < batch.first_row || row >= last_row) {
-                    EXPECT_EQ(byte, untouched) << "row " << row;
+                    EXPECT_EQ(byte, not_looked_up) << "row " << row;
                     continue;
                 }
                 if (t >= texels) continue;
@@ -145,7 +147,7 @@ TEST_P(See, IsABitForEveryVplThatSeesATexel) {
 TEST(See, IsTheSameForEveryWidthGroupAndPart) {
     const Furnished in;
     const std::uint32_t stride = test::padded(texels);
-    const Batch batch{3, 13, 1}, late{3, 13, 1, 96};
+    const SeenBatch batch{3, 13, 1}, late{3, 13, 1, 96};
     const auto usual = see(in, batch, test::atlas_passes());
     for (const int width : {1, 4, 8, 16}) {
         BuildOptions build;
@@ -156,7 +158,8 @@ TEST(See, IsTheSameForEveryWidthGroupAndPart) {
         for (std::size_t k = 0; k < usual.size(); ++k) {
             if (k % stride >= texels) continue;
             EXPECT_EQ(whole[k], usual[k]) << "width " << width << ", byte " << k;
-            EXPECT_EQ(part[k], k % stride < 96 ? untouched : usual[k]) << width << ", byte " << k;
+            EXPECT_EQ(part[k], k % stride < 96 ? not_looked_up : usual[k])
+                << width << ", byte " << k;
         }
     }
 }
@@ -164,11 +167,11 @@ TEST(See, IsTheSameForEveryWidthGroupAndPart) {
 TEST(See, OfNoVplWritesNothing) {
     const Furnished in;
     const std::uint32_t stride = test::padded(texels);
-    const cl::Buffer seen = test::upload(std::vector<cl_uchar>(stride, untouched));
+    const cl::Buffer seen = test::upload(std::vector<cl_uchar>(stride, not_looked_up));
     test::atlas_passes().see(test::device().queue, {0, size, texels, stride, 0, 0, 0, 0},
                              test::empty<View>(5), seen,
                              test::upload_points(in.surface, stride, GBUFFER_GEOMETRIC + 3), seen);
-    EXPECT_EQ(test::download<cl_uchar>(seen, stride), std::vector<cl_uchar>(stride, untouched));
+    EXPECT_EQ(test::download<cl_uchar>(seen, stride), std::vector<cl_uchar>(stride, not_looked_up));
 }
 
 }  // namespace

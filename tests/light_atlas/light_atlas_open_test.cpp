@@ -28,7 +28,7 @@ LightAtlasOptions open_options(LightAtlasOptions options = test::bake_options())
 }
 
 // A closed tetrahedron with crooked walls, coloured lights of every kind.
-const Bakery& room() {
+const Bakery& crooked_room() {
     static const Bakery bakery(test::convex_room(false), {.vpls = 200, .atlas = 48});
     return bakery;
 }
@@ -81,8 +81,8 @@ TEST_P(LightAtlasOpen, IsTheLightOfHemicubes) {
     LightAtlasOptions drawn = open_options(options);
     drawn.occlusion = Occlusion::automatic;
     drawn.refine = 1;
-    const Baked with = test::bake(room(), drawn),
-                without = test::bake(room(), open_options(options));
+    const Baked with = test::bake(crooked_room(), drawn),
+                without = test::bake(crooked_room(), open_options(options));
     // Pixels of hemicubes beside the sharp edges of this room.
     EXPECT_LT(test::relative_difference(without.texels, with.texels), 0.02);
     EXPECT_LT(test::relative_difference(without.vpls, with.vpls), 0.02);
@@ -149,20 +149,20 @@ TEST(LightAtlasOpen, KeepsTransportOrNotForAboutTheSameLight) {
 }
 
 TEST(LightAtlasOpen, GivesTheSameBitsAgainAndAfterACancelledBake) {
-    const Baked wanted = test::bake(room(), open_options());
+    const Baked wanted = test::bake(crooked_room(), open_options());
     int reports = 0;
-    LightAtlasSolver solver = room().solver(open_options());
+    LightAtlasSolver solver = crooked_room().solver(open_options());
     ASSERT_TRUE(solver.run([&](double) { return ++reports > 0; }));
     ASSERT_GT(reports, 3);
     for (int last = 1; last < reports; ++last) {
         int seen = 0;
-        LightAtlasSolver again = room().solver(open_options());
+        LightAtlasSolver again = crooked_room().solver(open_options());
         EXPECT_FALSE(again.run([&](double) { return ++seen < last; }));
         const auto state = again.state();
         ASSERT_TRUE(again.run());
         EXPECT_TRUE(test::same_bits(Baked(again).texels, wanted.texels)) << last;
         if (!state) continue;
-        LightAtlasSolver other = room().solver(open_options());
+        LightAtlasSolver other = crooked_room().solver(open_options());
         other.restore(*state);
         ASSERT_TRUE(other.run());
         EXPECT_TRUE(test::same_bits(Baked(other).texels, wanted.texels)) << last;
@@ -246,7 +246,7 @@ TEST(LightAtlasOpen, CannotProjectHemicubes) {
     LightAtlasOptions options = open_options();
     options.filling = Filling::project;
     try {
-        room().solver(options);
+        crooked_room().solver(options);
         ADD_FAILURE() << "it was taken";
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("occlusion"), std::string::npos);

@@ -15,7 +15,7 @@ namespace {
 using test::Bakery;
 
 // A room with a block and an opening between two of its parts, in daylight colours.
-const Bakery& room() {
+const Bakery& divided_room() {
     static const Bakery bakery(
         [] {
             Scene scene = test::plain_scene(glm::vec3(0.7f, 0.6f, 0.5f));
@@ -44,13 +44,13 @@ std::set<std::string> passes_of(const LightAtlasSolver& solver) {
 // The light hardly changes: only texels between corners differ, and those of thin shadows alone.
 // The light of VPLs is the same to the bit.
 TEST(LightAtlasRefined, HasAboutTheLightOfEveryTexelInFull) {
-    LightAtlasSolver full = room().solver(refined(1));
+    LightAtlasSolver full = divided_room().solver(refined(1));
     ASSERT_TRUE(full.run());
     const test::Baked wanted(full);
     EXPECT_EQ(passes_of(full).count("atlas.see"), 1u);
     EXPECT_EQ(passes_of(full).count("atlas.see_blocks"), 0u);
     for (const int step : {2, 4}) {
-        LightAtlasSolver solver = room().solver(refined(step));
+        LightAtlasSolver solver = divided_room().solver(refined(step));
         ASSERT_TRUE(solver.run());
         EXPECT_EQ(passes_of(solver).count("atlas.see"), 0u);
         EXPECT_EQ(passes_of(solver).count("atlas.see_blocks"), 1u);
@@ -78,7 +78,7 @@ TEST(LightAtlasRefined, HasAboutTheLightOfEveryTexelInFull) {
 TEST(LightAtlasRefined, IsNothingWhereThereIsNoBlock) {
     LightAtlasOptions project = refined(4);
     project.filling = Filling::project;
-    LightAtlasSolver projected = room().solver(project);
+    LightAtlasSolver projected = divided_room().solver(project);
     ASSERT_TRUE(projected.run());
     EXPECT_EQ(passes_of(projected).count("atlas.flat"), 0u);
     Scene box = test::plain_scene();
@@ -93,7 +93,8 @@ TEST(LightAtlasRefined, IsNothingWhereThereIsNoBlock) {
 }
 
 TEST(LightAtlasRefined, HasAStepOfOneTwoOrFour) {
-    for (const int step : {-1, 0, 3, 5, 8}) EXPECT_THROW(room().solver(refined(step)), Error);
+    for (const int step : {-1, 0, 3, 5, 8})
+        EXPECT_THROW(divided_room().solver(refined(step)), Error);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace clgi {
 namespace {
 
-Scene room() {
+Scene short_room() {
     Scene scene = test::plain_scene({0.7f, 0.5f, 0.3f});
     test::add_box(scene, glm::dvec3(-1.0), {1.0, 1.2, 1.4}, -1);
     scene.lights = {test::spot_light({0.2, 1.0, 0.3}, {-0.3f, -1.0f, -0.2f}, 0.6, 10.0f)};
@@ -54,7 +54,7 @@ struct Baker {
         return out;
     }
 
-    Scene world = room();
+    Scene world = short_room();
     DeviceScene on_device = test::on_device(world);
     LightAtlasOptions options;
     std::uint32_t vpl_count = 0;

@@ -15,7 +15,7 @@ namespace {
 using test::Bakery;
 
 // A room with a block, lit by a point light and a coloured spot.
-Scene room() {
+Scene lamp_room() {
     Scene scene = test::plain_scene(glm::vec3(0.7f, 0.6f, 0.5f));
     test::add_box(scene, {-1, 0, -1}, {1, 1.5, 1}, -1);
     test::add_box(scene, {-0.5, 0.25, -0.5}, {0.25, 0.5, 0.25}, 1);
@@ -28,7 +28,7 @@ Scene room() {
 // A baked room whose lights can be changed.
 struct Changing {
     explicit Changing(const LightAtlasOptions& of = test::bake_options())
-        : bakery(room(), {.vpls = 200, .atlas = 48}), options(of), solver(bakery.solver(of)) {}
+        : bakery(lamp_room(), {.vpls = 200, .atlas = 48}), options(of), solver(bakery.solver(of)) {}
     void set_spot(const glm::vec3& intensity, const glm::vec3& direction) {
         Light light = bakery.scene.lights[1];
         light.intensity = intensity;
@@ -58,14 +58,14 @@ TEST(LightAtlasUpdate, OfEveryChangeComesToAFreshBake) {
         LightAtlasOptions options = test::bake_options();
         options.bounces = bounces;
         options.direct = bounces == 1;
-        Changing room(options);
-        ASSERT_TRUE(room.solver.run());
-        std::vector<glm::vec3> brightest = room.solver.irradiance();
-        EXPECT_EQ(room.solver.status().sent, room.vpls());
+        Changing lamp_room(options);
+        ASSERT_TRUE(lamp_room.solver.run());
+        std::vector<glm::vec3> brightest = lamp_room.solver.irradiance();
+        EXPECT_EQ(lamp_room.solver.status().sent, lamp_room.vpls());
         for (int k = 0; k < 5; ++k) {
-            room.set_spot(spots[k], ways[k]);
-            ASSERT_TRUE(room.solver.update(0.0));
-            const test::Baked found(room.solver), wanted = room.fresh();
+            lamp_room.set_spot(spots[k], ways[k]);
+            ASSERT_TRUE(lamp_room.solver.update(0.0));
+            const test::Baked found(lamp_room.solver), wanted = lamp_room.fresh();
             EXPECT_TRUE(test::same_bits(found.vpls, wanted.vpls)) << k;
             EXPECT_EQ(found.status.power_direct, wanted.status.power_direct);
             EXPECT_EQ(found.status.non_finite, 0u);
@@ -84,24 +84,24 @@ TEST(LightAtlasUpdate, OfEveryChangeComesToAFreshBake) {
 CLGI_IN_BOTH_MATHS(LightAtlasAgain);
 
 TEST_P(LightAtlasAgain, WithoutAChangeSendsNothing) {
-    Changing room;
-    ASSERT_TRUE(room.solver.run());
-    const auto before = room.solver.irradiance();
+    Changing lamp_room;
+    ASSERT_TRUE(lamp_room.solver.run());
+    const auto before = lamp_room.solver.irradiance();
     for (const bool told : {false, true}) {
-        if (told) room.solver.lights_changed();
-        ASSERT_TRUE(room.solver.update(0.0));
-        EXPECT_EQ(room.solver.status().sent, 0u);
-        EXPECT_TRUE(test::same_bits(room.solver.irradiance(), before));
+        if (told) lamp_room.solver.lights_changed();
+        ASSERT_TRUE(lamp_room.solver.update(0.0));
+        EXPECT_EQ(lamp_room.solver.status().sent, 0u);
+        EXPECT_TRUE(test::same_bits(lamp_room.solver.irradiance(), before));
     }
 }
 
 // Mean difference of texels, by area, in lumen of three channels.
-double difference(const Changing& room, const std::vector<glm::vec3>& wanted) {
-    const auto found = room.solver.irradiance();
+double difference(const Changing& lamp_room, const std::vector<glm::vec3>& wanted) {
+    const auto found = lamp_room.solver.irradiance();
     double sum = 0.0;
     for (std::size_t t = 0; t < found.size(); ++t)
         for (int c = 0; c < 3; ++c)
-            sum += room.bakery.atlas.texels[t].area *
+            sum += lamp_room.bakery.atlas.texels[t].area *
                    std::abs(double{found[t][c]} - double{wanted[t][c]});
     return sum;
 }
@@ -109,46 +109,46 @@ double difference(const Changing& room, const std::vector<glm::vec3>& wanted) {
 // What a VPL does not send is less than `least` mean powers, and of a power of 1 no more than 1
 // arrives at all texels together, or half as much again where corners are completed.
 TEST(LightAtlasUpdate, LeavesNoMoreThanIsAllowed) {
-    Changing room;
-    ASSERT_TRUE(room.solver.run());
+    Changing lamp_room;
+    ASSERT_TRUE(lamp_room.solver.run());
     const double least = 0.05;
-    std::uint32_t fewest = room.vpls();
+    std::uint32_t fewest = lamp_room.vpls();
     double largest = 0.0;
-    glm::vec3 spot = room.bakery.scene.lights[1].intensity;
+    glm::vec3 spot = lamp_room.bakery.scene.lights[1].intensity;
     for (int k = 0; k < 8; ++k) {
         spot *= 0.97f;
-        room.set_spot(spot, ways[3]);
-        ASSERT_TRUE(room.solver.update(least));
-        const test::Baked wanted = room.fresh();
-        const LightAtlasStatus status = room.solver.status();
-        const double error = difference(room, wanted.texels);
+        lamp_room.set_spot(spot, ways[3]);
+        ASSERT_TRUE(lamp_room.solver.update(least));
+        const test::Baked wanted = lamp_room.fresh();
+        const LightAtlasStatus status = lamp_room.solver.status();
+        const double error = difference(lamp_room, wanted.texels);
         EXPECT_LT(error, 1.6 * least * status.power_direct) << k;
-        EXPECT_LT(status.sent, room.vpls() / 2) << k;
+        EXPECT_LT(status.sent, lamp_room.vpls() / 2) << k;
         fewest = std::min(fewest, status.sent);
         largest = std::max(largest, error / status.power_direct);
     }
     EXPECT_GT(largest, 1e-4);  // something was left
     // What was left is not lost.
-    ASSERT_TRUE(room.solver.update(0.0));
-    EXPECT_GT(room.solver.status().sent, fewest);
-    const test::Baked wanted = room.fresh();
-    EXPECT_LT(difference(room, wanted.texels), rounding(9) * wanted.status.power_direct);
+    ASSERT_TRUE(lamp_room.solver.update(0.0));
+    EXPECT_GT(lamp_room.solver.status().sent, fewest);
+    const test::Baked wanted = lamp_room.fresh();
+    EXPECT_LT(difference(lamp_room, wanted.texels), rounding(9) * wanted.status.power_direct);
 }
 
 // A VPL that changes by little again and again sends it in the end.
 TEST(LightAtlasUpdate, ForgetsNoSmallChange) {
-    Changing room;
-    ASSERT_TRUE(room.solver.run());
-    glm::vec3 spot = room.bakery.scene.lights[1].intensity;
+    Changing lamp_room;
+    ASSERT_TRUE(lamp_room.solver.run());
+    glm::vec3 spot = lamp_room.bakery.scene.lights[1].intensity;
     std::uint32_t sent = 0;
     for (int k = 0; k < 12; ++k) {
         spot *= 1.01f;
-        room.set_spot(spot, ways[3]);
-        ASSERT_TRUE(room.solver.update(0.2));
+        lamp_room.set_spot(spot, ways[3]);
+        ASSERT_TRUE(lamp_room.solver.update(0.2));
         if (k == 0) {
-            EXPECT_EQ(room.solver.status().sent, 0u);
+            EXPECT_EQ(lamp_room.solver.status().sent, 0u);
         }
-        sent += room.solver.status().sent;
+        sent += lamp_room.solver.status().sent;
     }
     EXPECT_GT(sent, 0u);
 }
@@ -165,15 +165,16 @@ TEST(LightAtlasUpdate, AfterACancelledRunBakesAnew) {
     ASSERT_TRUE(first.solver.update(0.0, [&](double) { return ++reports > 0; }));
     ASSERT_GT(reports, 2);
     for (int last = 1; last < reports; ++last) {
-        Changing room(options);
-        ASSERT_TRUE(room.solver.run());
-        room.set_spot(spots[0], ways[0]);
+        Changing lamp_room(options);
+        ASSERT_TRUE(lamp_room.solver.run());
+        lamp_room.set_spot(spots[0], ways[0]);
         int seen = 0;
-        ASSERT_FALSE(room.solver.update(0.0, [&](double) { return ++seen < last; }));
-        EXPECT_EQ(room.solver.status().sent, 0u);
-        ASSERT_TRUE(room.solver.update(0.5));
-        EXPECT_EQ(room.solver.status().sent, room.vpls()) << last;
-        EXPECT_TRUE(test::same_bits(room.solver.irradiance(), room.fresh().texels)) << last;
+        ASSERT_FALSE(lamp_room.solver.update(0.0, [&](double) { return ++seen < last; }));
+        EXPECT_EQ(lamp_room.solver.status().sent, 0u);
+        ASSERT_TRUE(lamp_room.solver.update(0.5));
+        EXPECT_EQ(lamp_room.solver.status().sent, lamp_room.vpls()) << last;
+        EXPECT_TRUE(test::same_bits(lamp_room.solver.irradiance(), lamp_room.fresh().texels))
+            << last;
     }
 }
 
@@ -188,36 +189,38 @@ TEST(LightAtlasUpdate, WithoutKeptVisibilityBakesAnew) {
     projected.filling = Filling::project;
     for (const LightAtlasOptions& options : {poor, projected}) {
         const bool gathers = options.filling == Filling::gather;
-        Changing room(options);
-        ASSERT_TRUE(room.solver.run());
-        EXPECT_TRUE(room.solver.status().transport_kept);
-        EXPECT_FALSE(room.solver.status().visibility_kept);
+        Changing lamp_room(options);
+        ASSERT_TRUE(lamp_room.solver.run());
+        EXPECT_TRUE(lamp_room.solver.status().transport_kept);
+        EXPECT_FALSE(lamp_room.solver.status().visibility_kept);
         if (gathers) {
-            EXPECT_TRUE(test::same_bits(room.solver.irradiance(), kept.solver.irradiance()));
+            EXPECT_TRUE(test::same_bits(lamp_room.solver.irradiance(), kept.solver.irradiance()));
         }
-        room.set_spot(spots[0], ways[0]);
-        ASSERT_TRUE(room.solver.update(0.5));
-        EXPECT_EQ(room.solver.status().sent, room.vpls());
-        EXPECT_TRUE(test::same_bits(room.solver.irradiance(), room.fresh().texels)) << gathers;
+        lamp_room.set_spot(spots[0], ways[0]);
+        ASSERT_TRUE(lamp_room.solver.update(0.5));
+        EXPECT_EQ(lamp_room.solver.status().sent, lamp_room.vpls());
+        EXPECT_TRUE(test::same_bits(lamp_room.solver.irradiance(), lamp_room.fresh().texels))
+            << gathers;
     }
 }
 
 TEST(LightAtlasUpdate, DrawsNoHemicubeAgain) {
-    Changing room;
+    Changing lamp_room;
     const auto count = [&](const char* name) {
         std::size_t out = 0;
-        for (const PassEvent& event : room.solver.events()) out += std::string(event.name) == name;
+        for (const PassEvent& event : lamp_room.solver.events())
+            out += std::string(event.name) == name;
         return out;
     };
     const char* const once[] = {"gbuffer.cubes",    "vpl.transport",         "vpl.reach",
                                 "atlas.see_blocks", "vpl.balance_receivers", "gbuffer.surface",
                                 "atlas.nearest"};
-    ASSERT_TRUE(room.solver.run());
+    ASSERT_TRUE(lamp_room.solver.run());
     for (const char* name : once) EXPECT_GT(count(name), 0u) << name;
-    EXPECT_EQ(count("gbuffer.cubes"), (room.vpls() + 7) / 8);  // and each once
+    EXPECT_EQ(count("gbuffer.cubes"), (lamp_room.vpls() + 7) / 8);  // and each once
     for (const bool whole : {true, false}) {
-        room.set_spot(spots[whole], ways[whole]);
-        ASSERT_TRUE(whole ? room.solver.run() : room.solver.update(0.0));
+        lamp_room.set_spot(spots[whole], ways[whole]);
+        ASSERT_TRUE(whole ? lamp_room.solver.run() : lamp_room.solver.update(0.0));
         for (const char* name : once) EXPECT_EQ(count(name), 0u) << name;
         EXPECT_GT(count("lights.direct"), 0u);
         EXPECT_GT(count("atlas.gather"), 0u);
@@ -225,19 +228,19 @@ TEST(LightAtlasUpdate, DrawsNoHemicubeAgain) {
 }
 
 TEST(LightAtlasUpdate, RefusesALeastThatIsNone) {
-    Changing room;
-    ASSERT_TRUE(room.solver.run());
+    Changing lamp_room;
+    ASSERT_TRUE(lamp_room.solver.run());
     for (const double least : {-1e-9, -1.0, std::numeric_limits<double>::quiet_NaN()}) try {
-            room.solver.update(least);
+            lamp_room.solver.update(least);
             ADD_FAILURE() << least << ": taken";
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find("least is"), std::string::npos)
                 << error.what();
         }
     // No VPL ever changes by so much.
-    room.set_spot(spots[2], ways[2]);
-    ASSERT_TRUE(room.solver.update(std::numeric_limits<double>::infinity()));
-    EXPECT_EQ(room.solver.status().sent, 0u);
+    lamp_room.set_spot(spots[2], ways[2]);
+    ASSERT_TRUE(lamp_room.solver.update(std::numeric_limits<double>::infinity()));
+    EXPECT_EQ(lamp_room.solver.status().sent, 0u);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 enum Source { spot, point, sun, wide_spot, lamp };
 
-constexpr int width = 96, height = 72;
+constexpr int oblique_width = 96, oblique_height = 72;
 
 Scene scene_with(int source) {
     Scene scene = test::oblique_room();
@@ -28,8 +28,8 @@ Scene scene_with(int source) {
 
 SecondOrderOptions solver_options() {
     SecondOrderOptions options;
-    options.width = width;
-    options.height = height;
+    options.width = oblique_width;
+    options.height = oblique_height;
     options.negative_vpls = 0;
     options.low_resolution_step = 1;
     options.emitters.shadow_size = 1024;
@@ -38,14 +38,14 @@ SecondOrderOptions solver_options() {
 
 reference::Picture truth_of(const Scene& scene, const reference::Effects& effects, int samples) {
     reference::Options options;
-    options.width = width;
-    options.height = height;
+    options.width = oblique_width;
+    options.height = oblique_height;
     options.effects = effects;
     options.samples = samples;
     return reference::PathTracer(scene).render(test::oblique_camera(), options);
 }
 
-glm::dvec3 mean(const std::vector<glm::vec3>& radiance) {
+glm::dvec3 mean_of_texels(const std::vector<glm::vec3>& radiance) {
     glm::dvec3 sum(0);
     for (const glm::vec3& value : radiance) sum += glm::dvec3(value);
     return sum / static_cast<double>(radiance.size());
@@ -79,7 +79,8 @@ TEST_P(Oblique, DirectLightIsThePathTracersInEveryChannel) {
     }
     EXPECT_GT(lit, 500);
     EXPECT_GT(alike, (area ? 0.8 : 0.95) * lit);
-    const glm::dvec3 found = mean(frame.radiance), wanted = mean(truth.radiance);
+    const glm::dvec3 found = mean_of_texels(frame.radiance),
+                     wanted = mean_of_texels(truth.radiance);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / wanted[c], 1.0, 0.01) << "channel " << c;
 }
 
@@ -108,9 +109,10 @@ TEST_P(Oblique, IndirectLightIsThePathTracersInEveryChannel) {
         effects.shadowed = false;
     effects.last_bounce = 1;
     const reference::Picture truth = truth_of(scene, effects, 400);
-    const double error = truth.relative_error / std::sqrt(double{width} * height);
+    const double error = truth.relative_error / std::sqrt(double{oblique_width} * oblique_height);
     EXPECT_LT(error, 0.005);
-    const glm::dvec3 found = mean(frame.radiance), wanted = mean(truth.radiance);
+    const glm::dvec3 found = mean_of_texels(frame.radiance),
+                     wanted = mean_of_texels(truth.radiance);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(found[c] / wanted[c], 1.0, 0.01 + 4.5 * error) << "channel " << c;
 }

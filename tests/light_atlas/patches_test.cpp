@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include "lab/scenes/rooms.hpp"
 #include "scenes.hpp"
@@ -18,7 +19,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // What must hold for any scene.
 void expect_consistent(const Scene& scene, const Patches& patches) {

@@ -14,7 +14,7 @@ namespace clgi {
 namespace {
 
 // A picture of the animated room by the atlas, as a plan has it.
-test::Pixels by_atlas(const Scene& scene, const Camera& camera, double seconds) {
+test::Radiances by_atlas(const Scene& scene, const Camera& camera, double seconds) {
     PlanRequest request = test::quick();
     request.animated = true;
     request.method = Method::light_atlas;
@@ -46,8 +46,8 @@ TEST_P(StillPicture, IsThatOfThePathTracer) {
     const Camera& camera = scene.cameras[0];
     for (const double seconds : {0.0, 1.0}) {
         const Scene posed_scene = posed(scene, pose_at(*scene.animation, 0, seconds));
-        const test::Pixels truth = test::traced(posed_scene, camera, 512);
-        const test::Pixels found = by_atlas(scene, camera, seconds);
+        const test::Radiances truth = test::traced(posed_scene, camera, 512);
+        const test::Radiances found = by_atlas(scene, camera, seconds);
         EXPECT_NEAR(test::mean(found) / test::mean(truth), 1.0, 0.04) << seconds;
         EXPECT_LT(test::distance(found, truth), 0.12 * test::mean(truth)) << seconds;
         const std::vector<bool> box = test::seen_of_box(posed_scene, camera);
@@ -80,14 +80,14 @@ TEST(StillPictures, FollowTheirLights) {
     Renderer renderer(test::programs(), test::device().queue, planned, uploaded, plan);
     ASSERT_TRUE(renderer.prepare());
     renderer.render(camera).wait();
-    const test::Pixels before = test::shown_by(renderer);
+    const test::Radiances before = test::shown_by(renderer);
     Light light = uploaded.lights()[0];
     light.intensity *= 0.5f;
     uploaded.set_light(0, light);
     renderer.lights_changed();
     ASSERT_TRUE(renderer.prepare());
     renderer.render(camera).wait();
-    const test::Pixels after = test::shown_by(renderer);
+    const test::Radiances after = test::shown_by(renderer);
     for (std::size_t i = 0; i < before.size(); ++i)
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(after[i][c], 0.5f * before[i][c], 1e-5f * (1.0f + before[i][c]));

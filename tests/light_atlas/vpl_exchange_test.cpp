@@ -105,15 +105,15 @@ double view_factor(const Plate& a, const Plate& b, int k, int m) {
     return sum / shooters;
 }
 
-const Plate bottom{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, top{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+const Plate low_plate{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, high_plate{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
 
 TEST_P(ViewFactor, OfParallelSquaresConverges) {
     const double wanted = 0.1998248957;  // unit squares a unit apart
     // Midpoint rule over the shooter's cells: h^2 / 24 times the mean of the kernel's Laplacian,
     // which is at most 8 / pi, that straight across. The receiver's cells are much smaller.
     const auto bound = [](int k) { return 8.0 / test::pi / (24.0 * k * k); };
-    const double coarse = view_factor(bottom, top, 4, 6) - wanted;
-    const double fine = view_factor(bottom, top, 8, 4) - wanted;
+    const double coarse = view_factor(low_plate, high_plate, 4, 6) - wanted;
+    const double fine = view_factor(low_plate, high_plate, 8, 4) - wanted;
     EXPECT_LT(std::abs(coarse), bound(4) + bound(24));
     EXPECT_LT(std::abs(fine), bound(8) + bound(32));
     EXPECT_LT(std::abs(fine), 0.35 * std::abs(coarse));
@@ -129,8 +129,8 @@ TEST_P(ViewFactor, OfSquaresAtARightAngleConverges) {
                  {{{0, 0, 0}, {0, 1, 0}, {0, 0, 2}}, 0.2328526028},
                  {{{0, 0, 0}, {0, 1, 0}, {0, 0, 0.1}}, 0.0432513694}};
     for (const auto& c : cases) {
-        const double coarse = std::abs(view_factor(bottom, c.wall, 4, 2) - c.wanted);
-        const double fine = std::abs(view_factor(bottom, c.wall, 8, 4) - c.wanted);
+        const double coarse = std::abs(view_factor(low_plate, c.wall, 4, 2) - c.wanted);
+        const double fine = std::abs(view_factor(low_plate, c.wall, 8, 4) - c.wanted);
         EXPECT_LT(fine, 0.5 / 32.0) << c.wanted;
         EXPECT_LT(fine, 0.5 * coarse) << c.wanted;
     }
@@ -146,8 +146,8 @@ TEST(Exchange, IsTheShareOfSamplesThatABlockerLeaves) {
         test::add_quad(world, {glm::dvec3(-1, -1, 0.5), {-1, 2, 0.5}, {x, 2, 0.5}, {x, -1, 0.5}});
         const DeviceScene scene = test::on_device(world);
         std::vector<SitePlace> places;
-        add_rectangle(places, scene, bottom.corner, bottom.u, bottom.v, 1, 1);
-        add_rectangle(places, scene, top.corner, top.u, top.v, 1, 16);
+        add_rectangle(places, scene, low_plate.corner, low_plate.u, low_plate.v, 1, 1);
+        add_rectangle(places, scene, high_plate.corner, high_plate.u, high_plate.v, 1, 16);
         const Sites sites(places);
         const auto cubes = test::hemicubes(sites, &scene, {0, 1, 256, 2e-5f});
         const auto rows = test::transport_rows(sites, cubes);

@@ -75,9 +75,9 @@ TEST(OpenTransport, IsTheSameForEveryWidthGroupAndBatch) {
 
 // The share of a VPL at a point of the world, the 19th shooter of 21; others lie high above
 // everything and see nothing: they look up, or `down` on what shows its back to them.
-float reach(const Scene& world, const glm::vec3& normal = glm::vec3(0, 0, 1),
-            const glm::dvec3& at = glm::dvec3(0), float lift = 0.0f, Math math = Math::strict,
-            bool down = false) {
+float open_reach(const Scene& world, const glm::vec3& normal = glm::vec3(0, 0, 1),
+                 const glm::dvec3& at = glm::dvec3(0), float lift = 0.0f, Math math = Math::strict,
+                 bool down = false) {
     const DeviceScene scene = test::on_device(world);
     std::vector<SitePlace> places;
     std::vector<cl_uint> order;
@@ -106,7 +106,7 @@ float reach(const Scene& world, const glm::vec3& normal = glm::vec3(0, 0, 1),
 }
 
 // Two triangles far below the horizon give the scene its size.
-Scene islands() {
+Scene open_islands() {
     Scene world = test::plain_scene();
     for (const double s : {-4.0, 4.0})
         test::add_triangle(world, {s, s, -4}, {s, 0.999 * s, -4}, {0.999 * s, s, -4});
@@ -122,15 +122,16 @@ TEST_P(OpenReach, OfAClosedRoomIsAll) {
     test::Random random(3);
     for (int i = 0; i < 30; ++i) {
         const glm::dvec3 at(random(-0.9, 1.9), random(-1.9, 0.9), random(-1.4, 0.9));
-        EXPECT_NEAR(reach(world, test::direction(random), at, 0.0f, GetParam()), 1.0f, 1e-5f) << i;
+        EXPECT_NEAR(open_reach(world, test::direction(random), at, 0.0f, GetParam()), 1.0f, 1e-5f)
+            << i;
     }
     // On a wall, also beside an edge and in a corner: its own two triangles lie in its plane.
     for (const glm::dvec3& at :
          {glm::dvec3(-1, 0.3, 0.2), {-1, -1.999, 0.2}, {-1, 0.999, 0.999}, {-1, -0.5, -0.25}})
-        EXPECT_NEAR(reach(world, glm::vec3(1, 0, 0), at, 2e-5f, GetParam()), 1.0f, 1e-5f);
+        EXPECT_NEAR(open_reach(world, glm::vec3(1, 0, 0), at, 2e-5f, GetParam()), 1.0f, 1e-5f);
 }
 
-TEST(OpenReach, OfNothingIsNothing) { EXPECT_EQ(reach(islands()), 0.0f); }
+TEST(OpenReach, OfNothingIsNothing) { EXPECT_EQ(open_reach(open_islands()), 0.0f); }
 
 // A rectangle with a corner straight over the point, at height h: the closed form of Lambert.
 double corner_factor(double a, double b, double h) {
@@ -140,11 +141,11 @@ double corner_factor(double a, double b, double h) {
 
 TEST_P(OpenReach, OfARectangleIsItsFormFactor) {
     for (const auto& [a, b, h] : {std::tuple{1.0, 1.0, 1.0}, {3.0, 0.2, 0.5}, {0.05, 2.0, 2.0}}) {
-        Scene world = islands();
+        Scene world = open_islands();
         test::add_quad(world, {glm::dvec3(0, 0, h), {0, b, h}, {a, b, h}, {a, 0, h}});
         for (const bool others_see_its_back : {false, true})
             EXPECT_NEAR(
-                reach(world, {0, 0, 1}, glm::dvec3(0), 0.0f, GetParam(), others_see_its_back),
+                open_reach(world, {0, 0, 1}, glm::dvec3(0), 0.0f, GetParam(), others_see_its_back),
                 corner_factor(a, b, h), 2e-7 + 2e-6 * corner_factor(a, b, h));
     }
 }
@@ -162,7 +163,7 @@ TEST_P(OpenReach, LooksFromAbove) {
         test::add_quad(world, {h * n, h * n + b * v, h * n + a * u + b * v, h * n + a * u});
         const double scale = test::on_device(world).frame().scale;
         const auto local = static_cast<float>(lift * scale);
-        EXPECT_NEAR(reach(world, glm::vec3(n), glm::dvec3(0), local, GetParam()),
+        EXPECT_NEAR(open_reach(world, glm::vec3(n), glm::dvec3(0), local, GetParam()),
                     corner_factor(a, b, h - lift), 1e-6);
     }
 }
@@ -170,13 +171,14 @@ TEST_P(OpenReach, LooksFromAbove) {
 // To infinity, beside the point: half of what there is to see, whichever way it is turned.
 TEST_P(OpenReach, OfHalfTheSkyIsAHalf) {
     for (const double side : {-1.0, 1.0}) {
-        Scene world = islands();
+        Scene world = open_islands();
         test::add_quad(world, {glm::dvec3(1e-3 * side, -4 * side, -3),
                                {1e-3 * side, -4 * side, 4},
                                {1e-3 * side, 4 * side, 4},
                                {1e-3 * side, 4 * side, -3}});
-        EXPECT_NEAR(reach(world, {0, 0, 1}, glm::dvec3(0), 0.0f, GetParam()), 0.5, 5e-4) << side;
-        EXPECT_EQ(reach(world, {0, 0, 1}, glm::dvec3(0.002 * side, 0, 0)), 0.0f) << "its back";
+        EXPECT_NEAR(open_reach(world, {0, 0, 1}, glm::dvec3(0), 0.0f, GetParam()), 0.5, 5e-4)
+            << side;
+        EXPECT_EQ(open_reach(world, {0, 0, 1}, glm::dvec3(0.002 * side, 0, 0)), 0.0f) << "its back";
     }
 }
 
@@ -184,14 +186,14 @@ TEST(OpenReach, CountsFrontsAndBothSidesOfTheDoubleSided) {
     Material both;
     both.double_sided = true;
     for (const bool away : {false, true}) {
-        Scene one = islands(), two = islands();
+        Scene one = open_islands(), two = open_islands();
         const std::uint32_t material = test::add_material(two, both);
         std::array<glm::dvec3, 4> corners = {glm::dvec3(0, 0, 1), {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
         if (away) std::swap(corners[1], corners[3]);
         test::add_quad(one, corners);
         test::add_quad(two, corners, material);
-        EXPECT_NEAR(reach(two), corner_factor(1, 1, 1), 1e-6);
-        EXPECT_EQ(reach(one), away ? 0.0f : reach(two));
+        EXPECT_NEAR(open_reach(two), corner_factor(1, 1, 1), 1e-6);
+        EXPECT_EQ(open_reach(one), away ? 0.0f : open_reach(two));
     }
 }
 
@@ -199,7 +201,7 @@ TEST(OpenReach, IsNeverMoreThanAll) {
     Scene world = test::plain_scene();
     test::add_box(world, {-1, -1, -1}, {1, 1, 1}, -1);
     test::add_box(world, {-0.8, -0.8, 0.3}, {0.8, 0.8, 0.5}, 1);
-    EXPECT_EQ(reach(world, {0, 0, 1}, {0.1, 0.2, -0.5}), 1.0f);
+    EXPECT_EQ(open_reach(world, {0, 0, 1}, {0.1, 0.2, -0.5}), 1.0f);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ float reach(Scene world, std::uint32_t size = 64, const glm::vec3& normal = glm:
     return shares[1];
 }
 
-Scene islands() {
+Scene two_islands() {
     Scene world = test::plain_scene();
     for (const double s : {-4.0, 4.0})
         test::add_triangle(world, {s, s, -4}, {s, 0.999 * s, -4}, {0.999 * s, s, -4});
@@ -80,7 +80,7 @@ TEST(Reach, OfAClosedRoomIsAll) {
         EXPECT_EQ(reach(world, size, glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f))), 1.0f);
 }
 
-TEST(Reach, OfNothingIsNothing) { EXPECT_EQ(reach(islands()), 0.0f); }
+TEST(Reach, OfNothingIsNothing) { EXPECT_EQ(reach(two_islands()), 0.0f); }
 
 // Of a cube about the VPL: .5541 the top, .1115 each side. Midpoints of 32 x 32 cells, each 1/16
 // wide: 1/24 h^2 of the Laplacian, below 4 / pi, over an area of 4.
@@ -90,7 +90,7 @@ TEST(Reach, OfTheFacesOfACubeIsThatOfItsHemicube) {
     EXPECT_NEAR(top, 0.5541, 1e-4);
     for (const std::uint32_t size : {32u, 64u, 128u})
         for (int face = 0; face < 5; ++face) {
-            Scene world = islands();
+            Scene world = two_islands();
             add_face(world, face);
             const double wanted = face == 0 ? top : (1.0 - top) / 4.0;
             EXPECT_NEAR(reach(world, size), wanted, bound) << "face " << face << ", size " << size;
@@ -101,7 +101,7 @@ TEST(Reach, OfTheFacesOfACubeIsThatOfItsHemicube) {
 // count or not: of the cells along the edge, half a cell each, as many one way as the other.
 TEST(Reach, OfADiscIsItsViewFactor) {
     for (const double radius : {0.25, 0.5, 0.75, 0.95}) {
-        Scene world = islands();
+        Scene world = two_islands();
         add_disc(world, {0, 0, 1}, radius);
         const double wanted = radius * radius / (radius * radius + 1.0);
         const double cells = 2.0 * test::pi * radius * 16.0;  // along the edge
@@ -113,7 +113,7 @@ TEST(Reach, OfADiscIsItsViewFactor) {
 // A wall close by, to infinity, is half of what there is to see.
 TEST(Reach, OfHalfTheSkyIsAHalf) {
     for (const double side : {-1.0, 1.0}) {
-        Scene world = islands();
+        Scene world = two_islands();
         test::add_quad(world, {glm::dvec3(0.001 * side, -3 * side, -0.5),
                                {0.001 * side, -3 * side, 3.5},
                                {0.001 * side, 3 * side, 3.5},
@@ -128,7 +128,7 @@ TEST(Reach, CountsFrontsAndBothSidesOfTheDoubleSided) {
     Material both;
     both.double_sided = true;
     for (const bool away : {false, true}) {
-        Scene one = islands(), two = islands();
+        Scene one = two_islands(), two = two_islands();
         const std::uint32_t material = test::add_material(two, both);
         add_disc(one, {0, 0, 1}, 0.7, away);
         add_disc(two, {0, 0, 1}, 0.7, away, material);

@@ -12,7 +12,7 @@ namespace {
 
 using test::VplHeap;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A heap of VPLs in random light, of which some was sent before.

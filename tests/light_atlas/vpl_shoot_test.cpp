@@ -9,7 +9,7 @@
 namespace clgi {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 
 // Sites with random factors of everything.
 struct Exchange {

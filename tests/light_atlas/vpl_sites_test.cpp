@@ -10,7 +10,7 @@ namespace {
 
 using test::VplHeap;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 
 TEST(Place, TakesMeansOfReflectanceAndTurnsBacks) {
     VplHeap heap(50);

@@ -20,7 +20,7 @@ namespace {
 
 using test::Proven;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Surfaces are shaded flat, unless told.
 void expect_proven(const Scene& scene, const Proven& wanted, const std::string& name,

@@ -5,6 +5,7 @@
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/emitters.hpp>
 #include <clgi/error.hpp>
+#include <numbers>
 #include <set>
 
 #include "effect_cost.hpp"
@@ -14,11 +15,11 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr int width = 64, height = 48;
-constexpr std::size_t pixels = std::size_t{width} * height;
+using std::numbers::pi;
+constexpr int off_width = 64, off_height = 48;
+constexpr std::size_t off_pixels = std::size_t{off_width} * off_height;
 
-const cl::CommandQueue& queue() { return test::device().queue; }
+const cl::CommandQueue& off_queue() { return test::device().queue; }
 
 // Unshadowed radiance of the floor, cd/m^2.
 glm::dvec3 open_floor(const Scene& scene, const glm::dvec3& at) {
@@ -49,8 +50,8 @@ struct Direct {
 
 SecondOrderOptions direct_options(bool shadows) {
     SecondOrderOptions out;
-    out.width = width;
-    out.height = height;
+    out.width = off_width;
+    out.height = off_height;
     out.indirect = false;
     out.emitters = test::small_maps(shadows);
     return out;
@@ -59,9 +60,9 @@ SecondOrderOptions direct_options(bool shadows) {
 Direct second_order(const Scene& scene, const SecondOrderOptions& options) {
     const Programs own = test::own_programs();
     const DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(own, queue(), device, options);
+    SecondOrderSolver solver(own, off_queue(), device, options);
     solver.render(scene.cameras.at(0)).wait();
-    const test::Frame frame = test::read_frame(queue(), device, solver);
+    const test::Frame frame = test::read_frame(off_queue(), device, solver);
     Direct out;
     out.cost.kernels = own.built_kernels();
     EXPECT_EQ(out.cost.kernels.size(), own.built());
@@ -70,7 +71,7 @@ Direct second_order(const Scene& scene, const SecondOrderOptions& options) {
     EXPECT_EQ(estimate(test::device().device, device, options).bytes, solver.bytes());
     out.capacity = solver.emitters().capacity;
     out.radiance = frame.radiance;
-    for (std::size_t i = 0; i < pixels && frame.launches > 0; ++i)
+    for (std::size_t i = 0; i < off_pixels && frame.launches > 0; ++i)
         out.places.push_back(frame.world(i));
     return out;
 }
@@ -83,7 +84,7 @@ TEST(WithoutShadows, AConvexRoomLooksTheSameAndDrawsNoMap) {
     const Direct off = second_order(scene, direct_options(false));
     test::expect_no_less(on.radiance, off.radiance, 0.01);
     int compared = 0;
-    for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t i = 0; i < off_pixels; ++i) {
         if (off.radiance[i] == glm::vec3(0.0f)) continue;  // through the open wall
         if (test::near_an_edge(scene, off.places[i], 0.2)) continue;
         ++compared;
@@ -110,7 +111,7 @@ TEST(WithoutShadows, WhatLiesUnderAPlateIsLit) {
     const Direct off = second_order(scene, direct_options(false));
     const glm::dvec3 n = glm::normalize(glm::dvec3(scene.normals[0]));
     int floor = 0, shaded = 0;
-    for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t i = 0; i < off_pixels; ++i) {
         if (off.radiance[i] == glm::vec3(0.0f)) continue;
         if (std::abs(glm::dot(n, off.places[i])) > 1e-4) continue;  // the plate
         const glm::dvec3 wanted = open_floor(scene, off.places[i]);
@@ -132,13 +133,13 @@ TEST(WithoutShadows, LightsMayChange) {
     Scene scene = test::shaded_floor();
     scene.lights[0].intensity = glm::vec3(0.0f);
     DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::programs(), queue(), device, direct_options(false));
+    SecondOrderSolver solver(test::programs(), off_queue(), device, direct_options(false));
     const std::size_t before = solver.bytes();
     scene.lights[0].intensity = {1.0f, 2.0f, 3.0f};
     device.set_light(0, scene.lights[0]);
     solver.lights_changed();
     solver.render(scene.cameras[0]).wait();
-    EXPECT_EQ(test::read_frame(queue(), device, solver).radiance,
+    EXPECT_EQ(test::read_frame(off_queue(), device, solver).radiance,
               second_order(scene, direct_options(false)).radiance);
     EXPECT_EQ(solver.bytes(), before);
 }
@@ -148,7 +149,7 @@ TEST(WithoutShadows, IndirectLightIsRefused) {
     const DeviceScene device = test::on_device(test::shaded_floor());
     SecondOrderOptions options = direct_options(false);
     options.indirect = true;
-    EXPECT_THROW(SecondOrderSolver(test::programs(), queue(), device, options), Error);
+    EXPECT_THROW(SecondOrderSolver(test::programs(), off_queue(), device, options), Error);
     try {
         estimate(test::device().device, device, options);
         ADD_FAILURE() << "it was taken";
@@ -157,7 +158,7 @@ TEST(WithoutShadows, IndirectLightIsRefused) {
         EXPECT_NE(std::string(error.what()).find("indirect"), std::string::npos);
     }
     options.emitters.vpls = 0;
-    SecondOrderSolver without_vpls(test::programs(), queue(), device, options);
+    SecondOrderSolver without_vpls(test::programs(), off_queue(), device, options);
     EXPECT_EQ(make_emitters(device, {.shadows = false}).vpl_count, 0u);
 }
 
@@ -220,7 +221,7 @@ TEST(DarkLights, AreLitLaterWithoutTheCompiler) {
         DeviceScene device = test::on_device(scene);
         SecondOrderOptions options = indirect_options();
         options.low_resolution_step = 4;
-        SecondOrderSolver solver(own, queue(), device, options);
+        SecondOrderSolver solver(own, off_queue(), device, options);
         const std::vector<std::string> kernels = own.built_kernels();
         for (std::size_t i = 0; i < scene.lights.size(); ++i) device.set_light(i, lit.lights[i]);
         solver.lights_changed();
@@ -242,7 +243,7 @@ void expect_maps_built_ahead(Scene scene, Pixels kind, std::size_t least, std::s
     BufferTable table("maps");
     emitters.add_to(table);
     add_raster_lists(table, lists, device);
-    Recorder record(queue(), "maps");
+    Recorder record(off_queue(), "maps");
     table.allocate(record);
     emitters.build(gbuffer);
     const std::vector<std::string> built = own.built_kernels();

@@ -18,7 +18,7 @@ namespace {
 
 using test::distance;
 using test::mean;
-using test::Pixels;
+using test::Radiances;
 
 std::vector<int> scene_numbers() {
     const char* wanted = std::getenv("CLGI_GATES");
@@ -64,7 +64,8 @@ Given given(unsigned seed) {
 }
 
 // Nothing where the method refuses the scene; `refused` then says why.
-std::optional<Pixels> picture(const Given& of, const PlanRequest& request, std::string& refused) {
+std::optional<Radiances> picture(const Given& of, const PlanRequest& request,
+                                 std::string& refused) {
     try {
         const Plan plan = test::plan_of(of.scene, of.camera, request);
         const Scene left = planned_scene(of.scene, plan);
@@ -82,7 +83,7 @@ std::optional<Pixels> picture(const Given& of, const PlanRequest& request, std::
     }
 }
 
-void expect_light(const Pixels& picture) {
+void expect_light(const Radiances& picture) {
     for (const glm::vec3& pixel : picture)
         for (int c = 0; c < 3; ++c)
             ASSERT_TRUE(std::isfinite(pixel[c]) && pixel[c] >= 0.0f) << pixel[c];
@@ -96,7 +97,7 @@ Given untextured(Given of) {
 }
 
 // Pixels that differ by more than a hundredth.
-int unlike(const Pixels& a, const Pixels& b) {
+int unlike(const Radiances& a, const Radiances& b) {
     int out = 0;
     for (std::size_t p = 0; p < a.size(); ++p) {
         const double one = test::luminance_of(a[p]), other = test::luminance_of(b[p]);
@@ -153,7 +154,7 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
             request.method = Method::direct;
             const Given plain = untextured(of);
             const auto lean = picture(plain, request, why);
-            const Pixels truth = test::traced(plain.scene, plain.camera, 1, direct);
+            const Radiances truth = test::traced(plain.scene, plain.camera, 1, direct);
             ASSERT_TRUE(lean) << why;
             // Single pixels at the edges of surfaces and cones.
             const double apart = distance(*lean, truth);
@@ -163,8 +164,8 @@ TEST(Gates, LeaveOutNoMoreThanTheySay) {
         }
         const bool proven = off(Effect::first_bounce, Evidence::proven);
         if (proven || off(Effect::first_bounce, Evidence::measured)) {
-            const Pixels all = test::traced(of.scene, of.camera, 64);
-            const Pixels once = test::traced(of.scene, of.camera, 64, direct);
+            const Radiances all = test::traced(of.scene, of.camera, 64);
+            const Radiances once = test::traced(of.scene, of.camera, 64, direct);
             EXPECT_LE(distance(all, once), (plan.bound + 1e-6) * mean(all))
                 << (proven ? "proven" : "measured") << ", bound " << plan.bound << ", of the mean "
                 << distance(all, once) / mean(all) << ", pixels " << unlike(all, once)

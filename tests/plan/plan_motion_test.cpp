@@ -12,7 +12,7 @@ namespace {
 
 using test::distance;
 using test::mean;
-using test::Pixels;
+using test::Radiances;
 
 // One node that a clip of a second carries by `travel`.
 Animation carried_by(const glm::vec3& travel) {
@@ -82,7 +82,7 @@ PlanRequest moving(std::vector<Effect> without = {}) {
 }
 
 // The picture at a time of the clip, with nothing of the motion but what the plan keeps.
-Pixels at_time(const Scene& scene, const Camera& camera, const Plan& plan, double seconds) {
+Radiances at_time(const Scene& scene, const Camera& camera, const Plan& plan, double seconds) {
     Scene left = planned_scene(scene, plan);
     left.moving_bounds = motion_bounds(left, 0);
     DeviceScene uploaded = test::on_device(left);
@@ -111,10 +111,10 @@ TEST_P(PlannedMotion, KeepsMotionThatIsTheWholePicture) {
         EXPECT_TRUE(plan.on(Effect::direct_shadows));  // the plate is not there at first
         EXPECT_FALSE(less.on(effect));
         for (const double seconds : {0.0, 1.0}) {
-            const Pixels truth =
+            const Radiances truth =
                 test::traced(posed(scene, pose_at(*scene.animation, 0, seconds)), down, 256);
-            const Pixels kept = at_time(scene, down, plan, seconds);
-            const Pixels left = at_time(scene, down, less, seconds);
+            const Radiances kept = at_time(scene, down, plan, seconds);
+            const Radiances left = at_time(scene, down, less, seconds);
             const double level = std::max(mean(truth), mean(left));
             EXPECT_LE(distance(kept, truth), 0.05 * level) << seconds << " s";
             if (seconds > 0.0) {

@@ -14,13 +14,13 @@ using test::add_coloured_lights;
 using test::all_effects;
 using test::distance;
 using test::mean;
-using test::Pixels;
 using test::plan_of;
 using test::quick;
+using test::Radiances;
 using test::slanted_room;
 
 struct Rendered {
-    Pixels pixels;
+    Radiances pixels;
     std::set<std::string> passes;
     std::size_t bytes = 0;
 };
@@ -64,7 +64,7 @@ TEST(Plan, LeavesOutShadowsInAConvexRoom) {
     EXPECT_TRUE(shadowed.on(Effect::direct_shadows));
     EXPECT_EQ(render(scene, camera, shadowed).pixels, lean.pixels);
     EXPECT_LT(lean.bytes, full.bytes);
-    const Pixels truth = test::traced(scene, camera, 512);
+    const Radiances truth = test::traced(scene, camera, 512);
     EXPECT_LT(distance(lean.pixels, truth), 0.1 * mean(truth));
     EXPECT_NEAR(mean(lean.pixels), mean(truth), 0.04 * mean(truth));
 }
@@ -125,8 +125,8 @@ TEST(Plan, BoundsLightThatComesLate) {
     EXPECT_FALSE(plan.on(Effect::first_bounce));
     reference::Effects direct_light;
     direct_light.last_bounce = 0;
-    const Pixels all = test::traced(scene, camera, 512);
-    const Pixels direct = test::traced(scene, camera, 512, direct_light);
+    const Radiances all = test::traced(scene, camera, 512);
+    const Radiances direct = test::traced(scene, camera, 512, direct_light);
     const double lost = distance(direct, all) / mean(all);
     EXPECT_GT(lost, 0.02);
     EXPECT_LT(lost, plan.bound) << plan.probe->first_bounce << " " << plan.probe->reflected;
@@ -143,9 +143,9 @@ TEST(Plan, ProbesIndirectLightOfDarkScenes) {
     ASSERT_TRUE(plan.probe);
     reference::Effects effects;
     effects.last_bounce = 1;
-    const Pixels once = test::traced(scene, camera, 256, effects);
+    const Radiances once = test::traced(scene, camera, 256, effects);
     effects.last_bounce = 0;
-    const Pixels direct = test::traced(scene, camera, 16, effects);
+    const Radiances direct = test::traced(scene, camera, 16, effects);
     const double share = distance(once, direct) / mean(once);
     EXPECT_NEAR(plan.probe->first_bounce, share, 0.1 * share);
     EXPECT_FALSE(plan.on(Effect::first_bounce));
@@ -171,12 +171,13 @@ TEST(Plan, FollowsLightsThatChange) {
         Renderer renderer(test::programs(), test::device().queue, scene, uploaded, plan);
         EXPECT_TRUE(renderer.prepare());
         renderer.render(camera).wait();
-        const Pixels before = test::shown_by(renderer);
+        const Radiances before = test::shown_by(renderer);
         uploaded.set_light(0, changed.lights[0]);
         renderer.lights_changed();
         EXPECT_TRUE(renderer.prepare());
         renderer.render(camera).wait();
-        const Pixels after = test::shown_by(renderer), fresh = render(changed, camera, plan).pixels;
+        const Radiances after = test::shown_by(renderer),
+                        fresh = render(changed, camera, plan).pixels;
         EXPECT_LT(distance(after, fresh), 1e-3 * mean(fresh));
         EXPECT_GT(distance(after, before), 0.1 * mean(fresh));
     }
@@ -333,15 +334,15 @@ TEST(Plan, KeepsWhatIsTheWholePicture) {
         SCOPED_TRACE(name_of(whole.effect));
         const Plan plan = plan_of(whole.scene, whole.camera, quick());
         EXPECT_TRUE(plan.on(whole.effect));
-        const Pixels kept = render(whole.scene, whole.camera, plan).pixels;
+        const Radiances kept = render(whole.scene, whole.camera, plan).pixels;
         PlanRequest request = quick({}, {whole.effect});
         // Further bounces and what lies between surfaces are what second order lacks.
         if (whole.effect == Effect::further_bounces || whole.effect == Effect::indirect_occlusion)
             request.method = Method::second_order;
         const Plan less = plan_of(whole.scene, whole.camera, request);
         EXPECT_FALSE(less.on(whole.effect));
-        const Pixels left = render(whole.scene, whole.camera, less).pixels;
-        const Pixels truth = test::traced(whole.scene, whole.camera, 256);
+        const Radiances left = render(whole.scene, whole.camera, less).pixels;
+        const Radiances truth = test::traced(whole.scene, whole.camera, 256);
         const double level = std::max(mean(truth), mean(left));
         EXPECT_GT(level, 0.0);
         EXPECT_LT(distance(kept, truth), whole.error * level);

@@ -11,7 +11,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double facing_squares = 0.1998248957;  // form factor of unit squares 1 apart, and
                                                  // of a face of a cube and the one across
 

@@ -5,6 +5,7 @@
 #include <clgi/error.hpp>
 #include <clgi/reference.hpp>
 #include <limits>
+#include <numbers>
 
 #include "honest_errors.hpp"
 #include "scenes.hpp"
@@ -20,9 +21,9 @@ using reference::Picture;
 using reference::Place;
 using reference::Sampling;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-reference::Options options_for(const std::string& effects, int samples,
+reference::Options sky_options(const std::string& effects, int samples,
                                Sampling sampling = Sampling::both) {
     reference::Options options;
     options.effects = parse_effects(effects);
@@ -58,7 +59,7 @@ Estimate lit(const Environment& sky, const glm::vec3& normal, int samples = 256,
              Sampling sampling = Sampling::both) {
     const std::vector<Place> places(200, {{0, 0, 0}, glm::normalize(normal)});
     return estimate_of(
-        PathTracer(scene_under(sky)).irradiance(places, options_for("direct", samples, sampling)));
+        PathTracer(scene_under(sky)).irradiance(places, sky_options("direct", samples, sampling)));
 }
 
 // 4.5 standard errors: one false alarm in 150,000.
@@ -91,7 +92,7 @@ TEST(ReferenceEnvironment, LightsAConvexBodyByItsAlbedoExactly) {
         add_sphere(scene, 1.0, 0);
         scene.environment = test::even_sky({2.0f, 3.0f, 5.0f});
         const Picture picture =
-            PathTracer(scene).render(test::camera_at({1, 2, 3}, {0, 0, 0}), options_for("all", 4));
+            PathTracer(scene).render(test::camera_at({1, 2, 3}, {0, 0, 0}), sky_options("all", 4));
         std::size_t sky = 0;
         for (const glm::vec3& radiance : picture.radiance) {
             const bool background = std::abs(radiance.x - 2.0f) < 1e-6f;
@@ -116,7 +117,7 @@ TEST(ReferenceEnvironment, LosesSightOfAWhiteBodyWithHollows) {
     test::add_box(scene, {-0.4, -1, -0.4}, {0.3, 0.1, 0.3}, 1);
     scene.environment = test::even_sky(glm::vec3(3.0f));
     const Picture picture =
-        PathTracer(scene).render(test::camera_at({0.3, 0.4, 4}, {0, 0, 0}), options_for("all", 64));
+        PathTracer(scene).render(test::camera_at({0.3, 0.4, 4}, {0, 0, 0}), sky_options("all", 64));
     for (std::size_t p = 0; p < picture.radiance.size(); ++p)
         EXPECT_NEAR(picture.radiance[p].x, 3.0, 5.0 * picture.error[p] + 2e-4) << p;
 }
@@ -148,7 +149,7 @@ TEST(ReferenceEnvironment, ReflectsAnEvenSkyByTheAlbedoOfTheLobe) {
                 scene.environment = picture_of_one_texel
                                         ? test::picture_sky(2, 1, [](int, int) { return 1.0f; })
                                         : test::even_sky(glm::vec3(1.0f));
-                reference::Options options = options_for("direct", 1024);
+                reference::Options options = sky_options("direct", 1024);
                 options.width = options.height = 8;
                 const Picture picture = PathTracer(scene).render(
                     test::camera_at({8 * std::sin(slant), 8 * std::cos(slant), 1e-3}, {0, 0, 0},
@@ -214,7 +215,7 @@ TEST(ReferenceEnvironment, IsReflectedAtEveryOrder) {
     const PathTracer tracer(scene);
     const std::vector<Place> places(200, {{0, 1, 0}, {0, -1, 0}});
     const auto found = [&](const std::string& effects) {
-        return estimate_of(tracer.irradiance(places, options_for(effects, 256)));
+        return estimate_of(tracer.irradiance(places, sky_options(effects, 256)));
     };
     // 1e-5: what a floor of 4 km does not fill of the view.
     expect_lit(found("one-bounce"), pi, 1e-5, "one bounce");
@@ -228,7 +229,7 @@ TEST(ReferenceEnvironment, IsReflectedAtEveryOrder) {
     test::add_box(room, {-1, -1, -1}, {1, 1, 1}, -1);
     room.environment = test::gradient_sky();
     const auto dark = PathTracer(room).irradiance(
-        std::vector<Place>(50, {{0.1, 0.2, 0.3}, {0, 1, 0}}), options_for("all", 64));
+        std::vector<Place>(50, {{0.1, 0.2, 0.3}, {0, 1, 0}}), sky_options("all", 64));
     EXPECT_EQ(estimate_of(dark).mean, 0.0);
 }
 
@@ -236,7 +237,7 @@ TEST(ReferenceEnvironment, IsSeenWhereEmissionIs) {
     const Scene scene = scene_under(test::picture_sky(
         4, 2, [](int row, int column) { return static_cast<float>(1 + 4 * row + column); }));
     const auto seen = [&](const glm::dvec3& toward, const char* effects) {
-        reference::Options options = options_for(effects, 1);
+        reference::Options options = sky_options(effects, 1);
         options.width = options.height = 1;
         return PathTracer(scene).render(test::camera_at({0, 0, 0}, toward), options).radiance[0].x;
     };

@@ -7,6 +7,7 @@
 #include <clgi/reference.hpp>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "honest_errors.hpp"
 #include "scenes.hpp"
@@ -20,7 +21,8 @@ using reference::PathTracer;
 using reference::Picture;
 using reference::Place;
 
-constexpr double pi = 3.14159265358979323846, degree = pi / 180.0;
+using std::numbers::pi;
+constexpr double degree = pi / 180.0;
 
 reference::Options options_for(const std::string& effects, int samples) {
     reference::Options options;

@@ -15,7 +15,7 @@
 namespace clgi {
 namespace {
 
-using test::Pixels;
+using test::Radiances;
 
 constexpr Method all_methods[] = {Method::direct, Method::second_order, Method::light_atlas,
                                   Method::antiradiance, Method::dynamic_transfer};
@@ -57,21 +57,23 @@ RendererOptions quick(Method method) {
     return out;
 }
 
-Pixels picture_of(Renderer& renderer, const Camera& camera = eye()) {
+Radiances picture_of(Renderer& renderer, const Camera& camera = eye()) {
     renderer.render(camera);
     const auto planes = renderer.read_radiance();
-    Pixels out;
+    Radiances out;
     for (std::size_t i = 0; i < planes[0].size(); ++i)
         out.emplace_back(planes[0][i], planes[1][i], planes[2][i]);
     return out;
 }
 
-Pixels fresh(const Scene& scene, Method method) {
+Radiances fresh(const Scene& scene, Method method) {
     Renderer renderer(test::device().queue, scene, quick(method));
     return picture_of(renderer);
 }
 
-double change(const Pixels& a, const Pixels& b) { return test::distance(a, b) / test::mean(b); }
+double change(const Radiances& a, const Radiances& b) {
+    return test::distance(a, b) / test::mean(b);
+}
 
 // Each method put together by hand, bit for bit.
 TEST(Renderer, ShowsWhatSolverAndViewShow) {
@@ -142,10 +144,10 @@ TEST(Renderer, FollowsLights) {
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
         Renderer renderer(test::device().queue, scene, quick(method));
-        const Pixels before = picture_of(renderer);
+        const Radiances before = picture_of(renderer);
         renderer.scene().set_light(0, changed.lights[0]);
         renderer.lights_changed();
-        const Pixels after = picture_of(renderer), wanted = fresh(changed, method);
+        const Radiances after = picture_of(renderer), wanted = fresh(changed, method);
         EXPECT_LT(change(after, wanted), 1e-4);
         EXPECT_GT(change(before, wanted), 0.05);
     }
@@ -171,7 +173,7 @@ TEST(Renderer, FollowsLightsThatOutgrowTheirBuffers) {
         const std::size_t before = renderer.bytes();
         for (std::size_t i = 0; i < 2; ++i) renderer.scene().set_light(i, changed.lights[i]);
         renderer.lights_changed();
-        const Pixels after = picture_of(renderer);
+        const Radiances after = picture_of(renderer);
         Renderer wanted(test::device().queue, changed, options);
         EXPECT_LT(change(after, picture_of(wanted)), 1e-4);
         EXPECT_GT(renderer.bytes(), before);
@@ -186,10 +188,10 @@ TEST(Renderer, FollowsATurnedSky) {
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
         Renderer renderer(test::device().queue, scene, quick(method));
-        const Pixels before = picture_of(renderer);
+        const Radiances before = picture_of(renderer);
         renderer.scene().turn_environment(1.3);
         renderer.environment_changed();
-        const Pixels after = picture_of(renderer), wanted = fresh(turned, method);
+        const Radiances after = picture_of(renderer), wanted = fresh(turned, method);
         EXPECT_LT(change(after, wanted), 1e-4);
         EXPECT_GT(change(before, wanted), 0.01);
         // Angles count from what was uploaded.
@@ -227,7 +229,7 @@ TEST(Renderer, FollowsGeometry) {
             renderer.geometry_changed({step.done});
             return picture_of(renderer, scene.cameras[0]);
         };
-        const Pixels first = at(0.0), last = at(1.0), again = at(0.0);
+        const Radiances first = at(0.0), last = at(1.0), again = at(0.0);
         EXPECT_GT(change(last, first), 0.02);
         EXPECT_LT(change(again, first), 1e-5);
         EXPECT_EQ(renderer.status().non_finite, 0u);
@@ -320,7 +322,7 @@ TEST(Renderer, LightsAGivenGBufferBySecondOrderAlone) {
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
         Renderer renderer(test::device().queue, scene, quick(method));
-        const Pixels drawn = picture_of(renderer);
+        const Radiances drawn = picture_of(renderer);
         if (SecondOrderSolver* solver = renderer.second_order()) {
             renderer.render(eye(), solver->gbuffer());
             const auto planes = renderer.read_radiance();

@@ -14,7 +14,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Texture noise(int width, int height, std::uint64_t seed) {
     Texture out;

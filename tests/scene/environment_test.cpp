@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <clgi/reference.hpp>
+#include <numbers>
 
 #include "frames.hpp"
 #include "math_modes.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 using test::Frame;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(Background);
 CLGI_IN_ALL_MODES(NoBackground);

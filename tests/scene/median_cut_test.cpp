@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "scene/environment.hpp"
 #include "scene/luminance.hpp"
@@ -13,7 +14,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Uneven everywhere, in every channel.
 Environment rough_sky(int width, int height) {

@@ -11,7 +11,7 @@
 namespace clgi {
 namespace {
 
-SecondOrderOptions small_frame() {
+SecondOrderOptions tiny_frame() {
     SecondOrderOptions options;
     options.width = 96;
     options.height = 72;
@@ -59,7 +59,7 @@ void expect_same_emission(const DeviceScene& a, const DeviceScene& b) {
 TEST(MovingEmission, GivesTheBitsOfAFreshLoad) {
     DeviceScene scene = test::on_device(lantern().scene);
     ASSERT_EQ(scene.emissive().size(), 14u);
-    SecondOrderSolver solver(test::programs(), test::device().queue, scene, small_frame());
+    SecondOrderSolver solver(test::programs(), test::device().queue, scene, tiny_frame());
     SceneMover mover(test::device().queue, scene);
     for (const glm::dvec3& shift : {glm::dvec3(0.3, -0.5, 0.2), glm::dvec3(-0.31, 0.1, -0.44)}) {
         Lantern moved = lantern(shift);
@@ -72,7 +72,7 @@ TEST(MovingEmission, GivesTheBitsOfAFreshLoad) {
         solver.render(moved.scene.cameras[0]).wait();
         EXPECT_TRUE(test::same_bits(
             test::read_frame(test::device().queue, scene, solver).radiance,
-            test::render(moved.scene, moved.scene.cameras[0], small_frame()).radiance));
+            test::render(moved.scene, moved.scene.cameras[0], tiny_frame()).radiance));
     }
 }
 
@@ -95,7 +95,7 @@ TEST(MovingGeometry, TakesTheFrameOfAFreshLoadWhenRefitted) {
     const test::Turning turning = test::bunny();
     for (const bool from_host : {true, false}) {
         DeviceScene scene = test::on_device(turning.rest);
-        SecondOrderSolver solver(test::programs(), test::device().queue, scene, small_frame());
+        SecondOrderSolver solver(test::programs(), test::device().queue, scene, tiny_frame());
         SceneMover mover(test::device().queue, scene);
         for (const double size : {3.7, 0.02}) {
             Scene world = turning.turned(size);
@@ -121,7 +121,7 @@ TEST(MovingGeometry, TakesTheFrameOfAFreshLoadWhenRefitted) {
             solver.render(world.cameras[0]).wait();
             EXPECT_TRUE(
                 test::same_bits(test::read_frame(test::device().queue, scene, solver).radiance,
-                                test::render(world, world.cameras[0], small_frame()).radiance));
+                                test::render(world, world.cameras[0], tiny_frame()).radiance));
         }
     }
 }
@@ -132,7 +132,7 @@ TEST(MovingGeometry, WaitsForWhatItIsToldOnAQueueOutOfOrder) {
     const cl::CommandQueue queue(on.context, on.device, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
-    SecondOrderSolver solver(queue, scene, small_frame());
+    SecondOrderSolver solver(queue, scene, tiny_frame());
     SceneMover mover(queue, scene);
     cl::UserEvent start(on.context);
     WaitList wait = {start};
@@ -158,7 +158,7 @@ TEST(MovingGeometry, WaitsForWhatItIsToldOnAQueueOutOfOrder) {
     for (std::size_t frame = 0; frame < 5; ++frame)
         EXPECT_TRUE(test::same_bits(
             test::vectors(on.queue, pictures[frame], solver.stride(), pixels),
-            test::render(scenes[frame], scenes[frame].cameras[0], small_frame()).radiance))
+            test::render(scenes[frame], scenes[frame].cameras[0], tiny_frame()).radiance))
             << frame;
     EXPECT_TRUE(mover.status().fits);
 }

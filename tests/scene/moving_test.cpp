@@ -11,7 +11,7 @@
 namespace clgi {
 namespace {
 
-SecondOrderOptions small_frame() {
+SecondOrderOptions moving_frame() {
     SecondOrderOptions options;
     options.width = 160;
     options.height = 120;
@@ -27,7 +27,7 @@ std::vector<glm::vec3> radiance(const DeviceScene& scene, SecondOrderSolver& sol
 }
 
 std::vector<glm::vec3> fresh_radiance(const Scene& scene) {
-    return test::render(scene, scene.cameras[0], small_frame()).radiance;
+    return test::render(scene, scene.cameras[0], moving_frame()).radiance;
 }
 
 // Every position, normal and cluster, and the picture, are those of a fresh load.
@@ -49,7 +49,7 @@ void expect_fresh(const DeviceScene& moved, SecondOrderSolver& solver, const Sce
 TEST(MovingGeometry, OfTheHostGivesTheBitsOfAFreshLoad) {
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
-    SecondOrderSolver solver(test::programs(), test::device().queue, scene, small_frame());
+    SecondOrderSolver solver(test::programs(), test::device().queue, scene, moving_frame());
     SceneMover mover(test::device().queue, scene);
     const auto at_rest = fresh_radiance(turning.rest);
     for (int frame = 1; frame <= 6; ++frame) {
@@ -69,7 +69,7 @@ TEST(MovingGeometry, OfTheHostGivesTheBitsOfAFreshLoad) {
 TEST(MovingGeometry, OfTheCallersBuffersGivesTheBitsOfAFreshLoad) {
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
-    SecondOrderSolver solver(test::programs(), test::device().queue, scene, small_frame());
+    SecondOrderSolver solver(test::programs(), test::device().queue, scene, moving_frame());
     SceneMover mover(test::device().queue, scene);
     for (int frame = 1; frame <= 6; ++frame) {
         Scene turned = turning.turned(0.41 * frame);
@@ -81,7 +81,7 @@ TEST(MovingGeometry, OfTheCallersBuffersGivesTheBitsOfAFreshLoad) {
 TEST(MovingGeometry, FarFromTheWorldsOriginIsAsExact) {
     const test::Turning turning = test::bunny({1e6, -3e5, 7654321.123});
     DeviceScene scene = test::on_device(turning.rest);
-    SecondOrderSolver solver(test::programs(), test::device().queue, scene, small_frame());
+    SecondOrderSolver solver(test::programs(), test::device().queue, scene, moving_frame());
     SceneMover mover(test::device().queue, scene);
     for (const glm::dvec3& origin :
          {glm::dvec3(1e6, -3e5, 7654321.123), glm::dvec3(1000001.1, -3e5, 7654320.7)}) {

@@ -195,7 +195,7 @@ Scene stage() {
     return scene;
 }
 
-SecondOrderOptions small_frame() {
+SecondOrderOptions animated_frame() {
     SecondOrderOptions options;
     options.width = 120;
     options.height = 90;
@@ -207,7 +207,7 @@ SecondOrderOptions small_frame() {
 TEST(SceneAnimator, GivesThePictureOfAFreshLoad) {
     const Scene scene = stage();
     DeviceScene device = test::on_device(scene);
-    SecondOrderSolver solver(test::programs(), test::device().queue, device, small_frame());
+    SecondOrderSolver solver(test::programs(), test::device().queue, device, animated_frame());
     SceneAnimator animator = animator_of(scene, device);
     std::vector<glm::vec3> last;
     for (const double time : {0.0, 0.4, 1.0}) {
@@ -231,13 +231,13 @@ TEST(SceneAnimator, GivesThePictureOfAFreshLoad) {
         EXPECT_EQ(again.frame().origin, device.frame().origin);
         EXPECT_EQ(again.frame().radius, device.frame().radius);
         EXPECT_TRUE(test::same_bits(test::vertex_bits(again), test::vertex_bits(device)));
-        const auto wanted = test::render(fresh, scene.cameras[0], small_frame()).radiance;
+        const auto wanted = test::render(fresh, scene.cameras[0], animated_frame()).radiance;
         EXPECT_TRUE(test::same_bits(found, wanted)) << time;
         EXPECT_FALSE(test::same_bits(found, last));
         last = found;
 
         // The host's pose differs by roundings: edges may fall on the other side of a pixel.
-        const auto host_picture = test::render(host, scene.cameras[0], small_frame()).radiance;
+        const auto host_picture = test::render(host, scene.cameras[0], animated_frame()).radiance;
         double difference = 0.0, sum = 0.0;
         for (std::size_t p = 0; p < found.size(); ++p) {
             difference += glm::length(glm::dvec3(found[p]) - glm::dvec3(host_picture[p]));

@@ -15,7 +15,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A quad with texture coordinates of its own in set 1, and none (all zero) in set 0.
 void add_charted_quad(Scene& scene, const std::array<glm::dvec3, 4>& corners, glm::vec2 low,

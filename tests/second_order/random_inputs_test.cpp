@@ -16,10 +16,10 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double u = 0x1p-24;  // half the spacing of floats at 1
 
-glm::vec3 direction(test::Random& random) {
+glm::vec3 any_direction(test::Random& random) {
     return glm::normalize(glm::vec3(random(-1, 1), random(-1, 1), random(-1, 1)) +
                           glm::vec3(0, 1e-6f, 0));
 }
@@ -37,7 +37,7 @@ std::vector<test::Receiver> around(test::Random& random, const Vpl& light, doubl
     for (int i = 0; i < pairs; ++i) {
         const auto distance = static_cast<float>(std::exp2(random(least, most)));
         out.push_back(
-            {glm::vec3(light.position) + distance * direction(random), direction(random)});
+            {glm::vec3(light.position) + distance * any_direction(random), any_direction(random)});
     }
     return out;
 }
@@ -53,8 +53,8 @@ TEST_P(DiscKernel, IsWithinItsRoundingsOfDoublePrecision) {
     test::Random random(31);
     for (int launch = 0; launch < launches; ++launch) {
         // At the origin, where small distances are floats too, and elsewhere.
-        const glm::vec3 at = launch % 2 ? 0.5f * direction(random) : glm::vec3(0.0f);
-        const Vpl light = light_at(at, direction(random), std::exp2(random(-40, 0)));
+        const glm::vec3 at = launch % 2 ? 0.5f * any_direction(random) : glm::vec3(0.0f);
+        const Vpl light = light_at(at, any_direction(random), std::exp2(random(-40, 0)));
         const auto receivers = around(random, light, launch % 2 ? -20 : -40, 1);
         const auto found = test::gather(receivers, {light}, {});
         double worst = 0.0, most = 0.0;
@@ -83,7 +83,7 @@ TEST_P(DiscLight, StaysFiniteAndBelowTheLightsRadiosity) {
     test::Random random(32);
     for (int launch = 0; launch < launches; ++launch) {
         const double area = std::exp2(random(-60, 10));
-        const Vpl light = light_at(glm::vec3(0.0f), direction(random), area);
+        const Vpl light = light_at(glm::vec3(0.0f), any_direction(random), area);
         // From the smallest denormal to a million scenes away.
         const auto found = test::gather(around(random, light, -149, 20), {light}, {});
         float lowest = 0.0f, highest = 0.0f;

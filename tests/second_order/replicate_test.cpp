@@ -34,9 +34,9 @@ RendererOptions of_renderer(const SecondOrderOptions& options) {
     return out;
 }
 
-using Pixels = std::vector<glm::vec3>;
+using Radiances = std::vector<glm::vec3>;
 
-Pixels picture(SecondOrderSolver& solver, const Camera& camera) {
+Radiances picture(SecondOrderSolver& solver, const Camera& camera) {
     solver.render(camera);
     return test::vectors(test::device().queue, solver.radiance(), solver.stride(),
                          static_cast<std::size_t>(solver.options().width) *
@@ -49,11 +49,11 @@ TEST(Replicate, ZeroIsTheSequenceItselfAndOthersAreNot) {
         const DeviceScene device = test::on_device(scene);
         SecondOrderSolver solver(test::programs(), test::device().queue, device,
                                  options_for(200, 40));
-        const Pixels plain = picture(solver, scene.cameras[0]);
+        const Radiances plain = picture(solver, scene.cameras[0]);
         solver.set_replicate(7);
-        const Pixels seven = picture(solver, scene.cameras[0]);
+        const Radiances seven = picture(solver, scene.cameras[0]);
         solver.set_replicate(8);
-        const Pixels eight = picture(solver, scene.cameras[0]);
+        const Radiances eight = picture(solver, scene.cameras[0]);
         EXPECT_FALSE(test::same_bits(plain, seven));
         EXPECT_FALSE(test::same_bits(seven, eight));
         solver.set_replicate(7);
@@ -93,7 +93,7 @@ TEST(Replicate, ReportsTheStandardErrorOfItsMean) {
     constexpr int count = 5;
     const lab::Replicates found = lab::replicate(renderer, scene.cameras[0], count).value();
     EXPECT_EQ(solver.options().emitters.replicate, 0u);
-    std::vector<Pixels> each;
+    std::vector<Radiances> each;
     for (int k = 1; k <= count; ++k) {
         solver.set_replicate(static_cast<std::uint32_t>(k));
         each.push_back(picture(solver, scene.cameras[0]));

@@ -15,8 +15,8 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double u = 0x1p-24;  // half the spacing of floats at 1
+using std::numbers::pi;
+constexpr double half_spacing = 0x1p-24;  // half the spacing of floats at 1
 constexpr double sizes[] = {1e-4, 0.7, 3.0, 1e6};
 
 // A room without a corner in the picture: the camera sees the floor only, and all walls light it.
@@ -67,17 +67,17 @@ Moved moved(const std::vector<Vpl>& lights, const SceneFrame& frame, const std::
 }
 
 // To first order a light's place moves by 6 u |e1| |e2| (2 t + |e1| + |e2|) / (d.(e1 x e2)) + 6 u,
-// in the local frame; e1 and e2 the edges of a wall, t the way to its corner, d the unit ray. Here
-// edges are 3.0 m at most in a frame of 4 m, sin of the angle between them at least 0.67, the way
-// to a corner 2.2 m, and rays meet walls at a cosine of 0.3 or more.
-constexpr double place_bound = (6 * (2 * 2.2 + 6.0) / (0.67 * 0.3) + 6 * 4.0) * u * 2;
+// u = half_spacing, in the local frame; e1 and e2 the edges of a wall, t the way to its corner, d
+// the unit ray. Here edges are 3.0 m at most in a frame of 4 m, sin of the angle between them at
+// least 0.67, the way to a corner 2.2 m, and rays meet walls at a cosine of 0.3 or more.
+constexpr double place_bound = (6 * (2 * 2.2 + 6.0) / (0.67 * 0.3) + 6 * 4.0) * half_spacing * 2;
 
 void expect_rounding_only(const Moved& rounding) {
     EXPECT_LE(rounding.place, place_bound);
     // A share's disc is dw d^2 / cos, d at least 0.6 m: two distances and a cosine, and the
     // products.
-    EXPECT_LE(rounding.disc, 2 * place_bound / 0.6 + place_bound / 0.3 + 16 * u);
-    EXPECT_LE(rounding.flux, 16 * u);
+    EXPECT_LE(rounding.disc, 2 * place_bound / 0.6 + place_bound / 0.3 + 16 * half_spacing);
+    EXPECT_LE(rounding.flux, 16 * half_spacing);
 }
 
 CLGI_IN_ALL_MODES(Scaled);
@@ -124,8 +124,9 @@ TEST_P(Scaled, IsTheSamePictureButForRounding) {
 
             const glm::dvec3 ray = lamp - at;
             const double d = glm::length(ray), direct = ray.y / (d * d * d);
-            const double moves = shift + 2 * u * 4.0;  // the lamp's place is rounded once each time
-            double bound = direct * (moves * (3 / d + 1 / ray.y) + 16 * u);
+            const double moves =
+                shift + 2 * half_spacing * 4.0;  // the lamp's place is rounded once each time
+            double bound = direct * (moves * (3 / d + 1 / ray.y) + 16 * half_spacing);
             for (const Vpl& light : usual.lights) {
                 const glm::dvec3 t = unscaled(usual.place, glm::vec3(light.position), 1.0) - at;
                 const double square = glm::dot(t, t);
@@ -134,7 +135,7 @@ TEST_P(Scaled, IsTheSamePictureButForRounding) {
                     (square + radius2) / pi / (square * (square + radius2) + radius2 * radius2);
                 const double flux =
                     light.flux.x * usual.place.exposure / std::pow(usual.place.scale, 2);
-                const double shares = 2 * lights.disc + lights.flux + (16 + 2 * 100) * u;
+                const double shares = 2 * lights.disc + lights.flux + (16 + 2 * 100) * half_spacing;
                 bound += flux * kernel * (6 * (shift + lights.place) / std::sqrt(square) + shares);
             }
             const double difference = std::abs(frame.radiance[p].x - usual.radiance[p].x);

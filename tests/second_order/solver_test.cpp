@@ -14,7 +14,7 @@ namespace {
 
 using test::Frame;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double degree = pi / 180.0;
 
 SecondOrderOptions options_for(int width, int height, int lights, int negative,

@@ -13,7 +13,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Every texel and channel has a value of its own.
 Environment coloured_sky(int width, int height) {

@@ -2,6 +2,7 @@
 // one sequence of points.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "lighting.hpp"
 #include "math_modes.hpp"
@@ -12,7 +13,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(Shares);
 

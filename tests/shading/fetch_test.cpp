@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "emitter_reference.hpp"
 #include "oblique.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 using test::PlacedLights;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct LightTruth {
     bool sure = false;  // no edge near by: which triangle is met does not depend on a texel

@@ -16,9 +16,9 @@ namespace {
 
 using test::Receiver;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
-glm::vec3 direction(test::Random& random) {
+glm::vec3 lobe_direction(test::Random& random) {
     glm::vec3 out(random(-1, 1), random(-1, 1), random(-1, 1));
     return glm::normalize(out + glm::vec3(0, 1e-6f, 0));
 }
@@ -44,7 +44,7 @@ TEST_P(Gather, IsTheSumInDoublePrecision) {
         for (int i = 0; i < n; ++i) {
             const glm::vec3 at(random(-1, 1), random(-1, 1), random(-1, 1));
             const glm::vec3 flux(random(0, 1), random(0, 0.5), random(0, 2));
-            lights.push_back(light_at(at, direction(random), flux,
+            lights.push_back(light_at(at, lobe_direction(random), flux,
                                       static_cast<float>(std::exp2(random(-20, 0)))));
         }
         // A third of them take light away.
@@ -53,10 +53,10 @@ TEST_P(Gather, IsTheSumInDoublePrecision) {
         std::vector<Receiver> receivers;
         for (int i = 0; i < 67; ++i)
             receivers.push_back(
-                {glm::vec3(random(-1, 1), random(-1, 1), random(-1, 1)), direction(random)});
+                {glm::vec3(random(-1, 1), random(-1, 1), random(-1, 1)), lobe_direction(random)});
         for (std::size_t i = 0; i < std::min<std::size_t>(lights.size(), 3);
              ++i)  // on top of lights
-            receivers.push_back({glm::vec3(lights[i].position), direction(random)});
+            receivers.push_back({glm::vec3(lights[i].position), lobe_direction(random)});
         for (Receiver& receiver : receivers) receiver.normal = test::stored(receiver.normal);
         const auto found = test::gather(receivers, lights, negative);
         for (std::size_t r = 0; r < receivers.size(); ++r) {
@@ -146,8 +146,8 @@ TEST(Gather, IsTheSameForEveryWorkGroupAndPacket) {
     std::vector<Vpl> lights;
     std::vector<Receiver> receivers;
     for (int i = 0; i < 77; ++i) {
-        lights.push_back(light_at(direction(random), direction(random), 1, 1e-4f));
-        receivers.push_back({0.5f * direction(random), direction(random)});
+        lights.push_back(light_at(lobe_direction(random), lobe_direction(random), 1, 1e-4f));
+        receivers.push_back({0.5f * lobe_direction(random), lobe_direction(random)});
     }
     const auto usual = test::gather(receivers, lights, lights);
     for (const BuildOptions& build : {BuildOptions{.packet_width = 1},

@@ -12,7 +12,7 @@
 namespace clgi {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A picture as arrays of texels, row 0 at the bottom.

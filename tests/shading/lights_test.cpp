@@ -14,7 +14,7 @@ namespace {
 
 using test::PlacedLights;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double degree = pi / 180.0;
 
 // A sphere of facets is a little smaller than the true one: 0.05 % in radius at this fineness.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "frames.hpp"
 #include "scenes.hpp"
@@ -12,6 +13,7 @@
 namespace clgi {
 namespace {
 
+using std::numbers::pi;
 // A room with walls of four colours, a tilted board, a box and a ball of flat faces, lit by a spot
 // of a colour of its own: nothing grey, nothing along an axis but the walls.
 Scene coloured_room() {
@@ -33,7 +35,6 @@ Scene coloured_room() {
         {glm::dvec3(-0.4, -0.9, 0.1), {0.3, -0.8, 0.3}, {0.4, -0.2, -0.3}, {-0.3, -0.3, -0.5}},
         green);
     // A dome of slender faces, with the normals of a sphere: curved for the eye.
-    const double pi = 3.14159265358979;
     const glm::dvec3 centre(0.35, -1.0, 0.2);
     const auto on = [&](int i, int j) {
         const double a = 2 * pi * i / 24, b = 0.5 * pi * j / 8;
@@ -56,11 +57,11 @@ Scene coloured_room() {
     return scene;
 }
 
-struct Error {
+struct LowError {
     double rms = 0.0, largest = 0.0;  // over the mean
 };
 
-Error error_of(const test::Frame& low, const test::Frame& full, int channel) {
+LowError error_of(const test::Frame& low, const test::Frame& full, int channel) {
     double square = 0.0, mean = 0.0, largest = 0.0;
     for (std::size_t p = 0; p < full.pixels; ++p) {
         const double apart =
@@ -104,7 +105,7 @@ TEST(LowResolution, IsWithinItsBoundOfFullResolutionInEveryChannel) {
         options.discontinuity_threshold = bound.threshold;
         const test::Frame low = test::render(scene, camera, options);
         for (int c = 0; c < 3; ++c) {
-            const Error error = error_of(low, full, c);
+            const LowError error = error_of(low, full, c);
             EXPECT_LT(error.rms, bound.rms) << bound.step << ", " << bound.threshold;
             EXPECT_LT(error.largest, bound.largest) << bound.step << ", " << bound.threshold;
         }

@@ -2,6 +2,7 @@
 // they take, per channel.                                             [Cochran07, section 3.3]
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "emitter_reference.hpp"
 #include "oblique.hpp"
@@ -9,7 +10,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Input {
     NegativeParams params{};

@@ -14,6 +14,7 @@
 namespace clgi {
 namespace {
 
+using std::numbers::pi;
 using test::Drawing;
 using test::Random;
 
@@ -131,7 +132,6 @@ INSTANTIATE_TEST_SUITE_P(Sizes, RasterSize,
 TEST(Raster, CoversAFanOnce) {
     Scene scene = test::plain_scene();
     const int spokes = 61;
-    const double pi = std::numbers::pi;
     for (int k = 0; k < spokes; ++k) {
         const double from = 2 * pi * k / spokes, to = 2 * pi * ((k + 1) % spokes) / spokes;
         test::add_triangle(scene, {31.3, 29.7, 0},

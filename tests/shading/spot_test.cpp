@@ -15,7 +15,7 @@ namespace {
 
 using test::PlacedLights;
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 Scene room(const glm::vec3& direction, double angle) {
     Scene scene = test::plain_scene();
@@ -45,20 +45,21 @@ TEST_P(Spot, TakesTheIndicesOfTheTable) {
     const int counts[] = {100, 300, 450};
     for (const auto& row : rows)
         for (int k = 0; k < 3; ++k)
-            EXPECT_EQ(placed(row.axis, row.angle * degree, counts[k], GetParam()).accepted.back(),
-                      row.last[k])
+            EXPECT_EQ(
+                placed(row.axis, row.angle * one_degree, counts[k], GetParam()).accepted.back(),
+                row.last[k])
                 << row.angle << " degrees, " << counts[k];
 }
 
 TEST(Spot, KeepsTheOrderOfTheSequence) {
-    const auto accepted = placed({0.3f, -1, 0.2f}, 40 * degree, 1000).accepted;
+    const auto accepted = placed({0.3f, -1, 0.2f}, 40 * one_degree, 1000).accepted;
     EXPECT_TRUE(std::is_sorted(accepted.begin(), accepted.end()));
     EXPECT_EQ(std::adjacent_find(accepted.begin(), accepted.end()), accepted.end());
     EXPECT_GE(accepted.front(), 1u);
 }
 
 TEST(Spot, TakesTheSameForEveryWorkGroup) {
-    const DeviceScene scene = test::on_device(room({0.3f, -1, 0.2f}, 20 * degree));
+    const DeviceScene scene = test::on_device(room({0.3f, -1, 0.2f}, 20 * one_degree));
     const PlacedLights usual = test::place_lights(scene, {.vpls = 333});
     for (const std::size_t size : {1, 7, 64, 256}) {
         const LightPasses passes(test::programs(), {.local_size = size});
@@ -74,12 +75,12 @@ TEST(Spot, TakesTheSameForEveryWorkGroup) {
 TEST(Spot, LightsNothingOutsideItsCone) {
     for (const double angle : {0.1, 1.0, 10.0, 30.0, 60.0, 75.0, 90.0}) {
         const glm::vec3 axis = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
-        for (const Vpl& light : placed(axis, angle * degree, 200).lights) {
+        for (const Vpl& light : placed(axis, angle * one_degree, 200).lights) {
             if (light.flux.w == 0.0f) continue;
             const double cosine =
                 glm::dot(glm::normalize(glm::dvec3(light.position)), glm::dvec3(axis));
             // 1e-6: a few float spacings of a direction, once in the cone test and once in the hit.
-            EXPECT_GE(cosine, std::cos(angle * degree) - 1e-6) << angle;
+            EXPECT_GE(cosine, std::cos(angle * one_degree) - 1e-6) << angle;
         }
     }
 }
@@ -88,7 +89,7 @@ TEST(Spot, LightsNothingOutsideItsCone) {
 // rejected, the cone is mapped, and the list of accepted ones is not used.
 TEST_P(Spot, FillsEveryConeThereIs) {
     for (const double angle : {1e-3, 0.01, 0.1, 0.5, 1.0, 5.0, 89.9, 90.0}) {
-        const PlacedLights found = placed({0, -1, 0.01f}, angle * degree, 300, GetParam());
+        const PlacedLights found = placed({0, -1, 0.01f}, angle * one_degree, 300, GetParam());
         std::size_t lit = 0;
         for (const Vpl& light : found.lights) {
             lit += light.flux.w > 0.0f;
@@ -105,7 +106,8 @@ TEST(Spot, KnowsTheShareOfTheSphereInNarrowCones) {
                                        {5.0, .001902650954},
                                        {30.0, .06698729811},
                                        {90.0, .5}}) {
-        const EmitterSet set = make_emitters(test::on_device(room({0, -1, 0}, angle * degree)), {});
+        const EmitterSet set =
+            make_emitters(test::on_device(room({0, -1, 0}, angle * one_degree)), {});
         EXPECT_NEAR(set.emitters[0].measure, 4 * std::numbers::pi * share,
                     1e-6 * set.emitters[0].measure);
     }
@@ -113,8 +115,8 @@ TEST(Spot, KnowsTheShareOfTheSphereInNarrowCones) {
 
 // Points that a turned cone still covers are the same points.
 TEST(Spot, KeepsTheLightsItStillCoversWhenItTurns) {
-    const PlacedLights before = placed({0, -1, 0}, 30 * degree, 300);
-    const PlacedLights after = placed({0.0872f, -0.9962f, 0}, 30 * degree, 300);
+    const PlacedLights before = placed({0, -1, 0}, 30 * one_degree, 300);
+    const PlacedLights after = placed({0.0872f, -0.9962f, 0}, 30 * one_degree, 300);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < 300; ++i) {
         const auto same =

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <clgi/clgi.hpp>
+#include <limits>
 #include <vector>
 
 namespace clgi::test {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 struct Device {
     cl::Device device;

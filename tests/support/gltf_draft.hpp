@@ -168,6 +168,13 @@ inline glm::dvec3 winding(const Scene& scene, std::size_t triangle) {
     return glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
 }
 
+// Saved and loaded again.
+inline Scene reload(const Scene& scene) {
+    const TempFolder folder;
+    io::save_glb(scene, folder.path() / "saved.glb");
+    return io::load_gltf(folder.path() / "saved.glb");
+}
+
 }  // namespace clgi::test
 
 // Whole positions and exact binary fractions: no rounding enters, so the default is exact.

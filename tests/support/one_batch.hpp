@@ -7,6 +7,7 @@
 
 #include "atlas_checks.hpp"
 #include "drawing.hpp"
+#include "vpl_tools.hpp"
 
 namespace clgi::test {
 
@@ -16,8 +17,6 @@ struct HandVpl {
     glm::dvec3 albedo = {0.5, 0.7, 0.3};
     glm::dvec3 received = {3.0, 2.0, 5.0};  // lux
 };
-
-inline const AtlasPasses& atlas_passes() { return shared_passes<AtlasPasses>(usual_build()); }
 
 // One sample point a VPL, where it stands.
 struct OneBatch {

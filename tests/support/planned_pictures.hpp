@@ -12,20 +12,20 @@ namespace clgi::test {
 
 constexpr int plan_width = 32, plan_height = 24;
 
-using Pixels = std::vector<glm::vec3>;
+using Radiances = std::vector<glm::vec3>;
 
 inline double luminance_of(const glm::vec3& rgb) {
     return glm::dot(glm::dvec3(rgb), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-inline double mean(const Pixels& picture) {
+inline double mean(const Radiances& picture) {
     double sum = 0.0;
     for (const glm::vec3& pixel : picture) sum += luminance_of(pixel);
     return sum / static_cast<double>(picture.size());
 }
 
 // Root of the mean squared difference of luminance, cd/m^2.
-inline double distance(const Pixels& a, const Pixels& b) {
+inline double distance(const Radiances& a, const Radiances& b) {
     double squares = 0.0;
     for (std::size_t k = 0; k < a.size(); ++k)
         squares += std::pow(luminance_of(a[k]) - luminance_of(b[k]), 2);
@@ -53,8 +53,8 @@ inline Plan plan_of(const Scene& scene, const Camera& camera, const PlanRequest&
 }
 
 // The path tracer's, of `samples` a pixel.
-inline Pixels traced(const Scene& scene, const Camera& camera, int samples,
-                     const reference::Effects& effects = {}) {
+inline Radiances traced(const Scene& scene, const Camera& camera, int samples,
+                        const reference::Effects& effects = {}) {
     reference::Options tracing;
     tracing.width = plan_width;
     tracing.height = plan_height;
@@ -63,7 +63,7 @@ inline Pixels traced(const Scene& scene, const Camera& camera, int samples,
     return reference::PathTracer(scene).render(camera, tracing).radiance;
 }
 
-inline Pixels shown_by(const Renderer& renderer) {
+inline Radiances shown_by(const Renderer& renderer) {
     return vectors(device().queue, renderer.radiance(), renderer.stride(),
                    std::size_t{plan_width} * plan_height);
 }

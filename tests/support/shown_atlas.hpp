@@ -134,8 +134,8 @@ struct ShownAtlas {
     std::vector<float> light(const std::function<double(const glm::dvec3&)>& of) const {
         std::vector<float> out;
         for (const AtlasTexel& texel : layout.texels)
-            out.push_back(
-                static_cast<float>(of(place_of(world, {texel.triangle, texel.b1, texel.b2}))));
+            out.push_back(static_cast<float>(
+                of(place_of(world, AtlasPoint{texel.triangle, texel.b1, texel.b2}))));
         return out;
     }
 

@@ -12,7 +12,6 @@ struct VplHeap {
     std::vector<float> samples;  // [GBUFFER_PLANES][sample_stride]
     SiteBuffers buffers;
     explicit VplHeap(int count, std::uint64_t seed = 5) {
-        const float nan = std::numeric_limits<float>::quiet_NaN();
         Random random(seed);
         cl_uint first = 0;
         for (int i = 0; i < count; ++i) {

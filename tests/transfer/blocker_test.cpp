@@ -17,8 +17,8 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr int rings = 64;       // of the emitter, of equal area, as many lights on each
+using std::numbers::pi;
+constexpr int emitter_rings = 64;  // of the emitter, of equal area, as many lights on each
 constexpr int samples = 4096;   // negative VPLs
 constexpr double border = 1.1;  // half the image, in radii of the blocker
 
@@ -42,11 +42,12 @@ Scene discs(double blocker) {
 // On the emitter, which sends out 1 lumen a square metre everywhere.
 std::vector<Vpl> vpls_of_disc(const SceneFrame& frame) {
     std::vector<Vpl> lights;
-    const float flux = static_cast<float>(pi / (rings * rings) * frame.scale * frame.scale);
-    for (int ring = 0; ring < rings; ++ring)
-        for (int k = 0; k < rings; ++k) {
-            const double radius = std::sqrt((ring + 0.5) / rings);
-            const double turn = 2 * pi * (k + 0.5 * (ring % 2)) / rings;
+    const float flux =
+        static_cast<float>(pi / (emitter_rings * emitter_rings) * frame.scale * frame.scale);
+    for (int ring = 0; ring < emitter_rings; ++ring)
+        for (int k = 0; k < emitter_rings; ++k) {
+            const double radius = std::sqrt((ring + 0.5) / emitter_rings);
+            const double turn = 2 * pi * (k + 0.5 * (ring % 2)) / emitter_rings;
             const glm::vec3 at =
                 frame.to_local({radius * std::cos(turn), 1.0, radius * std::sin(turn)});
             lights.push_back(
@@ -65,9 +66,10 @@ double stopped(double a) {
 glm::dvec3 arriving(double a) {
     glm::dvec3 mean(0.0);
     const int turns = 32;
-    for (int ring = 0; ring < rings; ++ring)
+    for (int ring = 0; ring < emitter_rings; ++ring)
         for (int k = 0; k < turns; ++k) {
-            const double radius = std::sqrt((ring + 0.5) / rings), turn = 2 * pi * k / turns;
+            const double radius = std::sqrt((ring + 0.5) / emitter_rings),
+                         turn = 2 * pi * k / turns;
             const glm::dvec3 t(radius * std::cos(turn) - a, 0.5, radius * std::sin(turn));
             mean -= t * std::pow(glm::dot(t, t), -2.5);  // two cosines over d^2, a direction t/d
         }
@@ -117,8 +119,8 @@ TEST_P(BlockerDisc, ReceivesOnItsBackWhatTheViewFactorSays) {
     const DeviceScene scene = test::on_device(discs(0.25));
     const auto lights = vpls_of_disc(scene.frame());
     for (const double a : {0.05, 0.15, 0.25})
-        // The midpoint rule misses f'(0) / 24 / rings^2 = 3.3e-4 on the axis, less beside it, of
-        // f(r^2) = h^2 / (r^2 + h^2)^2 with h = 1/2.
+        // The midpoint rule misses f'(0) / 24 / emitter_rings^2 = 3.3e-4 on the axis, less beside
+        // it, of f(r^2) = h^2 / (r^2 + h^2)^2 with h = 1/2.
         EXPECT_NEAR(test::lux_at(scene, lights, {a, 0.5, 0}, {0, 1, 0}, GetParam()), stopped(a),
                     3.3e-4 + test::half_error());
 }

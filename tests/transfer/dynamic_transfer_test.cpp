@@ -2,6 +2,7 @@
 // what may be left out.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <numbers>
 
 #include "math_modes.hpp"
 #include "posing.hpp"
@@ -10,7 +11,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 const glm::vec3 colour(0.9f, 2.0f, 3.5f);
 
 CLGI_IN_BOTH_MATHS(DynamicTransfer);

@@ -4,26 +4,27 @@
 #include <gtest/gtest.h>
 
 #include <clgi/advanced/environment_light.hpp>
+#include <numbers>
 
 #include "transfer_scenes.hpp"
 
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-const glm::vec3 colour(0.9f, 2.0f, 3.5f);
+using std::numbers::pi;
+const glm::vec3 sky_colour(0.9f, 2.0f, 3.5f);
 
 Scene sphere_under_a_sky() {
     Scene scene = test::plain_scene();
     test::add_sphere(scene, {3, -2, 5}, 0.7, 1);
-    test::light_by_gradient(scene, colour, {0, 0, 0});
+    test::light_by_gradient(scene, sky_colour, {0, 0, 0});
     return scene;
 }
 
-// A convex solid under one colour has irradiance pi times it.
+// A convex solid under one sky_colour has irradiance pi times it.
 void expect_lit(const DynamicTransferSolver& solver, const DeviceScene& device) {
     for (const glm::dvec3& e : test::irradiance_of(solver, device))
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c] / (pi * colour[c]), 1.0, 1e-3);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c] / (pi * sky_colour[c]), 1.0, 1e-3);
 }
 
 // What a call waits for may fail long after the call.
@@ -65,7 +66,7 @@ TEST(EnvironmentLight, IsProjectedAgainAfterACancelledRecord) {
     record.wait();
     const auto found = test::download<float>(light.light(), 4);
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(found[c] * device.frame().exposure / (colour[c] * std::sqrt(4 * pi)), 1.0,
+        EXPECT_NEAR(found[c] * device.frame().exposure / (sky_colour[c] * std::sqrt(4 * pi)), 1.0,
                     1e-3);
     // Once it has run, only what may have changed is computed again.
     record.begin({});

@@ -5,6 +5,7 @@
 #include <clgi/io/image.hpp>
 #include <cstring>
 #include <fstream>
+#include <numbers>
 
 #include "math_modes.hpp"
 #include "refusals.hpp"
@@ -19,7 +20,7 @@ using test::ProjectedSky;
 using test::relative_difference;
 using test::SkyProjector;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(ShEnvironment);
 

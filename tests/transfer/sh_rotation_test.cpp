@@ -12,17 +12,17 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 using Numbers = std::vector<double>;
 
-glm::dvec3 random_direction(test::Random& random) {
+glm::dvec3 turned_direction(test::Random& random) {
     const double z = random(-1, 1), azimuth = random(0, 2 * pi), ring = std::sqrt(1 - z * z);
     return {ring * std::cos(azimuth), ring * std::sin(azimuth), z};
 }
 
 glm::dmat3 random_rotation(test::Random& random) {
-    return glm::dmat3(glm::rotate(glm::dmat4(1), random(0, 2 * pi), random_direction(random)));
+    return glm::dmat3(glm::rotate(glm::dmat4(1), random(0, 2 * pi), turned_direction(random)));
 }
 
 Numbers random_coefficients(test::Random& random, int bands) {
@@ -52,7 +52,7 @@ TEST(ShRotation, MovesWhatTheFunctionShows) {
         const std::vector<float> single = rotation(std::vector<float>(f.begin(), f.end()));
         const Numbers from_single(single.begin(), single.end());
         for (int i = 0; i < 20; ++i) {
-            const glm::dvec3 s = random_direction(random);
+            const glm::dvec3 s = turned_direction(random);
             const double wanted = sh::value(f, s);
             worst = std::max(worst, std::abs(sh::value(turned, turn * s) - wanted));
             worst_single =

@@ -11,7 +11,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const glm::dvec3 up(0, 0, 1);
 
 using Numbers = std::vector<double>;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <clgi/io/gltf.hpp>
 #include <filesystem>
+#include <numbers>
 #include "lab/scenes/deforming.hpp"
 
 #include "posing.hpp"
@@ -14,7 +15,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // A scene that plays on the device, lit by a gradient of three colours.
 struct Player {

@@ -3,6 +3,7 @@
 #include <clgi/advanced/planes.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "mask_tools.hpp"
 #include "math_modes.hpp"
@@ -11,7 +12,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 const glm::vec3 sky(0.8f, 1.0f, 1.5f);
 
 CLGI_IN_BOTH_MATHS(TransferBounce);

@@ -12,7 +12,7 @@ namespace {
 using test::Drawn;
 using test::Eyes;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 
 CLGI_IN_BOTH_MATHS(Gloss);
 

@@ -5,6 +5,7 @@
 #include <clgi/error.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "device.hpp"
 #include "math_modes.hpp"
@@ -13,8 +14,8 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using std::numbers::pi;
+using test::nan;
 
 CLGI_IN_BOTH_MATHS(TransferOpen);
 

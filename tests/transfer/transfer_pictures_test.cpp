@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/io/image.hpp>
 #include <filesystem>
+#include <numbers>
 
 #include "frames.hpp"
 #include "math_modes.hpp"
@@ -10,7 +11,8 @@
 namespace clgi {
 namespace {
 
-constexpr int width = 160, height = 120;
+using std::numbers::pi;
+constexpr int picture_width = 160, picture_height = 120;
 
 struct Shown {
     std::vector<glm::vec3> radiance;
@@ -26,8 +28,8 @@ Shown picture_of(const Scene& scene, float threshold, const MaskOptions& masks =
     options.build.math = math;
     DynamicTransferSolver solver(test::programs(), queue, scene, device, options);
     DynamicTransferViewOptions view_options;
-    view_options.picture.width = width;
-    view_options.picture.height = height;
+    view_options.picture.width = picture_width;
+    view_options.picture.height = picture_height;
     view_options.picture.build.math = math;
     view_options.threshold = threshold;
     DynamicTransferView view(test::programs(), queue, device, solver, view_options);
@@ -35,14 +37,14 @@ Shown picture_of(const Scene& scene, float threshold, const MaskOptions& masks =
     view.render(scene.cameras[0]).wait();
     EXPECT_EQ(view.picture().non_finite() + solver.status().non_finite, 0u);
     return {test::vectors(queue, view.picture().radiance(), view.picture().stride(),
-                          std::size_t{width} * height),
+                          std::size_t{picture_width} * picture_height),
             view.receiver_pixels()};
 }
 
 reference::Picture truth_of(const Scene& scene, int samples) {
     reference::Options options;
-    options.width = width;
-    options.height = height;
+    options.width = picture_width;
+    options.height = picture_height;
     options.samples = samples;
     options.effects = reference::parse_effects("emission,direct");
     return reference::PathTracer(scene).render(scene.cameras[0], options);
@@ -132,9 +134,9 @@ TEST(TransferViewPictures, FindsWhereVerticesAreTooFew) {
     const Shown vertices = picture_of(scene, infinite), some = picture_of(scene, 0.1f),
                 all = picture_of(scene, 0.0f);
     EXPECT_EQ(vertices.receivers, 0u);
-    EXPECT_EQ(all.receivers, std::uint32_t{width * height});
+    EXPECT_EQ(all.receivers, std::uint32_t{picture_width * picture_height});
     EXPECT_GT(some.receivers, 500u);
-    EXPECT_LT(some.receivers, std::uint32_t{width * height / 2});
+    EXPECT_LT(some.receivers, std::uint32_t{picture_width * picture_height / 2});
     const double coarse = apart(vertices.radiance, truth, seen).error,
                  fair = apart(some.radiance, truth, seen).error,
                  fine = apart(all.radiance, truth, seen).error;
@@ -145,7 +147,6 @@ TEST(TransferViewPictures, FindsWhereVerticesAreTooFew) {
 
 // One sheet, seen from its front and its back, is lit from the side that is seen.
 TEST(TransferViewPictures, ShowsTheSideThatIsSeen) {
-    constexpr double pi = 3.14159265358979323846;
     Scene scene = test::plain_scene({0.3f, 0.5f, 0.8f});
     scene.materials[0].double_sided = true;
     test::add_floor(scene, 10.0);

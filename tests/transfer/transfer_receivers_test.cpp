@@ -13,12 +13,14 @@
 namespace clgi {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 constexpr std::uint32_t stride = 16;
 
 CLGI_IN_BOTH_MATHS(TransferReceivers);
 
-const ReceiverPasses& passes(Math math) { return test::shared_passes<ReceiverPasses>(math); }
+const ReceiverPasses& receiver_passes(Math math) {
+    return test::shared_passes<ReceiverPasses>(math);
+}
 
 // A tilted triangle, and a second one that has another material.
 Scene two_triangles() {
@@ -66,7 +68,7 @@ TEST_P(TransferReceivers, OfOtherSidesAreTurnedRound) {
     std::vector<float> planes(RECEIVER_PLANES * stride);
     for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = static_cast<float>(i) + 1.0f;
     const ReceiverBuffers buffers = receivers(planes);
-    passes(GetParam())
+    receiver_passes(GetParam())
         .other_sides(test::device().queue, {6, 2, stride, 0},
                      test::upload(std::vector<cl_uint>{4, 1}), buffers);
     const auto found = test::download<float>(buffers.planes, planes.size());
@@ -99,7 +101,7 @@ TEST_P(TransferReceivers, AtPixelsStandAboveTheSurface) {
     const ReceiverBuffers out = receivers(std::vector<float>(RECEIVER_PLANES * stride, 7.0f));
     const cl::Buffer exponents = test::upload(std::vector<float>(stride, 7.0f));
     // From the second place on; pixel 0 shows nothing, and after 2 the list ends.
-    passes(GetParam())
+    receiver_passes(GetParam())
         .pixels(test::device().queue, {1, 7, stride, stride, 0.5f, 0, 0, 0},
                 {test::upload(pixels), test::upload(std::vector<cl_uint>{6})}, scene, seen.buffer(),
                 out, exponents);
@@ -209,7 +211,7 @@ TEST_P(TransferReceivers, LightPixelsBetweenThem) {
         {{0.2f, 0, -1, 1}, true}, {{0, 0, little, 0}, true}, {{0, 0, little, 1}, false}};
     for (const auto& [eye, from_behind] : eyes) {
         const cl::Buffer shown = test::upload(std::vector<float>(3 * stride, nan));
-        passes(GetParam())
+        receiver_passes(GetParam())
             .show(test::device().queue, {eye, 12, stride, 2, stride}, scene, test::upload(other),
                   buffer, test::upload(light), shown);
         const auto found = test::download<float>(shown, 3 * stride);
@@ -225,7 +227,7 @@ TEST_P(TransferReceivers, LightPixelsBetweenThem) {
     }
     // A triangle beyond the number that was given is none.
     const cl::Buffer shown = test::upload(std::vector<float>(3 * stride, nan));
-    passes(GetParam())
+    receiver_passes(GetParam())
         .show(test::device().queue, {eyes[0].first, 12, stride, 1, stride}, scene,
               test::upload(other), buffer, test::upload(light), shown);
     const auto found = test::download<float>(shown, 3 * stride);
@@ -253,7 +255,7 @@ TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {
     light[5] = std::numeric_limits<float>::infinity();
     const cl::Buffer values = test::upload(radiance);
     const cl::Buffer bad = test::upload(std::vector<cl_uint>{3});
-    passes(GetParam())
+    receiver_passes(GetParam())
         .add_gloss(test::device().queue, {6, stride, 8.0f, 0}, scene, seen.buffer(),
                    test::upload(light), values, bad);
     const auto found = test::download<float>(values, radiance.size());
@@ -270,12 +272,12 @@ TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {
 }
 
 // 6 x 5 pixels, probes at (1, 1), (3, 1), (5, 1), (1, 3) and so on.
-constexpr std::uint32_t probe_stride = 16, picture_stride = 32;
-const ProbeParams probing{6, 5, picture_stride, probe_stride, 2, 3, 2, 0.25f};
+constexpr std::uint32_t compared_probes = 16, compared_pixels = 32;
+const ProbeParams comparing{6, 5, compared_pixels, compared_probes, 2, 3, 2, 0.25f};
 
 TEST_P(TransferReceivers, RefuseWhatDoesNotFit) {
     const DeviceScene scene = test::on_device(two_triangles());
-    const ReceiverPasses& p = passes(GetParam());
+    const ReceiverPasses& p = receiver_passes(GetParam());
     const cl::CommandQueue& queue = test::device().queue;
     const Pixels pixels;
     const GBuffer seen = pixels.buffer();
@@ -302,18 +304,18 @@ TEST_P(TransferReceivers, RefuseWhatDoesNotFit) {
     EXPECT_THROW(p.show(queue, many, scene, some, seen, some, some), Error);
     GBuffer wide = other;
     wide.planes = wide.ids = some;
-    ProbeParams wrong = probing;
+    ProbeParams wrong = comparing;
     EXPECT_NO_THROW(p.compare_probes(queue, wrong, wide, some, some, some).wait());
     wrong.columns = 4;
     EXPECT_THROW(p.compare_probes(queue, wrong, wide, some, some, some), Error);
-    wrong = probing;
+    wrong = comparing;
     wrong.step = 1;
     EXPECT_THROW(p.undersampled(queue, wrong, wide, some, some, some, some), Error);
-    EXPECT_THROW(p.undersampled(queue, probing, wide, some, some, some, one), Error);
-    EXPECT_THROW(p.compare_gloss(queue, probing, scene, wide, some, one, some, some), Error);
-    EXPECT_THROW(p.compare_gloss(queue, probing, scene, wide, some, some, one, some), Error);
-    const cl::Buffer three = test::empty<float>(3 * probe_stride);
-    EXPECT_THROW(p.compare_probes(queue, probing, wide, some, three, some), Error);
+    EXPECT_THROW(p.undersampled(queue, comparing, wide, some, some, some, one), Error);
+    EXPECT_THROW(p.compare_gloss(queue, comparing, scene, wide, some, one, some, some), Error);
+    EXPECT_THROW(p.compare_gloss(queue, comparing, scene, wide, some, some, one, some), Error);
+    const cl::Buffer three = test::empty<float>(3 * compared_probes);
+    EXPECT_THROW(p.compare_probes(queue, comparing, wide, some, three, some), Error);
     EXPECT_THROW(p.add_gloss(queue, {6, stride, 1, 0}, scene, seen, one, some, some), Error);
     EXPECT_THROW(p.add_gloss(queue, {6, stride, 1, 0}, scene, other, some, some, some), Error);
 }

@@ -18,7 +18,7 @@ using test::Eyes;
 using test::MaskHeap;
 using test::Triangle;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 TEST(TransferSameness, OfEveryWidthAndGroup) {

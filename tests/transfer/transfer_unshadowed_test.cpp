@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <clgi/advanced/dynamic_transfer_view.hpp>
 #include <clgi/error.hpp>
+#include <numbers>
 #include <set>
 
 #include "frames.hpp"
@@ -13,7 +14,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 const glm::vec3 colour(0.9f, 2.0f, 3.5f);
 
 CLGI_IN_BOTH_MATHS(Unshadowed);
@@ -105,14 +106,14 @@ TEST_P(Unshadowed, IsWhatMasksFindWhereNothingBlocks) {
     }
 }
 
-struct Shown {
+struct OpenView {
     std::vector<glm::vec3> radiance;
     std::vector<glm::dvec3> irradiance, normals;  // lux; (0, 0, 0) where no surface is
     std::set<std::string> passes;
     std::uint32_t receivers = 0;
 };
 
-Shown picture_of(const Scene& scene, const DynamicTransferOptions& options, float threshold) {
+OpenView picture_of(const Scene& scene, const DynamicTransferOptions& options, float threshold) {
     const DeviceScene device = test::on_device(scene);
     const cl::CommandQueue& queue = test::device().queue;
     DynamicTransferSolver solver(test::programs(), queue, scene, device, options);
@@ -125,7 +126,7 @@ Shown picture_of(const Scene& scene, const DynamicTransferOptions& options, floa
     EXPECT_TRUE(solver.run());
     view.render(scene.cameras.at(0)).wait();
     const std::size_t pixels = 75 * 50, stride = view.picture().stride();
-    Shown out;
+    OpenView out;
     out.radiance = test::vectors(queue, view.picture().radiance(), stride, pixels);
     out.receivers = view.receiver_pixels();
     for (const PassEvent& pass : view.picture().events()) out.passes.insert(pass.name);
@@ -162,7 +163,7 @@ TEST_P(Unshadowed, LightsEachPixelByItsOwnNormal) {
     test::light_by_gradient(scene, colour, axis);
     DynamicTransferOptions options = options_of(GetParam(), false);
     options.gloss = false;
-    const Shown full = picture_of(scene, options, 0.1f);
+    const OpenView full = picture_of(scene, options, 0.1f);
     int surfaces = 0;
     for (std::size_t i = 0; i < full.normals.size(); ++i) {
         const bool surface = full.normals[i] != glm::dvec3(0.0);
@@ -181,7 +182,7 @@ TEST_P(Unshadowed, LightsEachPixelByItsOwnNormal) {
     EXPECT_EQ(full.passes.count("transfer.open"), 1u);
 
     options.build.storage = Storage::half;
-    const Shown half = picture_of(scene, options, 0.1f);
+    const OpenView half = picture_of(scene, options, 0.1f);
     for (std::size_t i = 0; i < full.radiance.size(); ++i)
         for (int c = 0; c < 3; ++c)  // normals, colours and irradiance have 11 bits
             EXPECT_NEAR(half.radiance[i][c], full.radiance[i][c],
@@ -201,12 +202,12 @@ TEST_P(Unshadowed, ShowsLobesAsMasksDo) {
                            ball.positions[t.vertex[2]]);
     scene.cameras = {test::camera_at({0.3, 0.2, 3.0}, {0.1, 0.1, 0}, 0.75f)};
     test::light_by_gradient(scene, colour, glm::normalize(glm::dvec3(0.3, -0.8, 0.5)));
-    const Shown open = picture_of(scene, options_of(GetParam(), false), 0.0f);
-    const Shown masked = picture_of(scene, options_of(GetParam(), true), 0.0f);
+    const OpenView open = picture_of(scene, options_of(GetParam(), false), 0.0f);
+    const OpenView masked = picture_of(scene, options_of(GetParam(), true), 0.0f);
     EXPECT_EQ(open.receivers, masked.receivers);
     EXPECT_EQ(open.passes.count("transfer.mask"), 0u);
     EXPECT_EQ(open.passes.count("transfer.integrate_gloss"), 1u);
-    const Shown near = picture_of(scene, options_of(GetParam(), false), 0.1f);
+    const OpenView near = picture_of(scene, options_of(GetParam(), false), 0.1f);
     double sum = 0.0, apart = 0.0, coarse = 0.0;
     for (std::size_t i = 0; i < open.radiance.size(); ++i)
         for (int c = 0; c < 3; ++c) {

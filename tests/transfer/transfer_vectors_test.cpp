@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "mask_tools.hpp"
 #include "math_modes.hpp"
@@ -15,7 +16,7 @@ using test::Drawn;
 using test::Eyes;
 using test::Triangle;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 MaskOptions options(int size, int block, int bands = 5) {
     MaskOptions out;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <clgi/advanced/dynamic_transfer_view.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "frames.hpp"
 #include "transfer_scenes.hpp"
@@ -11,7 +12,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int side = 33;
 
 struct Stage {

@@ -21,15 +21,15 @@ struct Size {
     int width = 96, height = 96;
 };
 
-struct Shown {
+struct ShownView {
     std::vector<glm::vec3> radiance;
     std::vector<int> triangles;   // of the scene, -1: none
     std::uint32_t receivers = 0;  // pixels
     std::uint32_t non_finite = 0;
 };
 
-Shown picture_of(const Scene& scene, const Camera& camera, float threshold, Size size = {},
-                 const BuildOptions& build = {}) {
+ShownView picture_of(const Scene& scene, const Camera& camera, float threshold, Size size = {},
+                     const BuildOptions& build = {}) {
     const DeviceScene device = test::on_device(scene);
     const cl::CommandQueue& queue = test::device().queue;
     DynamicTransferOptions how;
@@ -106,8 +106,9 @@ TEST(DynamicTransferView, IsNearlyTheSameInHalfStorage) {
     Scene scene = test::heap_of_solids(11);
     metal(scene, 0.6f);
     test::light_by(scene, {0.8f, 1.0f, 1.3f});
-    const Shown full = picture_of(scene, scene.cameras[0], 0.1f),
-                half = picture_of(scene, scene.cameras[0], 0.1f, {}, {.storage = Storage::half});
+    const ShownView full = picture_of(scene, scene.cameras[0], 0.1f),
+                    half =
+                        picture_of(scene, scene.cameras[0], 0.1f, {}, {.storage = Storage::half});
     EXPECT_EQ(half.non_finite, 0u);
     EXPECT_EQ(half.triangles, full.triangles);
     EXPECT_LT(relative(half.radiance, full.radiance), 3.0 / 2048.0);
@@ -120,8 +121,8 @@ TEST(DynamicTransferView, ThatIsOnePixelWideShowsTheLightOfVertices) {
     metal(scene, 0.6f);
     test::light_by(scene, {0.8f, 1.0f, 1.3f});
     for (const Size size : {Size{1, 40}, Size{40, 1}, Size{1, 1}}) {
-        const Shown found = picture_of(scene, scene.cameras[0], 0.1f, size),
-                    wanted = picture_of(scene, scene.cameras[0], vertices_alone, size);
+        const ShownView found = picture_of(scene, scene.cameras[0], 0.1f, size),
+                        wanted = picture_of(scene, scene.cameras[0], vertices_alone, size);
         EXPECT_EQ(found.receivers, 0u);
         EXPECT_TRUE(test::same_bits(found.radiance, wanted.radiance));
         EXPECT_GT(glm::length(found.radiance[found.radiance.size() / 2]), 0.0f);
@@ -143,7 +144,7 @@ TEST(DynamicTransferView, OfAnOrthographicCameraDoesNotDependOnItsDistance) {
             Camera camera = test::camera_at(distance * towards, {0, 0, 0});
             camera.kind = Camera::Kind::orthographic;
             camera.half_height = 0.8f;
-            const Shown shown = picture_of(scene, camera, threshold);
+            const ShownView shown = picture_of(scene, camera, threshold);
             if (near.empty()) near = shown.radiance;
             EXPECT_LT(relative(shown.radiance, near), 1e-4) << threshold;
         }
@@ -177,9 +178,9 @@ TEST(DynamicTransferView, MendsNoSurfaceByWhatAnotherMisses) {
         quad({-0.6 + 0.15 * k, 0, 1.4}, {0.008 * s, 0, 0.008 * s}, {0, 0.5, 0}, 0);
     const Camera camera = test::camera_at({0, 0, 4}, {0, 0, 0});
     const Size size{256, 192};
-    const Shown some = picture_of(scene, camera, 0.1f, size),
-                all = picture_of(scene, camera, 0.0f, size),
-                none = picture_of(scene, camera, vertices_alone, size);
+    const ShownView some = picture_of(scene, camera, 0.1f, size),
+                    all = picture_of(scene, camera, 0.0f, size),
+                    none = picture_of(scene, camera, vertices_alone, size);
     int strips = 0;
     double worst = 0.0;
     for (std::size_t i = 0; i < all.radiance.size(); ++i) {
@@ -202,8 +203,8 @@ TEST(DynamicTransferView, FindsWhereVerticesAreTooFewForGloss) {
                    {glm::dvec3(-1.5, -1.5, 0), {1.5, -1.5, 0}, {1.5, 1.5, 0}, {-1.5, 1.5, 0}});
     light_by_function(scene, patch);
     const Camera camera = test::camera_at({0, 0, 1.5}, {0, 0, 0}, 1.2f);
-    const Shown none = picture_of(scene, camera, vertices_alone),
-                some = picture_of(scene, camera, 0.1f), all = picture_of(scene, camera, 0.0f);
+    const ShownView none = picture_of(scene, camera, vertices_alone),
+                    some = picture_of(scene, camera, 0.1f), all = picture_of(scene, camera, 0.0f);
     const double coarse = relative(none.radiance, all.radiance),
                  fair = relative(some.radiance, all.radiance);
     std::printf("gloss: %u pixels, error %.4f, of vertices alone %.4f\n", some.receivers, fair,
@@ -232,7 +233,7 @@ TEST(DynamicTransferView, WithACameraAtTheOriginLosesNothing) {
     test::light_by(scene, {1, 1, 1});
     const Camera camera = test::camera_at({0, 0, 0}, {0, 0, -1}, 1.9f);
     for (const float threshold : {0.1f, 0.0f}) {
-        const Shown shown = picture_of(scene, camera, threshold);
+        const ShownView shown = picture_of(scene, camera, threshold);
         EXPECT_EQ(shown.non_finite, 0u) << threshold;
         EXPECT_GT(shown.radiance[96 * 48 + 48].y, 0.0f);
     }

@@ -1,6 +1,7 @@
 // Windows of transfer vectors, of every degree: directional lights have all of them.
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <numbers>
 
 #include "math_modes.hpp"
 #include "transfer_scenes.hpp"
@@ -8,7 +9,7 @@
 namespace clgi {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(TransferWindow);
 

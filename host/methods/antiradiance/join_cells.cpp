@@ -10,7 +10,7 @@
 namespace clgi {
 namespace {
 
-constexpr int rounds = 16;
+constexpr int cell_rounds = 16;
 constexpr double one_way = 0.9;  // least vector area of joined cells, of their area
 constexpr double round = 8.0;    // largest square of the diagonal of their box, of the allowed area
 
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> join_cells(const std::vector<std::uint32_t>& cells,
                 {face.area / 3.0, face.area / 3.0 * face.normal, face.corners[k], face.corners[k]});
     }
     DisjointSets sets(joined.size());
-    for (int r = rounds; r-- > 0;)
+    for (int r = cell_rounds; r-- > 0;)
         for (std::uint32_t t = 0; t < fronts.size(); ++t) {
             if (fronts[t] == no_index) continue;
             for (std::uint32_t side = 0; side < 3; ++side) {
