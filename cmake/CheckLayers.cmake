@@ -22,7 +22,7 @@ function(read_includes path)
 endfunction()
 
 # ---- modules: what each may include -----------------------------------------------------------
-set(methods second_order light_atlas transfer antiradiance)
+set(methods second_order light_atlas transfer antiradiance irradiance_cache)
 set(reach_core core)
 set(reach_scene core scene)
 set(reach_shading core scene shading)
@@ -59,6 +59,7 @@ set(headers_transfer dynamic_transfer advanced/blocker_levels advanced/dynamic_t
 set(headers_antiradiance antiradiance advanced/antiradiance_view advanced/direction_bins
     advanced/elements advanced/links advanced/moving_elements passes/antiradiance
     passes/antiradiance_gloss passes/moving_elements shared/antiradiance shared/moving_elements)
+set(headers_irradiance_cache irradiance_cache passes/cache shared/cache)
 set(headers_renderer options renderer)
 set(headers_plan plan advanced/effects advanced/analysis advanced/tuning)
 set(headers_reference reference)
@@ -145,11 +146,11 @@ set(upstream_parallel "")
 set(upstream_scene parallel)
 set(upstream_gbuffer parallel scene)
 set(upstream_lights parallel gbuffer scene)
-foreach(transport IN ITEMS image vpl antiradiance transfer)
+foreach(transport IN ITEMS image vpl antiradiance transfer cache)
     set(upstream_${transport} parallel gbuffer lights scene)
 endforeach()
 set(upstream_atlas parallel vpl gbuffer lights scene)
-set(folders parallel scene gbuffer lights image vpl atlas antiradiance transfer)
+set(folders parallel scene gbuffer lights image vpl atlas antiradiance transfer cache)
 list(JOIN folders "|" folder_pattern)
 
 file(GLOB_RECURSE paths RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/kernels/*"

@@ -70,6 +70,8 @@ bool suits(Method method, const Plan& plan) {
                    (!plan.on(Effect::first_bounce) || plan.on(Effect::further_bounces));
         case Method::dynamic_transfer:
             return !plan.on(Effect::cutouts);
+        case Method::irradiance_cache:
+            return true;
     }
     return true;
 }

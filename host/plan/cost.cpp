@@ -158,6 +158,16 @@ PlanCost dynamic_transfer(const Plan& plan) {
     return added(plan, {}, vectors, picture(plan, false));
 }
 
+// Each record has its hemicube drawn and looked up.
+PlanCost irradiance_cache(const Plan& plan) {
+    const IrradianceCacheOptions& options = plan.cache;
+    const double records = 1.5 * options.seen + options.met, pixels = 3.0 * options.face * options.face;
+    Amount frame = picture(plan, false);
+    frame += {records * (0.05 + 1e-5 * triangles(plan) + 1e-4 * pixels) + 1e-6 * records * records,
+              records * (8.0 * pixels + 12.0 * records)};
+    return {0.0, frame.ms, 1e-6 * frame.bytes};
+}
+
 }  // namespace
 
 double shadow_pixels(const Plan& plan) {
@@ -180,6 +190,9 @@ PlanCost cost_of(const cl::Device& device, const Plan& plan) {
             break;
         case Method::dynamic_transfer:
             out = dynamic_transfer(plan);
+            break;
+        case Method::irradiance_cache:
+            out = irradiance_cache(plan);
             break;
     }
     const double slower = fitted_pairs / pairs_per_second(device);

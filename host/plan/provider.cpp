@@ -16,6 +16,7 @@ bool places_by_maps(const Plan& plan, Method method) {
 
 Provider environment_light(Method method) {
     if (has_sky_lights(method)) return {"directional lights"};
+    if (method == Method::irradiance_cache) return {"hemicubes"};
     return {method == Method::antiradiance ? "links from the sky" : "transfer vectors"};
 }
 
@@ -28,6 +29,7 @@ Provider direct_shadows(const Plan& plan, Method method) {
 Provider environment_shadows(const Plan& plan, Method method) {
     if (method == Method::antiradiance) return {"antiradiance", true};
     if (method == Method::dynamic_transfer) return {"masks"};
+    if (method == Method::irradiance_cache) return {"hemicubes", true};
     const bool of_lights = plan.analysis.lights.any_direct() && plan.on(Effect::direct_shadows);
     return {"shadow maps", of_lights || places_by_maps(plan, method)};
 }
@@ -49,6 +51,8 @@ Provider first_bounce(const Plan& plan, Method method) {
             return {"links", true};
         case Method::dynamic_transfer:  // reflections go where masks are covered
             return plan.on(Effect::environment_shadows) ? Provider{"masks"} : nothing;
+        case Method::irradiance_cache:
+            return {"hemicubes", true};
     }
     return nothing;
 }
@@ -56,6 +60,7 @@ Provider first_bounce(const Plan& plan, Method method) {
 Provider further_bounces(const Plan& plan, Method method) {
     if (method == Method::light_atlas) return baked(plan);
     if (method == Method::antiradiance) return {"links", true};
+    if (method == Method::irradiance_cache) return {"hemicubes"};
     return nothing;
 }
 
@@ -71,6 +76,8 @@ Provider indirect_occlusion(Method method) {
             return {"antiradiance", true};
         case Method::dynamic_transfer:
             return {"masks", true};
+        case Method::irradiance_cache:
+            return {"hemicubes", true};
     }
     return nothing;
 }

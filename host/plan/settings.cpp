@@ -85,6 +85,11 @@ void use_preset(Plan& plan, const Preset& preset) {
             break;
         case Method::dynamic_transfer:
             break;
+        case Method::irradiance_cache:
+            plan.cache.seen = preset.places;
+            plan.cache.met = 3 * preset.places / 2;
+            plan.cache.face = preset.directions;
+            break;
     }
 }
 

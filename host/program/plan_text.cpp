@@ -41,6 +41,9 @@ std::string settings_text(const Plan& plan) {
         case Method::dynamic_transfer:
             return fmt::format("{} bands, {} bounces", plan.transfer.masks.bands,
                                plan.transfer.interreflections);
+        case Method::irradiance_cache:
+            return fmt::format("{} and {} records, hemicubes of {} pixels", plan.cache.seen,
+                               plan.cache.met, plan.cache.face);
     }
     return "";
 }
@@ -67,6 +70,11 @@ ordered_json settings_json(const Plan& plan) {
                     {"interreflections", plan.transfer.interreflections},
                     {"gloss", plan.transfer.gloss},
                     {"shadowed", occludes(plan.transfer.occlusion)}};
+        case Method::irradiance_cache:
+            return {{"seen", plan.cache.seen},
+                    {"met", plan.cache.met},
+                    {"face", plan.cache.face},
+                    {"emission", plan.cache.emission}};
     }
     return ordered_json::object();
 }

@@ -25,7 +25,8 @@ namespace clgi::program {
 namespace {
 
 constexpr unsigned all_methods =
-    of_direct | of_second_order | of_light_atlas | of_antiradiance | of_transfer;
+    of_direct | of_second_order | of_light_atlas | of_antiradiance | of_transfer |
+    of_irradiance_cache;
 
 // Options that a plan keeps where flags set them.
 bool plan_keeps(const OptionRow& row) {
@@ -283,10 +284,11 @@ void add_render(CLI::App& app) {
             "auto: what the scene calls for (clgi plan), second-order where flags of it are given; "
             "atlas: many bounces, baked first; transfer: light of the "
             "environment with its shadows; antiradiance: many bounces, no visibility; "
-            "direct: no indirect light")
+            "cache: many bounces, gathered where the picture needs them; direct: no indirect light")
         ->type_name("METHOD")
         ->check(
-            CLI::IsMember({"auto", "second-order", "atlas", "transfer", "antiradiance", "direct"}));
+            CLI::IsMember(
+            {"auto", "second-order", "atlas", "transfer", "antiradiance", "cache", "direct"}));
     add_place_options(*command, flags->scene_index, flags->camera);
     add_environment_flags(*command, flags->environment);
     add_option_flags(*command, flags->options, all_methods, {"math", "storage"});

@@ -74,6 +74,11 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                            {"triangles", record.transfer->triangles},
                            {"terms", record.transfer->terms},
                            {"receiver_pixels", record.transfer->receiver_pixels}};
+    if (record.cache)
+        out["cache"] = {{"seen", record.cache->seen},
+                        {"met", record.cache->met},
+                        {"reflections", record.cache->bounces},
+                        {"converged", record.cache->converged}};
     if (record.antiradiance) {
         const AntiradianceSummary& a = *record.antiradiance;
         out["antiradiance"] = {{"elements", a.elements},

@@ -63,6 +63,7 @@ struct RenderRecord {
     double prepare_ms = 0.0;       // what precedes the first picture, such as a bake
     std::optional<BakeSummary> bake;
     std::optional<TransferSummary> transfer;
+    std::optional<IrradianceCacheStatus> cache;
     std::optional<AntiradianceSummary> antiradiance;
     std::shared_ptr<const Planned> planned;  // of --method auto
     std::vector<std::string> warnings;

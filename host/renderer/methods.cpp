@@ -56,6 +56,12 @@ DynamicTransferOptions transfer_options(const RendererOptions& options) {
     return out;
 }
 
+IrradianceCacheOptions cache_options(const RendererOptions& options) {
+    IrradianceCacheOptions out = options.cache;
+    out.picture = options.picture;
+    return out;
+}
+
 // ---- second-order illumination ------------------------------------------------------------------
 
 SecondOrder::SecondOrder(const Setup& s)
@@ -247,5 +253,22 @@ void Transfer::add_passes(std::vector<PassEvent>& passes) const {
     if (solver.glossy()) append(passes, solver.events());
     append(passes, view->picture().events());
 }
+
+// ---- irradiance cache ---------------------------------------------------------------------------
+
+bool Cache::prepare(const Progress& progress, std::vector<PassEvent>&) {
+    return !progress || progress(1.0);
+}
+
+void Cache::reconfigure(const ViewSetup& s) {
+    solver = std::make_unique<IrradianceCache>(s.programs, s.queue, s.device,
+                                               cache_options(s.options));
+}
+
+cl::Event Cache::render(const Camera& camera, const WaitList& wait) {
+    return solver->render(camera, joined(std::exchange(moves_, {}), wait));
+}
+
+void Cache::add_passes(std::vector<PassEvent>& passes) const { append(passes, solver->events()); }
 
 }  // namespace clgi::renderer

@@ -140,10 +140,33 @@ private:
     bool moved_ = true;  // vectors are of another pose
 };
 
+// An irradiance cache, which is made anew for each picture.
+class Cache {
+public:
+    explicit Cache(const Setup& setup) { reconfigure(setup); }
+    bool prepare(const Progress& progress, std::vector<PassEvent>& passes);
+    void lights_changed() { solver->lights_changed(); }
+    void geometry_changed(const WaitList& wait) { moves_ = joined(moves_, wait); }
+    void environment_changed() { lights_changed(); }
+    void reconfigure(const ViewSetup& setup);
+    cl::Event render(const Camera& camera, const WaitList& wait);
+    void add_passes(std::vector<PassEvent>& passes) const;
+    Radiance radiance() const { return {solver->picture().radiance(), solver->picture().stride()}; }
+    const EmitterSet& emitters() const { return solver->picture().emitters(); }
+    RendererStatus status() const { return {solver->status(), {}}; }
+    std::size_t bytes() const { return solver->bytes(); }
+
+    std::unique_ptr<IrradianceCache> solver;
+
+private:
+    WaitList moves_;
+};
+
 // Options of the method's solver with what is common to all methods.
 SecondOrderOptions second_order_options(const RendererOptions& options);
 LightAtlasOptions light_atlas_options(const RendererOptions& options);
 AntiradianceOptions antiradiance_options(const RendererOptions& options);
 DynamicTransferOptions transfer_options(const RendererOptions& options);
+IrradianceCacheOptions cache_options(const RendererOptions& options);
 
 }  // namespace clgi::renderer

@@ -10,7 +10,8 @@ namespace {
 using namespace renderer;
 
 constexpr unsigned pictures = of_second_order | of_direct;
-constexpr unsigned shown = pictures | of_light_atlas | of_antiradiance | of_transfer;
+constexpr unsigned shown =
+    pictures | of_light_atlas | of_antiradiance | of_transfer | of_irradiance_cache;
 OptionRow row(const char* name, const char* value, unsigned methods, const char* help,
               double least = 0.0, double most = 0.0, std::vector<std::string> choices = {}) {
     OptionRow out;
@@ -252,6 +253,26 @@ std::vector<OptionRow> of_elements() {
     };
 }
 
+std::vector<OptionRow> of_records() {
+    return {
+        number(row("seen", "N", of_irradiance_cache, "Records on what the picture shows, about", 1,
+                   20000),
+               [](O& o) -> int& { return o.cache.seen; }),
+        number(row("met", "N", of_irradiance_cache,
+                   "Records on what those see, and what these see in turn", 0, 20000),
+               [](O& o) -> int& { return o.cache.met; }),
+        number(row("face", "N", of_irradiance_cache,
+                   "Pixels of the face of a record's hemicube, a multiple of 8", 8, 256),
+               [](O& o) -> int& { return o.cache.face; }),
+        number(row("reflections", "N", of_irradiance_cache,
+                   "Reflections of light before it reaches a record; 0: all that matter", 0, 1000),
+               [](O& o) -> int& { return o.cache.bounces; }),
+        toggle(row("emission-by-hemicubes", "", of_irradiance_cache,
+                   "Emissive surfaces light by hemicubes, in place of --area-samples"),
+               [](O& o) -> bool& { return o.cache.emission; }),
+    };
+}
+
 std::vector<OptionRow> of_all() {
     return {
         choice(
@@ -272,7 +293,7 @@ std::vector<OptionRow> of_all() {
 const std::vector<OptionRow>& option_table() {
     static const std::vector<OptionRow> table = [] {
         std::vector<OptionRow> out;
-        for (const auto& rows : {of_pictures(), of_bake(), of_masks(), of_elements(), of_all()})
+        for (const auto& rows : {of_pictures(), of_bake(), of_masks(), of_elements(), of_records(), of_all()})
             out.insert(out.end(), rows.begin(), rows.end());
         return out;
     }();

@@ -14,12 +14,13 @@ constexpr std::pair<Method, const char*> names[] = {{Method::direct, "direct"},
                                                     {Method::second_order, "second-order"},
                                                     {Method::light_atlas, "atlas"},
                                                     {Method::antiradiance, "antiradiance"},
-                                                    {Method::dynamic_transfer, "transfer"}};
+                                                    {Method::dynamic_transfer, "transfer"},
+                                                    {Method::irradiance_cache, "cache"}};
 
 using Made =
     std::variant<std::monostate, std::unique_ptr<renderer::SecondOrder>,
                  std::unique_ptr<renderer::LightAtlas>, std::unique_ptr<renderer::Antiradiance>,
-                 std::unique_ptr<renderer::Transfer>>;
+                 std::unique_ptr<renderer::Transfer>, std::unique_ptr<renderer::Cache>>;
 
 Made make(const renderer::Setup& setup) {
     switch (setup.options.method) {
@@ -29,6 +30,8 @@ Made make(const renderer::Setup& setup) {
             return std::make_unique<renderer::Antiradiance>(setup);
         case Method::dynamic_transfer:
             return std::make_unique<renderer::Transfer>(setup);
+        case Method::irradiance_cache:
+            return std::make_unique<renderer::Cache>(setup);
         default:
             return std::make_unique<renderer::SecondOrder>(setup);
     }
@@ -297,6 +300,11 @@ DynamicTransferSolver* Renderer::dynamic_transfer() const {
 DynamicTransferView* Renderer::transfer_view() const {
     const auto* method = std::get_if<std::unique_ptr<renderer::Transfer>>(&state_->made);
     return method ? (*method)->view.get() : nullptr;
+}
+
+IrradianceCache* Renderer::irradiance_cache() const {
+    const auto* method = std::get_if<std::unique_ptr<renderer::Cache>>(&state_->made);
+    return method ? (*method)->solver.get() : nullptr;
 }
 
 std::optional<BakeSummary> Renderer::bake() const {

@@ -42,9 +42,11 @@
 #include <clgi/device_scene.hpp>
 #include <clgi/dynamic_transfer.hpp>
 #include <clgi/error.hpp>
+#include <clgi/irradiance_cache.hpp>
 #include <clgi/light_atlas.hpp>
 #include <clgi/passes/antiradiance.hpp>
 #include <clgi/passes/atlas.hpp>
+#include <clgi/passes/cache.hpp>
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
 #include <clgi/passes/import.hpp>

@@ -19,6 +19,7 @@ enum Methods : unsigned {
     of_light_atlas = 1u << static_cast<unsigned>(Method::light_atlas),
     of_antiradiance = 1u << static_cast<unsigned>(Method::antiradiance),
     of_transfer = 1u << static_cast<unsigned>(Method::dynamic_transfer),
+    of_irradiance_cache = 1u << static_cast<unsigned>(Method::irradiance_cache),
     of_bakes = 1u << 8,
     of_vectors = 1u << 9
 };

@@ -12,6 +12,7 @@
 #include <clgi/antiradiance.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/dynamic_transfer.hpp>
+#include <clgi/irradiance_cache.hpp>
 #include <clgi/light_atlas.hpp>
 #include <clgi/programs.hpp>
 #include <clgi/second_order.hpp>
@@ -23,7 +24,14 @@
 
 namespace clgi {
 
-enum class Method { direct, second_order, light_atlas, antiradiance, dynamic_transfer };
+enum class Method {
+    direct,
+    second_order,
+    light_atlas,
+    antiradiance,
+    dynamic_transfer,
+    irradiance_cache
+};
 // As in the program: "second-order". The other way round: none for any other word, such as "auto".
 CLGI_API const char* name_of(Method method);
 CLGI_API std::optional<Method> method_of(const std::string& name);
@@ -50,6 +58,7 @@ struct RendererOptions {
     AntiradianceOptions antiradiance;
     DynamicTransferOptions transfer;
     DynamicTransferViewOptions transfer_view;  // but picture
+    IrradianceCacheOptions cache;              // but picture
 };
 
 struct RendererStatus : SolverStatus {
@@ -145,6 +154,7 @@ public:
     AntiradianceSolver* antiradiance() const;
     DynamicTransferSolver* dynamic_transfer() const;
     DynamicTransferView* transfer_view() const;
+    IrradianceCache* irradiance_cache() const;
     std::optional<BakeSummary> bake() const;
 
 private:

@@ -1,12 +1,14 @@
 // Views around points of surfaces that the device itself has chosen: hemicubes, or cubes.
 //
-//   eye = p + lift n;  hemicube: right = normalize(h x n), up = right x n, h any axis across n
+//   eye = p + lift n;  hemicube: right = normalize(h x n), up = right x n, h any axis across n; turned
+//   about n where that is asked for
 // [derived: the frame of host/lights/emitters for area lights]
 //
 // Work size    1D, one work-item a point; any local size; tail guarded
 // Writes       its own 5 or 6 views; a point without normal has views in which nothing is seen
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/gbuffer.h"
+#include "clgi/shared/halton.h"
 
 static float3 point_row(global const float* points, uint plane, uint stride, uint point) {
     return (float3)(points[plane * stride + point], points[(plane + 1) * stride + point],
@@ -34,6 +36,12 @@ kernel void gbuffer_cubes(
         axis[0] = valid ? normalize(cross(helper, normal)) : axis[0];
         axis[1] = valid ? cross(axis[0], normal) : axis[1];
         axis[2] = valid ? normal : axis[2];
+        if (params.turned) {
+            float angle = 2.0f * CLGI_PI * radical_inverse(point + 1, 2);
+            float3 a = cos(angle) * axis[0] + sin(angle) * axis[1];
+            axis[1] = cos(angle) * axis[1] - sin(angle) * axis[0];
+            axis[0] = a;
+        }
     }
     uint whole = params.size * params.size;
     uint of_point = params.faces == 5 ? 3 * whole : 6 * whole;

@@ -11,6 +11,7 @@
 #include "frames.hpp"
 #include "light_baking.hpp"
 #include "math_modes.hpp"
+#include "refusals.hpp"
 
 namespace clgi {
 namespace {
@@ -325,23 +326,12 @@ TEST_P(LightAtlasMode, CountsWhatIsNotFinite) {
     EXPECT_EQ(solver.status().non_finite, 0u);
 }
 
-// The message of the error that this throws.
-template <typename Thrown, typename Make>
-std::string refusal(Make&& make) {
-    try {
-        make();
-    } catch (const Thrown& error) {
-        return error.what();
-    }
-    return "nothing was refused";
-}
-
 TEST(LightAtlasModes, RefuseWhatCannotWork) {
     const Bakery& bakery = small_room();
     const auto refused = [&](auto change) {
         LightAtlasOptions options = test::bake_options();
         change(options);
-        return refusal<Error>([&] { bakery.solver(options); });
+        return test::refusal<Error>([&] { bakery.solver(options); });
     };
     const float nan = std::numeric_limits<float>::quiet_NaN();
     using Options = LightAtlasOptions;
@@ -356,12 +346,12 @@ TEST(LightAtlasModes, RefuseWhatCannotWork) {
 
     Options poor = test::bake_options();
     poor.memory_budget = 100000;
-    const std::string advice = refusal<DeviceError>([&] { bakery.solver(poor); });
+    const std::string advice = test::refusal<DeviceError>([&] { bakery.solver(poor); });
     EXPECT_NE(advice.find("memory_budget allows 0.1 MB"), std::string::npos) << advice;
 
     const Bakery other(furnace({.subdivisions = 2}), {.vpls = 50, .atlas = 256});
     const auto with = [&](const VplLayout& vpls, const AtlasLayout& atlas) {
-        return refusal<Error>([&] {
+        return test::refusal<Error>([&] {
             LightAtlasSolver(test::programs(), test::device().queue, bakery.on_device, vpls, atlas);
         });
     };

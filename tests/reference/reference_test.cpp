@@ -6,7 +6,6 @@
 #include <clgi/procedural.hpp>
 #include <clgi/reference.hpp>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "honest_errors.hpp"
@@ -20,8 +19,8 @@ using reference::parse_effects;
 using reference::PathTracer;
 using reference::Picture;
 using reference::Place;
-
 using std::numbers::pi;
+
 constexpr double degree = pi / 180.0;
 
 reference::Options options_for(const std::string& effects, int samples) {
@@ -397,6 +396,5 @@ TEST(Reference, RefusesWhatItDoesNotKnow) {
     }
     EXPECT_NO_THROW(PathTracer(Scene()).irradiance({{{0, 0, 0}, {0, 1, 0}}}, {}));
 }
-
 }  // namespace
 }  // namespace clgi

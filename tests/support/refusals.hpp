@@ -37,4 +37,15 @@ inline void expect_refusals(const std::vector<Argument>& arguments) {
     }
 }
 
+// The message of the error that this throws.
+template <typename Thrown, typename Make>
+std::string refusal(Make&& make) {
+    try {
+        make();
+    } catch (const Thrown& error) {
+        return error.what();
+    }
+    return "nothing was refused";
+}
+
 }  // namespace clgi::test

@@ -108,7 +108,7 @@ typedef struct {
     float lift;        // from the surface to the eye, along the normal, local frame
     float near;        // nearest depth that is drawn, local frame
     uint first_chosen;  // place of the first point in the list
-    uint pad0_;
+    uint turned;  // 1: each hemicube about its normal by an angle of its own, against patterns
     uint pad1_;
     uint pad2_;
 } CubeParams;

@@ -1,0 +1,20 @@
+// The sky's picture in coarse texels, each the mean over its solid angle: about what a pixel of a
+// hemicube sees.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/scene.hpp>
+#include <optional>
+#include <vector>
+
+namespace clgi {
+
+struct CoarseSky {
+    int width = 0, height = 0;
+    std::vector<float> texels;  // [height][width][3]
+};
+
+// Of 0 texels without an environment.
+CoarseSky coarse_sky(const std::optional<Environment>& environment);
+
+}  // namespace clgi

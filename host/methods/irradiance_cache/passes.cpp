@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <clgi/advanced/planes.hpp>
+#include <clgi/passes/cache.hpp>
+
+#include "core/opencl/launch.hpp"
+#include "core/opencl/planes.hpp"
+#include "core/opencl/program.hpp"
+#include "core/opencl/variants.hpp"
+#include "core/opencl/word.hpp"
+
+namespace clgi {
+namespace {
+
+void need_records(const PassKernel& pass, const CacheParams& params, const CacheBuffers& b) {
+    const std::size_t end = std::size_t{params.first} + params.count;
+    if (params.size < 8 || params.size % 8 != 0)
+        throw Error(pass.name + ": size is " + std::to_string(params.size) +
+                    ", a multiple of 8 needed");
+    need_stride(pass, "stride", params.stride, end);
+    need_countable(pass.name, "visibility", 3 * std::size_t{params.size} * params.size, end);
+    need(pass, "planes", b.planes, RECORD_PLANES * word * params.stride);
+    need(pass, "views", b.views, 5 * end * sizeof(View));
+    need(pass, "visibility", b.visibility,
+         3 * sizeof(std::uint64_t) * params.size * params.size * end);
+}
+
+void need_tree(const PassKernel& pass, const CacheTree& tree, const CacheBuffers& b) {
+    need_stride(pass, "tree.stride", tree.stride, tree.record_count);
+    need(pass, "nodes", b.nodes, tree.node_count * word);
+    need(pass, "planes", b.planes, RECORD_PLANES * word * tree.stride);
+}
+
+}  // namespace
+
+CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) {
+    const BuildOptions whole = full(options);
+    const auto few = [&](const char* pass) {
+        return in_small_groups(programs.kernel("cache", pass, whole), programs.device(), options);
+    };
+    pick_ = few("pick");
+    link_ = few("link");
+    bounce_ = few("bounce");
+    show_ = programs.kernel("cache", "show", options);
+}
+
+void CachePasses::build(std::initializer_list<const char*> passes) const {
+    build_named({pick_, link_, bounce_, show_}, passes);
+}
+
+cl::Event CachePasses::pick(const cl::CommandQueue& queue, const CacheParams& params,
+                            const DeviceScene& scene, const CacheBuffers& b,
+                            const cl::Buffer& places, const WaitList& wait) const {
+    need_records(pick_, params, b);
+    const std::size_t picks = std::size_t{params.count} * params.picks;
+    need_stride(pick_, "pick_stride", params.pick_stride, params.first_pick + picks);
+    need(pick_, "places", places, RECORD_PLANES * word * params.pick_stride);
+    return launch(pick_, queue, picks, wait, params, scene.info(), b.views, b.visibility, scene,
+                  places);
+}
+
+cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& params,
+                            const CacheTree& tree, const DeviceScene& scene,
+                            const CacheBuffers& b, const WaitList& wait) const {
+    need_records(link_, params, b);
+    need_tree(link_, tree, b);
+    need(link_, "sky", b.sky,
+         3 * word * std::max<std::size_t>(1, std::size_t{params.sky_width} * params.sky_height));
+    need(link_, "rows", b.rows, 3 * word * params.stride * (std::size_t{params.first} + params.count));
+    need(link_, "base", b.base, 3 * word * params.stride);
+    return launch(link_, queue, params.count, wait, params, tree, scene.info(), b.views,
+                  b.visibility, b.nodes, b.lists, b.planes, b.sky, scene, b.rows, b.base);
+}
+
+cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
+                              const CacheBuffers& b, const WaitList& wait) const {
+    need_stride(bounce_, "stride", params.stride, params.record_count);
+    const std::size_t plane = word * params.stride;
+    need(bounce_, "rows", b.rows, 3 * plane * params.record_count);
+    for (const cl::Buffer* light : {&b.base, &b.direct, &b.light, &b.next, &b.indirect})
+        need(bounce_, "light", *light, 3 * plane);
+    return launch(bounce_, queue, std::size_t{3} * params.record_count, wait, params, b.rows,
+                  b.base, b.direct, b.light, b.next, b.indirect);
+}
+
+cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams& params,
+                            const CacheTree& tree, const CacheBuffers& b, const GBuffer& points,
+                            const cl::Buffer& irradiance, const WaitList& wait) const {
+    need_tree(show_, tree, b);
+    need_stride(show_, "stride", params.stride, params.point_count);
+    need(show_, "light", b.indirect, 3 * word * tree.stride);
+    need(show_, "points", points.planes, point_bytes(show_.storage, params.stride));
+    need(show_, "irradiance", irradiance, irradiance_bytes(show_.storage, params.stride));
+    return launch(show_, queue, params.point_count, wait, params, tree, b.nodes, b.lists, b.planes,
+                  b.indirect, points.planes, irradiance);
+}
+
+}  // namespace clgi

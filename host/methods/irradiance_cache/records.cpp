@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "methods/irradiance_cache/records.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clgi {
+namespace {
+
+constexpr std::size_t most_in_block = 4;
+constexpr float alike = 0.9f;     // cosine between normals that one record stands in for
+constexpr float off_plane = 0.3f;  // distance off the plane, of the distance
+constexpr float widest = 0.6f, narrowest = 0.01f, narrower = 0.75f;  // spacing by distance
+
+bool exists(const CacheRecord& record) { return glm::dot(record.normal, record.normal) > 0.0f; }
+
+bool stands_in(const CacheRecord& record, const CacheRecord& pixel) {
+    const glm::vec3 d = pixel.position - record.position;
+    return glm::dot(record.normal, pixel.normal) > alike &&
+           std::abs(glm::dot(record.normal, d)) <= off_plane * glm::length(d);
+}
+
+}  // namespace
+
+std::vector<CacheRecord> seen_records(const std::vector<CacheRecord>& pixels, int width, int height,
+                                      int count) {
+    const double area = static_cast<double>(width) * height;
+    const int side = std::max(1, static_cast<int>(std::sqrt(area / count)));
+    std::vector<CacheRecord> out;
+    for (int top = 0; top < height; top += side)
+        for (int left = 0; left < width; left += side) {
+            const int across = std::min(side, width - left), down = std::min(side, height - top);
+            const std::size_t first = out.size();
+            // The middle of the block first.
+            for (int k = 0; k < across * down && out.size() - first < most_in_block; ++k) {
+                const int at = (k + (down / 2) * across + across / 2) % (across * down);
+                const CacheRecord& pixel =
+                    pixels[static_cast<std::size_t>(top + at / across) *
+                               static_cast<std::size_t>(width) +
+                           static_cast<std::size_t>(left + at % across)];
+                if (!exists(pixel)) continue;
+                const bool known = std::any_of(
+                    out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
+                    [&](const CacheRecord& record) { return stands_in(record, pixel); });
+                if (!known) out.push_back(pixel);
+            }
+        }
+    return out;
+}
+
+void add_records(std::vector<CacheRecord>& records, const std::vector<CacheRecord>& candidates,
+                 const std::vector<std::size_t>& viewers, std::size_t count) {
+    const std::size_t before = records.size(), most = before + count;
+    std::vector<char> taken(candidates.size(), 0);
+    for (float spacing = widest; spacing > narrowest && records.size() < most; spacing *= narrower)
+        for (std::size_t i = 0; i < candidates.size() && records.size() < most; ++i) {
+            const CacheRecord& candidate = candidates[i];
+            if (taken[i] || !exists(candidate)) continue;
+            const glm::vec3 away = candidate.position - records[viewers[i]].position;
+            const float apart = spacing * spacing * glm::dot(away, away);
+            const bool near = std::any_of(
+                records.begin(), records.end(), [&](const CacheRecord& record) {
+                    const glm::vec3 d = candidate.position - record.position;
+                    return glm::dot(d, d) < apart &&
+                           glm::dot(record.normal, candidate.normal) > alike;
+                });
+            if (near) continue;
+            records.push_back(candidate);
+            taken[i] = 1;
+        }
+}
+
+}  // namespace clgi

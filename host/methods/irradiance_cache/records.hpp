@@ -1,0 +1,23 @@
+// Where records stand: on what a picture shows, and on what other records see.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "methods/irradiance_cache/tree.hpp"
+
+namespace clgi {
+
+// Pixels of a picture, normals of 0 where nothing is: one for each part of a block of pixels that
+// lies in one plane, at most four a block.
+std::vector<CacheRecord> seen_records(const std::vector<CacheRecord>& pixels, int width, int height,
+                                      int count);
+
+// Adds up to `count` of the candidates to the records, as far from each other and from what is
+// there, in distances from those that see them, as it takes. viewers: record that sees each
+// candidate; a candidate without normal is left out.
+void add_records(std::vector<CacheRecord>& records, const std::vector<CacheRecord>& candidates,
+                 const std::vector<std::size_t>& viewers, std::size_t count);
+
+}  // namespace clgi

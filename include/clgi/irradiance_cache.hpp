@@ -1,0 +1,67 @@
+// Irradiance cache: light of the sky, of emissive surfaces and of all bounces, gathered by
+// hemicubes at places that the picture needs.                      [Ward88; derived: hemicubes]
+//
+// The other methods look at the scene; this one looks at what the picture sees, and at what that
+// sees in turn. So light that comes through a window, from a far wall or out of a terrain a thousand
+// times larger than the room costs what it weighs in the picture.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/kit/picture.hpp>
+#include <clgi/advanced/solver_status.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/programs.hpp>
+#include <memory>
+
+namespace clgi {
+
+struct IrradianceCacheOptions {
+    int seen = 400;  // records on what the picture shows, about; 1 to 20000
+    int met = 1500;  // records on what these see, and what those see in turn; 0 to 20000
+    int face = 32;   // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
+    int bounces = 0;  // reflections of light before it reaches a record; 0: until it rests
+    // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false: by
+    // points with shadow maps (EmitterOptions::area_samples), whose shadows are sharper.
+    bool emission = false;
+    PictureOptions picture;  // but environment_lights: the sky lights by hemicubes
+};
+
+// converged: the last reflection changed the light at no record by more than a thousandth of the
+// brightest.
+struct IrradianceCacheStatus : SolverStatus {
+    std::size_t seen = 0, met = 0;  // records
+    int bounces = 0;                // reflections that were made
+};
+
+// Owns its buffers, works on the given queue (in order or not). The scene must outlive this object.
+// One thread at a time.
+class CLGI_API IrradianceCache {
+public:
+    // Builds kernels and allocates. Throws Error for options out of range, DeviceError when memory
+    // does not suffice.
+    IrradianceCache(const Programs& programs, const cl::CommandQueue& queue,
+                    const DeviceScene& scene, const IrradianceCacheOptions& options = {});
+    ~IrradianceCache();
+    IrradianceCache(const IrradianceCache&) = delete;
+    IrradianceCache& operator=(const IrradianceCache&) = delete;
+
+    // Reads the scene's lights and environment again.
+    void lights_changed();
+
+    // A picture that begins after `wait`. Waits for its own records, because the host chooses them;
+    // the event completes when all of the picture has.
+    cl::Event render(const Camera& camera, const WaitList& wait = {});
+
+    IrradianceCacheStatus status() const;  // of the last picture; waits
+    const Picture& picture() const;
+    const std::vector<PassEvent>& events() const { return picture().events(); }
+    const IrradianceCacheOptions& options() const;
+    std::size_t bytes() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace clgi

@@ -1,0 +1,61 @@
+// An irradiance cache, one method per kernel. Structs: clgi/shared/cache.h. Rules for all methods:
+// clgi/passes/gbuffer.hpp.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/shared/cache.h>
+#include <clgi/advanced/export.hpp>
+#include <clgi/advanced/pass.hpp>
+#include <clgi/device_scene.hpp>
+#include <clgi/passes/gbuffer.hpp>
+#include <clgi/programs.hpp>
+#include <initializer_list>
+
+namespace clgi {
+
+// Records, their hemicubes and their light.
+struct CacheBuffers {
+    cl::Buffer planes;           // [RECORD_PLANES][stride] float, local frame
+    cl::Buffer views;            // [5 * records] View
+    cl::Buffer visibility;       // [3 * size * size * records] ulong
+    cl::Buffer nodes, lists;     // of the tree
+    cl::Buffer sky;              // [sky_height][sky_width][3] float
+    cl::Buffer rows;             // [records][3][stride] float
+    cl::Buffer base, direct;     // [3][stride] float, exposed lux
+    cl::Buffer light, next;      // the same
+    cl::Buffer indirect;         // the same
+};
+
+class CLGI_API CachePasses {
+public:
+    explicit CachePasses(const Programs& programs, const BuildOptions& options = {});
+
+    // Surfaces that the hemicubes of params.count records see -> places [RECORD_PLANES]
+    // [pick_stride], params.picks for each record.
+    cl::Event pick(const cl::CommandQueue& queue, const CacheParams& params,
+                   const DeviceScene& scene, const CacheBuffers& buffers, const cl::Buffer& places,
+                   const WaitList& wait = {}) const;
+
+    // Rows of the transport of params.count records, and their base light.
+    cl::Event link(const cl::CommandQueue& queue, const CacheParams& params, const CacheTree& tree,
+                   const DeviceScene& scene, const CacheBuffers& buffers,
+                   const WaitList& wait = {}) const;
+
+    // light -> next, indirect.
+    cl::Event bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
+                     const CacheBuffers& buffers, const WaitList& wait = {}) const;
+
+    // buffers.indirect -> irradiance [IRRADIANCE_PLANES][params.stride] of the points of a G-buffer,
+    // in the storage of these passes.
+    cl::Event show(const cl::CommandQueue& queue, const CacheShowParams& params,
+                   const CacheTree& tree, const CacheBuffers& buffers, const GBuffer& points,
+                   const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+
+    // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
+    void build(std::initializer_list<const char*> passes) const;
+
+private:
+    PassKernel pick_, link_, bounce_, show_;
+};
+
+}  // namespace clgi

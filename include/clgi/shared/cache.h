@@ -1,0 +1,62 @@
+// An irradiance cache: records on surfaces, what their hemicubes see, and how light between them is
+// looked up.                                                        [Ward88; derived: hemicubes]
+// SPDX-License-Identifier: MIT
+#ifndef CLGI_SHARED_CACHE_H
+#define CLGI_SHARED_CACHE_H
+
+#include "clgi/shared/base.h"
+
+CLGI_SHARED_BEGIN
+
+// Planes of the records. The first nine are those of a G-buffer, so hemicubes can stand on them and
+// lights light them.
+enum { RECORD_POSITION = 0, RECORD_NORMAL = 3, RECORD_GEOMETRIC = 6, RECORD_PLANES = 9 };
+
+// A tree over space that names the records near each place: eight children a node, and in leaves a
+// list for each of the six ways that a surface can face, +x, -x, +y and so on.
+enum { CACHE_LISTED = 16, CACHE_WAYS = 6 };
+#define CACHE_LEAF 0x80000000u  // of a node: the rest is the leaf's number, else the first child's place
+#define CACHE_NONE 0xffffffffu
+
+typedef struct {
+    float4 centre;  // xyz of the root's cube, local frame; w: half its side
+    uint node_count;
+    uint record_count;
+    uint stride;  // of the planes of records and of their light
+    uint pad_;
+} CacheTree;
+
+// Records of a batch and their hemicubes.
+typedef struct {
+    uint first;   // record
+    uint count;
+    uint stride;  // of the planes of records
+    uint size;    // pixels, side of a hemicube's whole face, a multiple of 8
+    float4 sky;   // rgb times the sky's texel: exposed radiance
+    uint sky_width;  // texels; 0: no sky
+    uint sky_height;
+    float sky_turn;  // in turns, as in EnvironmentParams
+    uint emission;  // 1: emissive surfaces count
+    uint picks;     // surfaces of each record that pick takes
+    uint first_pick;  // place of the first record's
+    uint pick_stride;
+    uint seed;
+} CacheParams;
+
+typedef struct {
+    uint record_count;
+    uint stride;  // of planes, and of a row of the transport
+    uint pad0_;
+    uint pad1_;
+} CacheBounceParams;
+
+typedef struct {
+    uint point_count;
+    uint stride;  // of the G-buffer and the irradiance
+    uint pad0_;
+    uint pad1_;
+} CacheShowParams;
+
+CLGI_SHARED_END
+
+#endif

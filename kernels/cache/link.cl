@@ -1,0 +1,120 @@
+// What arrives at records from all that their hemicubes see: a row of the transport, and what does
+// not depend on other records, the sky and emission.
+//
+//   E_i = B_i + sum_j T_ij E_j,   T_ij = sum over pixels w rho W_j,   B_i = sum w pi L
+//
+// w: form factor of a pixel, rho: reflectance of the surface in it, W_j: share of record j in it
+// (lookup.clh).                               [derived: radiosity of points, gathered by hemicubes]
+//
+// Work size    1D, one work-item a record; any local size; tail guarded
+// Writes       its own row and its own base light
+// Cost         some 300 flops a pixel that shows a surface, 60 and a look-up one that shows the sky
+// SPDX-License-Identifier: MIT
+#include "cache/lookup.clh"
+#include "cache/sees.clh"
+#include "gbuffer/hit.clh"
+#include "gbuffer/window.clh"
+
+// pi times the radiance that comes from a direction, without the sky's factor.
+static float3 cache_sky(const CacheParams* params, global const float* texels, float3 d) {
+    float u = atan2(d.x, -d.z) * (0.5f / CLGI_PI) + (0.5f + params->sky_turn);
+    float v = atan2(sqrt(d.x * d.x + d.z * d.z), d.y) * (1.0f / CLGI_PI);
+    u -= floor(u);
+    uint x = min((uint)(u * (float)params->sky_width), params->sky_width - 1);
+    uint y = min((uint)(v * (float)params->sky_height), params->sky_height - 1);
+    return vload3(y * params->sky_width + x, texels);
+}
+
+kernel void cache_link(
+    const CacheParams    params,
+    const CacheTree      tree,
+    const SceneInfo      info,
+    global const View*   restrict views,       // five of each record
+    global const ulong*  restrict visibility,  // of all records
+    global const uint*   restrict nodes,
+    global const uint*   restrict lists,
+    global const float*  restrict planes,      // [RECORD_PLANES][stride] of all records
+    global const float*  restrict sky,         // [sky_height][sky_width][3]
+    SCENE_ARGUMENTS,
+    global float*        restrict rows,        // [record][3][stride]
+    global float*        restrict base)        // [3][stride] exposed lux
+{
+    uint item = (uint)get_global_id(0);
+    if (item >= params.count) return;
+    SceneBuffers scene = SCENE_BUFFERS;
+    uint record = params.first + item;
+    uint stride = params.stride;
+    global float* row = rows + (ulong)record * 3 * stride;
+    for (uint k = 0; k < 3 * stride; ++k) row[k] = 0.0f;
+    float3 own = (float3)(0.0f), above = (float3)(0.0f);
+    float all = 0.0f;
+    global const float* normal = planes + RECORD_NORMAL * stride + record;
+    int valid = normal[0] != 0.0f || normal[stride] != 0.0f || normal[2 * stride] != 0.0f;
+    for (uint face = 0; valid && face < 5; ++face) {
+        View view = views[5 * record + face];
+        uint pixels = view.width * view.height;
+        for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
+            floatp x, y;
+            gbuffer_window(&view, pixel, &x, &y);
+            floatp factor = cache_form_factor(face, params.size, x, y);
+            intp triangle = cache_triangles(visibility + view.first_pixel + pixel);
+            float factors[CLGI_WIDTH], right[CLGI_WIDTH], up[CLGI_WIDTH];
+            int seen[CLGI_WIDTH];
+            packet_store(factor, factors);
+            packet_store(triangle, seen);
+            for (int k = 0; k < CLGI_WIDTH; ++k) all += factors[k];
+            if (packet_any(triangle < 0) && params.sky_width > 0) {
+                packet_store(x, right);
+                packet_store(y, up);
+                for (int k = 0; k < CLGI_WIDTH; ++k) {
+                    if (seen[k] >= 0) continue;
+                    float3 d = view.forward.xyz + right[k] * view.right.xyz + up[k] * view.up.xyz;
+                    above += factors[k] * cache_sky(&params, sky, d);
+                }
+            }
+            if (!packet_any(triangle >= 0)) continue;
+            Surface surface = gbuffer_surface(&view, x, y, triangle, &scene, info.flags);
+            float at[9][CLGI_WIDTH];
+            int front[CLGI_WIDTH];
+            packet_store(surface.x, at[0]);
+            packet_store(surface.y, at[1]);
+            packet_store(surface.z, at[2]);
+            packet_store(surface.normal_x, at[3]);
+            packet_store(surface.normal_y, at[4]);
+            packet_store(surface.normal_z, at[5]);
+            packet_store(surface.base_r, at[6]);
+            packet_store(surface.base_g, at[7]);
+            packet_store(surface.base_b, at[8]);
+            packet_store(surface.front, front);
+            float glow[3][CLGI_WIDTH];
+            packet_store(surface.emission_r, glow[0]);
+            packet_store(surface.emission_g, glow[1]);
+            packet_store(surface.emission_b, glow[2]);
+            for (int k = 0; k < CLGI_WIDTH; ++k) {
+                if (seen[k] < 0) continue;
+                uint words = triangles[seen[k]].w;
+                if (!front[k] && !(words & (uint)TRIANGLE_DOUBLE_SIDED)) continue;
+                if (params.emission)
+                    own += factors[k] * CLGI_PI * (float3)(glow[0][k], glow[1][k], glow[2][k]);
+                CacheShare share = cache_lookup(&tree, nodes, lists, planes,
+                                                (float3)(at[0][k], at[1][k], at[2][k]),
+                                                (float3)(at[3][k], at[4][k], at[5][k]), CACHE_FEW);
+                float diffuse = factors[k] * materials[words & TRIANGLE_MATERIAL].reflectance.x;
+                for (uint i = 0; i < share.count; ++i) {
+                    global float* to = row + share.record[i];
+                    float weight = diffuse * share.weight[i];
+                    to[0] += weight * at[6][k];
+                    to[stride] += weight * at[7][k];
+                    to[2 * stride] += weight * at[8][k];
+                }
+            }
+        }
+    }
+    // The pixels' form factors sum to 1 but for the midpoint rule.
+    float scale = all > 0.0f ? 1.0f / all : 0.0f;
+    for (uint k = 0; k < 3 * stride; ++k) row[k] *= scale;
+    own = scale * (own + CLGI_PI * above * params.sky.xyz);
+    base[record] = own.x;
+    base[stride + record] = own.y;
+    base[2 * stride + record] = own.z;
+}

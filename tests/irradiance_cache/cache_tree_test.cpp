@@ -1,0 +1,139 @@
+// The tree of an irradiance cache, walked on the host as the kernels walk it.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "device.hpp"
+#include "math_modes.hpp"
+#include "methods/irradiance_cache/records.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+std::uint32_t way_of(const glm::vec3& n) {
+    int axis = 0;
+    for (int c = 1; c < 3; ++c)
+        if (std::abs(n[c]) > std::abs(n[axis])) axis = c;
+    return static_cast<std::uint32_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
+}
+
+std::vector<std::uint32_t> listed_at(const RecordTree& tree, const glm::vec3& p,
+                                     const glm::vec3& n) {
+    glm::vec3 centre = tree.centre;
+    float half = tree.half_side;
+    std::uint32_t node = tree.nodes[0];
+    while (!(node & CACHE_LEAF)) {
+        half *= 0.5f;
+        std::uint32_t child = 0;
+        for (int c = 0; c < 3; ++c) {
+            const bool high = p[c] > centre[c];
+            child |= high ? 1u << c : 0u;
+            centre[c] += high ? half : -half;
+        }
+        node = tree.nodes[node + child];
+    }
+    const std::size_t first =
+        (std::size_t{node & ~CACHE_LEAF} * CACHE_WAYS + way_of(n)) * CACHE_LISTED;
+    return {tree.lists.begin() + static_cast<std::ptrdiff_t>(first),
+            tree.lists.begin() + static_cast<std::ptrdiff_t>(first) + CACHE_LISTED};
+}
+
+// Records on the inside of a box with very different sides, dense in one corner.
+std::vector<CacheRecord> in_a_box(int count) {
+    test::Random random(7);
+    std::vector<CacheRecord> out;
+    for (int i = 0; i < count; ++i) {
+        const int axis = i % 3;
+        const bool high = i % 2 == 0;
+        glm::vec3 p(random(0, 1), random(0, 1), random(0, 1)), n(0.0f);
+        if (i % 5 == 0) p *= 0.05f;
+        p[axis] = high ? 1.0f : 0.0f;
+        n[axis] = high ? -1.0f : 1.0f;
+        p *= glm::vec3(40.0f, 3.0f, 5.0f);
+        out.push_back({p, n, n});
+    }
+    return out;
+}
+
+TEST(CacheTree, ListsARecordWhereItStands) {
+    const std::vector<CacheRecord> records = in_a_box(1000);
+    const RecordTree tree = make_tree(records);
+    for (std::uint32_t i = 0; i < records.size(); ++i) {
+        const auto listed = listed_at(tree, records[i].position, records[i].normal);
+        EXPECT_TRUE(std::find(listed.begin(), listed.end(), i) != listed.end()) << i;
+    }
+}
+
+// The nearest of those that face the same way, from any place on a wall.
+TEST(CacheTree, ListsTheNearestRecord) {
+    const std::vector<CacheRecord> records = in_a_box(1000);
+    const RecordTree tree = make_tree(records);
+    int found = 0;
+    const std::vector<CacheRecord> places = in_a_box(1500);
+    for (std::size_t k = 1000; k < places.size(); ++k) {
+        std::uint32_t nearest = 0;
+        float least = std::numeric_limits<float>::infinity();
+        for (std::uint32_t i = 0; i < records.size(); ++i) {
+            if (glm::dot(records[i].normal, places[k].normal) < 0.9f) continue;
+            const float apart = glm::distance(records[i].position, places[k].position);
+            if (apart < least) {
+                least = apart;
+                nearest = i;
+            }
+        }
+        const auto listed = listed_at(tree, places[k].position, places[k].normal);
+        found += std::find(listed.begin(), listed.end(), nearest) != listed.end();
+    }
+    EXPECT_GE(found, 490);  // of 500; the list is that of the leaf's centre
+}
+
+TEST(CacheTree, TakesRecordsInOnePlace) {
+    const std::vector<CacheRecord> records(40, {{1, 2, 3}, {0, 1, 0}, {0, 1, 0}});
+    const RecordTree tree = make_tree(records);
+    const auto listed = listed_at(tree, {1, 2, 3}, {0, 1, 0});
+    EXPECT_NE(listed[CACHE_LISTED - 1], CACHE_NONE);
+    EXPECT_EQ(listed_at(tree, {1, 2, 3}, {0, -1, 0})[0], CACHE_NONE);
+}
+
+// Two walls in a block of pixels have a record each, a row of pixels past the edge counts too.
+TEST(CacheRecords, OfAPictureStandOnEachOfItsPlanes) {
+    constexpr int width = 13, height = 7;
+    std::vector<CacheRecord> pixels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const glm::vec3 n = x < 5 ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+            const glm::vec3 p = x < 5 ? glm::vec3(0, y, 5 - x) : glm::vec3(x - 5, y, 0);
+            pixels.push_back(y == 6 && x == 12 ? CacheRecord{} : CacheRecord{p, n, n});
+        }
+    const std::vector<CacheRecord> one = seen_records(pixels, width, height, 1);
+    ASSERT_GE(one.size(), 2u);
+    int left = 0, right = 0;
+    for (const CacheRecord& record : one) (record.normal.x > 0.5f ? left : right)++;
+    EXPECT_GE(left, 1);
+    EXPECT_GE(right, 1);
+    EXPECT_EQ(seen_records(pixels, width, height, 1000).size(), std::size_t{width * height - 1});
+}
+
+TEST(CacheRecords, KeepApart) {
+    std::vector<CacheRecord> records = {{{0, 1, 0}, {0, -1, 0}, {0, -1, 0}}};
+    std::vector<CacheRecord> candidates;
+    for (int i = 0; i < 200; ++i) {
+        const float x = static_cast<float>(i % 20) * 0.1f, z = static_cast<float>(i / 20) * 0.1f;
+        candidates.push_back({{x, 0, z}, {0, 1, 0}, {0, 1, 0}});
+    }
+    candidates.push_back({});  // the ray left the scene
+    const std::vector<std::size_t> viewers(candidates.size(), 0);
+    add_records(records, candidates, viewers, 5);
+    ASSERT_EQ(records.size(), 6u);
+    for (std::size_t i = 1; i < records.size(); ++i)
+        for (std::size_t j = 1; j < i; ++j)
+            EXPECT_GE(glm::distance(records[i].position, records[j].position), 0.3f);
+    add_records(records, candidates, viewers, 1000);
+    EXPECT_LE(records.size(), 201u);
+}
+
+}  // namespace
+}  // namespace clgi

@@ -1,0 +1,236 @@
+// Pictures of an irradiance cache against closed forms and the path tracer.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <clgi/irradiance_cache.hpp>
+#include <clgi/procedural.hpp>
+#include <clgi/reference.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "frames.hpp"
+#include "math_modes.hpp"
+#include "refusals.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int cache_width = 48, cache_height = 36;
+
+struct CachePicture {
+    std::vector<glm::vec3> radiance;
+    IrradianceCacheStatus status;
+};
+
+IrradianceCacheOptions cache_options(int seen = 100, int met = 200) {
+    IrradianceCacheOptions out;
+    out.seen = seen;
+    out.met = met;
+    out.picture.width = cache_width;
+    out.picture.height = cache_height;
+    out.picture.build = test::usual_build();
+    return out;
+}
+
+CachePicture pictured(const Scene& scene, const IrradianceCacheOptions& options) {
+    const DeviceScene device = test::on_device(scene);
+    IrradianceCache cache(test::programs(), test::device().queue, device, options);
+    cache.render(scene.cameras.at(0)).wait();
+    const std::size_t pixels = std::size_t{cache_width} * cache_height;
+    return {test::vectors(test::device().queue, cache.picture().radiance(),
+                          cache.picture().stride(), pixels),
+            cache.status()};
+}
+
+glm::dvec3 mean_radiance(const std::vector<glm::vec3>& picture) {
+    glm::dvec3 sum(0.0);
+    for (const glm::vec3& value : picture) sum += glm::dvec3(value);
+    return sum / static_cast<double>(picture.size());
+}
+
+// A sky of one colour above the horizon, black below.
+Environment upper_half(const glm::vec3& radiance) {
+    Environment out;
+    out.width = 8;
+    out.height = 64;
+    out.texels.assign(512, glm::vec3(0.0f));
+    for (std::size_t i = 0; i < 256; ++i) out.texels[i] = radiance;
+    return out;
+}
+
+CLGI_IN_BOTH_MATHS(IrradianceCachePictures);
+
+// A plane that is tilted by t sees (1 + cos t) / 2 of the sky.
+TEST_P(IrradianceCachePictures, HaveTheSkyOfATiltedPlane) {
+    for (const double tilt : {0.0, 0.7, 1.3}) {
+        Scene scene = test::plain_scene({0.8f, 0.5f, 0.2f});
+        const glm::dvec3 up(std::sin(tilt), std::cos(tilt), 0.0), across(up.y, -up.x, 0.0);
+        const glm::dvec3 deep(0, 0, 1);
+        test::add_quad(scene, {2.0 * (-across + deep), 2.0 * (across + deep),
+                               2.0 * (across - deep), 2.0 * (-across - deep)});
+        scene.environment = upper_half({1.0f, 2.0f, 4.0f});
+        scene.cameras = {test::camera_at(2.0 * up + 0.1 * deep, {0, 0, 0}, 0.6f)};
+        const CachePicture found = pictured(scene, cache_options());
+        EXPECT_EQ(found.status.non_finite, 0u);
+        EXPECT_EQ(found.status.met, 0u);
+        for (int c = 0; c < 3; ++c) {
+            const double wanted = scene.materials[0].base_color[c] * (1 << c) *
+                                  (1.0 + std::cos(tilt)) / 2.0;
+            for (const glm::vec3& value : found.radiance)
+                ASSERT_NEAR(value[c], wanted, 0.03 * wanted) << tilt << " " << c;
+            EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.01 * wanted) << tilt;
+        }
+    }
+}
+
+// In a closed sphere of albedo p light that arrives as E is E / (1 - p) with all reflections; with
+// n of them the sum of p^k up to n.
+TEST_P(IrradianceCachePictures, HaveAllReflectionsOfASphere) {
+    Scene scene = furnace({.light = LightSource::point, .albedo = 0.6f, .subdivisions = 3});
+    scene.lights[0].intensity = {1.0f, 2.0f, 5.0f};
+    scene.cameras = {test::camera_at({0, 0, 0.2}, {0.3, 0.2, -1}, 1.2f)};
+    for (const int bounces : {0, 1, 3}) {
+        IrradianceCacheOptions options = cache_options();
+        options.bounces = bounces;
+        const CachePicture found = pictured(scene, options);
+        const double gain =
+            bounces == 0 ? 2.5 : (1.0 - std::pow(0.6, bounces + 1)) / 0.4;
+        EXPECT_TRUE(found.status.converged);
+        for (int c = 0; c < 3; ++c) {
+            const double wanted = 0.6 / pi * scene.lights[0].intensity[c] * gain;
+            // Facets are nearer to the light than the sphere.
+            EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.03 * wanted) << bounces;
+        }
+    }
+}
+
+// Below the middle of a square lamp: E = 4 L (a / A atan(b / A) + b / B atan(a / B)) / 2.
+TEST_P(IrradianceCachePictures, HaveALampByHemicubes) {
+    Scene scene = test::plain_scene({0.5f, 0.5f, 0.5f});
+    test::add_floor(scene, 0.1);
+    Material lamp;
+    lamp.base_color = glm::vec4(0, 0, 0, 1);
+    lamp.emission = {3.0f, 2.0f, 1.0f};
+    const std::uint32_t glows = test::add_material(scene, lamp);
+    test::add_quad(scene, {glm::dvec3(-0.5, 1, -0.5), {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}},
+                   glows);
+    scene.cameras = {test::camera_at({0, 0.8, 0.001}, {0, 0, 0}, 0.1f)};
+    IrradianceCacheOptions options = cache_options(20, 0);
+    options.emission = true;
+    options.face = 64;
+    const CachePicture found = pictured(scene, options);
+    const double side = std::sqrt(1.25), half = 0.5;
+    const double irradiance = 4.0 * (half / side * std::atan(half / side));
+    for (int c = 0; c < 3; ++c) {
+        const double wanted = 0.5 / pi * irradiance * lamp.emission[c];
+        EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.02 * wanted) << c;
+    }
+    // By points with shadow maps it is direct light, and as bright.
+    options.emission = false;
+    options.picture.emitters.area_samples = 256;
+    const CachePicture direct = pictured(scene, options);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(mean_radiance(direct.radiance)[c], mean_radiance(found.radiance)[c],
+                    0.02 * mean_radiance(found.radiance)[c]);
+}
+
+// A coloured room with a window, looked at away from it, in a plain that is a thousand times larger.
+TEST_P(IrradianceCachePictures, OfARoomWithAWindowAreThePathTracers) {
+    Scene scene = test::plain_scene({0.7f, 0.6f, 0.5f});
+    const auto paint = [&](const glm::vec3& albedo) {
+        Material material;
+        material.base_color = glm::vec4(albedo, 1.0f);
+        return test::add_material(scene, material);
+    };
+    const std::uint32_t red = paint({0.75f, 0.3f, 0.2f}), green = paint({0.25f, 0.6f, 0.3f});
+    test::add_box(scene, {-0.2, -0.2, -0.2}, {4.2, 0, 5.2}, 1);
+    test::add_box(scene, {-0.2, 3, -0.2}, {4.2, 3.2, 5.2}, 1);
+    test::add_box(scene, {-0.2, 0, -0.2}, {4.2, 3, 0}, 1);
+    test::add_box(scene, {-0.2, 0, 0}, {0, 3, 5}, 1, red);
+    test::add_box(scene, {4, 0, 0}, {4.2, 3, 5}, 1, green);
+    test::add_box(scene, {-0.2, 0, 5}, {1, 3, 5.2}, 1);
+    test::add_box(scene, {3, 0, 5}, {4.2, 3, 5.2}, 1);
+    test::add_box(scene, {1, 0, 5}, {3, 0.6, 5.2}, 1);
+    test::add_box(scene, {1, 2.6, 5}, {3, 3, 5.2}, 1);
+    test::add_box(scene, {0.6, 0, 1.0}, {1.6, 0.9, 2.0}, 1, green);
+    test::add_floor(scene, 4000.0, -0.3);
+    scene.environment = upper_half({1.0f, 1.5f, 2.0f});
+    scene.cameras = {test::camera_at({2.2, 1.6, 4.6}, {1.8, 1.2, 0}, 1.0f)};
+    const CachePicture found = pictured(scene, cache_options(300, 400));
+    EXPECT_TRUE(found.status.converged);
+    reference::Options options;
+    options.width = cache_width;
+    options.height = cache_height;
+    options.samples = 256;
+    const reference::Picture truth =
+        reference::PathTracer(scene).render(scene.cameras[0], options);
+    const glm::dvec3 got = mean_radiance(found.radiance), wanted = mean_radiance(truth.radiance);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c] / wanted[c], 1.0, 0.06) << c;
+    // In blocks, which have little of the path tracer's noise.
+    double square = 0.0;
+    int blocks = 0;
+    for (int y = 0; y < cache_height; y += 6)
+        for (int x = 0; x < cache_width; x += 6, ++blocks) {
+            double apart = 0.0;
+            for (int k = 0; k < 36; ++k) {
+                const auto pixel = static_cast<std::size_t>((y + k / 6) * cache_width + x + k % 6);
+                apart += found.radiance[pixel].y - truth.radiance[pixel].y;
+            }
+            square += apart * apart / (36.0 * 36.0);
+        }
+    EXPECT_LT(std::sqrt(square / blocks), 0.12 * wanted.y);
+}
+
+TEST(IrradianceCache, IsTheSameTwiceAndFollowsItsLights) {
+    Scene scene = furnace({.light = LightSource::point, .albedo = 0.5f, .subdivisions = 2});
+    scene.cameras = {test::camera_at({0, 0, 0.2}, {0.3, 0.2, -1}, 1.2f)};
+    DeviceScene device = test::on_device(scene);
+    IrradianceCache cache(test::programs(), test::device().queue, device, cache_options());
+    const auto picture = [&] {
+        cache.render(scene.cameras[0]).wait();
+        return test::vectors(test::device().queue, cache.picture().radiance(),
+                             cache.picture().stride(), std::size_t{cache_width} * cache_height);
+    };
+    const auto first = picture(), second = picture();
+    EXPECT_TRUE(first == second);
+    Light light = scene.lights[0];
+    light.intensity *= glm::vec3(0.5f, 1.0f, 2.0f);
+    device.set_light(0, light);
+    cache.lights_changed();
+    const glm::dvec3 after = mean_radiance(picture()), before = mean_radiance(first);
+    EXPECT_NEAR(after.x / before.x, 0.5, 1e-4);
+    EXPECT_NEAR(after.y / before.y, 1.0, 1e-4);
+    EXPECT_NEAR(after.z / before.z, 2.0, 1e-3);
+}
+
+TEST(IrradianceCache, ShowsNothingWhereNothingIs) {
+    Scene scene;
+    scene.cameras = {test::camera_at({0, 0, 1}, {0, 0, 0}, 1.0f)};
+    scene.environment = Environment{.factor = {1.0f, 2.0f, 3.0f}};
+    const CachePicture found = pictured(scene, cache_options());
+    EXPECT_EQ(found.status.seen, 0u);
+    for (const glm::vec3& value : found.radiance) ASSERT_EQ(value, glm::vec3(1.0f, 2.0f, 3.0f));
+}
+
+TEST(IrradianceCache, SaysWhatItCannotDo) {
+    const DeviceScene device = test::on_device(furnace({.subdivisions = 1}));
+    const auto refused = [&](auto change) {
+        IrradianceCacheOptions options = cache_options();
+        change(options);
+        return test::refusal<Error>(
+            [&] { IrradianceCache(test::programs(), test::device().queue, device, options); });
+    };
+    using Options = IrradianceCacheOptions;
+    EXPECT_NE(refused([](Options& o) { o.seen = 0; }).find("seen is 0"), std::string::npos);
+    EXPECT_NE(refused([](Options& o) { o.met = 20001; }).find("met"), std::string::npos);
+    EXPECT_NE(refused([](Options& o) { o.face = 36; }).find("multiple of 8"), std::string::npos);
+    EXPECT_NE(refused([](Options& o) { o.face = 264; }).find("face"), std::string::npos);
+    EXPECT_NE(refused([](Options& o) { o.bounces = -1; }).find("bounces"), std::string::npos);
+    EXPECT_NE(refused([](Options& o) { o.picture.width = 0; }).find("width"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clgi
