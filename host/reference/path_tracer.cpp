@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "reference/camera_rays.hpp"
+#include "reference/sampled_light.hpp"
 #include "reference/world.hpp"
 
 namespace clgi::reference {
@@ -44,21 +44,6 @@ struct Tally {
         return std::sqrt(std::max(square / samples - mean * mean, 0.0) / (samples - 1));
     }
 };
-
-void check(const Options& options) {
-    const auto in = [](const char* name, double value, double low, double high) {
-        if (!(value >= low && value <= high))
-            throw Error(std::string("reference: ") + name + " is " + std::to_string(value) + ", " +
-                        std::to_string(low) + " to " + std::to_string(high) + " needed");
-    };
-    in("samples", options.samples, 1, 1 << 24);
-    in("target", options.target, 0, 1e9);
-    in("threads", options.threads, 0, 4096);
-    in("roulette_depth", options.roulette_depth, 0, 1e6);
-    const Effects& effects = options.effects;
-    if (!effects.shadowed && (effects.first_bounce != 1 || effects.last_bounce != 1))
-        throw Error("reference: unshadowed indirect light has one bounce");
-}
 
 double relative_error(const std::vector<Tally>& tallies, int samples) {
     double mean = 0.0, square = 0.0;
@@ -104,27 +89,22 @@ int accumulate(const Options& options, std::vector<Tally>& tallies, const Progre
     return taken;
 }
 
-bool inside(const Hit& hit) { return hit.b1 >= 0.0f && hit.b2 >= 0.0f && hit.b1 + hit.b2 <= 1.0f; }
-
-// Where textures are read for a sample of a pixel whose centre meets `seen`: anywhere in the pixel,
-// on the same triangle or on what else the pixel shows of its material. A small triangle's plane
-// would go on into parts of the texture that belong to something else.
-Hit texture_place(const Geometry& geometry, const Tracer& tracer, const CameraRays& rays, float x,
-                  float y, const Hit& seen, Random& random) {
-    constexpr int tries = 4;
-    const std::uint32_t material = geometry.triangles[seen.triangle].material;
-    for (int k = 0; k < tries; ++k) {
-        const float right = random(), down = random();
-        const Ray ray = rays.through(x + right, y + down);
-        const Hit beside = on_plane(geometry, seen.triangle, ray);
-        if (inside(beside)) return beside;
-        const std::optional<Hit> other = tracer.first(ray, true);
-        if (other && geometry.triangles[other->triangle].material == material) return *other;
-    }
-    return seen;
-}
-
 }  // namespace
+
+void check_options(const Options& options) {
+    const auto in = [](const char* name, double value, double low, double high) {
+        if (!(value >= low && value <= high))
+            throw Error(std::string("reference: ") + name + " is " + std::to_string(value) + ", " +
+                        std::to_string(low) + " to " + std::to_string(high) + " needed");
+    };
+    in("samples", options.samples, 1, 1 << 24);
+    in("target", options.target, 0, 1e9);
+    in("threads", options.threads, 0, 4096);
+    in("roulette_depth", options.roulette_depth, 0, 1e6);
+    const Effects& effects = options.effects;
+    if (!effects.shadowed && (effects.first_bounce != 1 || effects.last_bounce != 1))
+        throw Error("reference: unshadowed indirect light has one bounce");
+}
 
 PathTracer::PathTracer(const Scene& scene) {
     validate(scene);
@@ -135,32 +115,23 @@ PathTracer::~PathTracer() = default;
 
 Picture PathTracer::render(const Camera& camera, const Options& options,
                            const Progress& progress) const {
-    check(options);
+    check_options(options);
     if (options.width < 1 || options.width > 16384 || options.height < 1 || options.height > 16384)
         throw Error("reference: the picture is " + std::to_string(options.width) + "x" +
                     std::to_string(options.height) + ", 1x1 to 16384x16384 needed");
     const auto start = std::chrono::steady_clock::now();
-    const Geometry& geometry = world_->geometry;
     const Paths paths = world_->paths(options);
-    const CameraRays rays(camera, geometry, options.width, options.height);
-    const auto width = static_cast<std::size_t>(options.width);
-    std::vector<Tally> tallies(width * static_cast<std::size_t>(options.height));
+    const PixelLight light(world_->geometry, world_->tracer, paths, camera, options.width,
+                           options.height);
+    std::vector<Tally> tallies(static_cast<std::size_t>(options.width) *
+                               static_cast<std::size_t>(options.height));
 
     Picture out;
     out.width = options.width;
     out.height = options.height;
-    out.samples = accumulate(
-        options, tallies, progress, out.cancelled, [&](std::size_t pixel, Random& random) {
-            const auto x = static_cast<float>(pixel % width);
-            const auto y = static_cast<float>(pixel / width);
-            const Ray ray = rays.through(x + 0.5f, y + 0.5f);
-            const std::optional<Hit> hit = world_->tracer.first(ray, true);
-            const glm::vec3 direction = glm::normalize(ray.direction);
-            if (!hit) return paths.background(direction);
-            const Hit place = texture_place(geometry, world_->tracer, rays, x, y, *hit, random);
-            const Surface seen = surface_at(geometry, *hit, direction, place);
-            return paths.sample(seen, direction, random);
-        });
+    out.samples =
+        accumulate(options, tallies, progress, out.cancelled,
+                   [&](std::size_t pixel, Random& random) { return light(pixel, random); });
     for (const Tally& tally : tallies) {
         out.radiance.emplace_back(tally.mean(out.samples));
         out.error.push_back(static_cast<float>(tally.standard_error(out.samples)));
@@ -173,23 +144,15 @@ Picture PathTracer::render(const Camera& camera, const Options& options,
 
 Irradiance PathTracer::irradiance(const std::vector<Place>& places, const Options& options,
                                   const Progress& progress) const {
-    check(options);
+    check_options(options);
     const auto start = std::chrono::steady_clock::now();
     const Paths paths = world_->paths(options);
     std::vector<Tally> tallies(places.size());
     Irradiance out;
-    out.samples = accumulate(
-        options, tallies, progress, out.cancelled, [&](std::size_t item, Random& random) {
-            const Place& place = places[item];
-            // Reflects all, evenly, pi times over: radiance is irradiance.
-            Surface surface{};
-            surface.position = world_->geometry.to_local(place.position);
-            surface.normal = place.normal;
-            surface.geometric = place.geometric == glm::vec3(0.0f) ? place.normal : place.geometric;
-            surface.albedo = glm::vec3(pi);
-            surface.reflects = true;
-            return paths.sample(surface, -surface.normal, random);
-        });
+    out.samples = accumulate(options, tallies, progress, out.cancelled,
+                             [&](std::size_t item, Random& random) {
+                                 return light_at(places[item], world_->geometry, paths, random);
+                             });
     for (const Tally& tally : tallies) {
         out.values.emplace_back(tally.mean(out.samples));
         out.error.push_back(static_cast<float>(tally.standard_error(out.samples)));

@@ -85,6 +85,35 @@ struct Irradiance {
     bool cancelled = false;
 };
 
+// A number with its 95 % confidence interval. high is infinite where the samples set no limit.
+struct Estimate {
+    double value = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+};
+
+struct VerifyOptions {
+    Effects effects;         // of the truth
+    double seconds = 0.0;    // time limit; 0: none. A first pass and 200 pixels take what they take
+    int pixels = 1000;       // that are path-traced, at most; 16 to 2^20
+    int samples = 64;        // paths of one of them, at most, as a mean of all; 8 to 2^20
+    std::uint64_t seed = 1;  // without a time limit the same seed gives the same result
+    int threads = 0;         // 0: all
+};
+
+// How far a picture is from the truth, by a few path-traced pixels (docs/reference.md).
+struct Verification {
+    // Root of the mean squared difference of luminance over the mean luminance of the truth; the
+    // noise of the path tracer is not part of it.
+    Estimate error;
+    Estimate energy;             // mean luminance of the picture over that of the truth
+    int pixels = 0;              // that were path-traced, those of the first pass included
+    std::uint64_t samples = 0;   // paths, of all of them
+    std::size_t non_finite = 0;  // samples left out
+    double seconds = 0.0;
+    bool cancelled = false;  // error and energy are not set
+};
+
 class CLGI_API PathTracer {
 public:
     // Validates and copies what it needs. Throws InputError for a broken scene.
@@ -99,6 +128,17 @@ public:
     // The irradiance at places, cosine included. width and height are ignored.
     Irradiance irradiance(const std::vector<Place>& places, const Options& options,
                           const Progress& progress = nullptr) const;
+
+    // How far radiance, [height][width] cd/m^2, is from what this path tracer finds for the camera.
+    // Throws Error for options out of range, a picture of another size, and pixels that are not
+    // finite.
+    Verification verify(const Camera& camera, int width, int height,
+                        const std::vector<glm::vec3>& radiance, const VerifyOptions& options,
+                        const Progress& progress = nullptr) const;
+
+    // The same of irradiance at places, [places] lux. Effects::emission is not read.
+    Verification verify(const std::vector<Place>& places, const std::vector<glm::vec3>& irradiance,
+                        const VerifyOptions& options, const Progress& progress = nullptr) const;
 
     // Transfer vectors of diffuse places [places][bands^2], sr: what of the light from everywhere
     // arrives, cosine included, in spherical harmonics of the world's frame (clgi/advanced/sh.hpp).

@@ -1,0 +1,320 @@
+// How far a picture is from the truth, by a few path-traced pixels. If a and b are independent
+// samples of a pixel and x is its value in the picture, the mean of (x - a)(x - b) is the squared
+// error of the pixel. The noise of a and b is not part of it.
+// SPDX-License-Identifier: MIT
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <clgi/error.hpp>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "reference/interval.hpp"
+#include "reference/pixel_draws.hpp"
+#include "reference/sampled_light.hpp"
+#include "reference/world.hpp"
+
+namespace clgi::reference {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using LightOf = std::function<glm::vec3(std::size_t pixel, Random& random)>;
+
+constexpr int fewest_pixels = 200;                       // whatever the time
+constexpr int first_samples = 8;                         // of a pixel of the first pass
+constexpr std::uint64_t own_seed = 0x7665726966790000u;  // no stream of render() or irradiance()
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A pixel and the samples that were taken of it.
+struct Traced {
+    DrawnPixel drawn;
+    double picture = 0.0;     // luminance
+    std::uint32_t taken = 0;  // samples, those left out included
+    std::uint32_t non_finite = 0;
+    double sum = 0.0;     // of picture - sample
+    double square = 0.0;  // of their squares
+
+    double count() const { return double(taken) - double(non_finite); }
+    double light() const { return count() > 0.0 ? picture - sum / count() : picture; }
+    double variance() const {  // of one sample
+        return count() > 1.0 ? std::max(square - sum * sum / count(), 0.0) / (count() - 1.0) : 0.0;
+    }
+    // The mean of (x - a)(x - b) over all pairs of different samples.
+    double squared_error() const {
+        return count() > 1.0 ? (sum * sum - square) / (count() * (count() - 1.0)) : 0.0;
+    }
+    Draw weighted() const {
+        return {drawn.stratum, drawn.weight * squared_error(), drawn.weight * light(),
+                drawn.weight * picture};
+    }
+};
+
+// How many pixels of each stratum are traced, and with how many samples.
+struct Design {
+    std::vector<int> counts;   // pixels by stratum
+    std::vector<int> samples;  // of each of these pixels in a round
+};
+
+class Verifier {
+public:
+    Verifier(const Brightness& brightness, const VerifyOptions& options, const Progress& progress,
+             LightOf light)
+        : brightness_(brightness),
+          options_(options),
+          progress_(progress),
+          light_(std::move(light)),
+          draws_(brightness) {}
+
+    Verification run() {
+        std::optional<tbb::global_control> limit;
+        if (options_.threads > 0)
+            limit.emplace(tbb::global_control::max_allowed_parallelism,
+                          static_cast<std::size_t>(options_.threads));
+        std::vector<Traced> first = look();
+        const double first_seconds = seconds_since(start_);
+        const Design design = design_of(first, first_seconds);
+        std::vector<Traced> pixels = drawn(design.counts, 3);
+        if (rounds(design, pixels)) {
+            std::vector<Draw> weighted;
+            for (const Traced& pixel : pixels) weighted.push_back(pixel.weighted());
+            const ErrorAndEnergy found = estimate(weighted, draws_.mean());
+            out_.error = found.error;
+            out_.energy = found.energy;
+        } else {
+            out_.cancelled = true;
+        }
+        add_counts(first);
+        add_counts(pixels);
+        out_.seconds = seconds_since(start_);
+        return out_;
+    }
+
+private:
+    bool timed() const { return options_.seconds > 0.0; }
+
+    std::vector<Traced> drawn(const std::vector<int>& counts, std::uint64_t pass) const {
+        Random random(options_.seed ^ own_seed, pass, 0);
+        std::vector<Traced> out;
+        for (const DrawnPixel& pixel : draws_.draw(counts, random)) {
+            out.emplace_back();
+            out.back().drawn = pixel;
+            out.back().picture = double{brightness_.values[pixel.pixel]};
+        }
+        return out;
+    }
+
+    // pass: 1 or 2; 0 and 3 are those of drawn().
+    void trace(std::vector<Traced>& pixels, std::uint64_t pass,
+               const std::function<int(std::size_t stratum)>& samples) const {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, pixels.size(), 4),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                for (std::size_t k = range.begin(); k < range.end(); ++k) {
+                    Traced& pixel = pixels[k];
+                    for (int s = samples(pixel.drawn.stratum); s > 0; --s) {
+                        Random random(options_.seed ^ own_seed, (k << 2) + pass, pixel.taken++);
+                        const glm::vec3 light = light_(pixel.drawn.pixel, random);
+                        const double difference = pixel.picture - luminance(glm::dvec3(light));
+                        if (!std::isfinite(difference)) {
+                            ++pixel.non_finite;
+                            continue;
+                        }
+                        pixel.sum += difference;
+                        pixel.square += difference * difference;
+                    }
+                }
+            });
+    }
+
+    // The first pass: two pixels of each of a few strata. It decides where pixels and samples go.
+    // It is not part of the result, so that the result is unbiased.
+    std::vector<Traced> look() const {
+        const auto strata = static_cast<std::size_t>(std::clamp(options_.pixels / 8, 2, 64));
+        std::vector<Traced> out = drawn(std::vector<int>(strata, 2), 0);
+        trace(out, 1, [](std::size_t) { return first_samples; });
+        return out;
+    }
+
+    // With a time limit, more pixels leave fewer paths for each. The interval is shortest if the
+    // noise of the paths and the differences between pixels have the same variance.
+    int pixel_count(const std::vector<Traced>& first, double first_seconds) const {
+        if (!timed()) return options_.pixels;
+        double noise = 0.0, spread = 0.0;  // squares, of what pixels add to the mean
+        for (std::size_t k = 0; k + 1 < first.size(); k += 2) {
+            const Traced &a = first[k], &b = first[k + 1];
+            const auto noise_of = [](const Traced& p) {
+                return 2.0 * std::pow(p.drawn.weight * p.variance(), 2);
+            };
+            noise += noise_of(a) + noise_of(b);
+            spread += std::pow(a.weighted().square - b.weighted().square, 2);
+        }
+        const double of_paths = noise / (first_samples * (first_samples - 1.0));
+        const double of_pixels = std::max(spread - of_paths, 0.0);
+        const double paths = (options_.seconds - first_seconds) *
+                             static_cast<double>(first.size()) * first_samples / first_seconds;
+        const double best = noise > 0.0 ? std::sqrt(of_pixels / noise) * paths : options_.pixels;
+        const double most = std::min(paths / 16.0, double(options_.pixels));
+        return std::max(std::min(fewest_pixels, options_.pixels),
+                        static_cast<int>(std::min(best, most)));
+    }
+
+    Design design_of(const std::vector<Traced>& first, double first_seconds) const {
+        const int pixels = pixel_count(first, first_seconds);
+        // Two pixels with few samples may have missed everything, so what a stratum says of itself
+        // is mixed with the mean of all.
+        std::vector<double> spread(first.size() / 2), noise(first.size() / 2);
+        double mean_spread = 0.0, mean_noise = 0.0;
+        for (std::size_t s = 0; s < spread.size(); ++s) {
+            for (const Traced* pixel : {&first[2 * s], &first[2 * s + 1]}) {
+                const double weight = 0.5 * pixel->drawn.weight;
+                spread[s] += weight * (std::max(pixel->squared_error(), 0.0) +
+                                       pixel->variance() / first_samples);
+                noise[s] += weight * pixel->variance();
+            }
+            mean_spread += spread[s] / static_cast<double>(spread.size());
+            mean_noise += noise[s] / static_cast<double>(spread.size());
+        }
+        const auto strata = static_cast<std::size_t>(std::max(pixels / 8, 2));
+        const auto of = [&](std::size_t s) { return s * spread.size() / strata; };
+        double sum = 0.0;
+        for (std::size_t s = 0; s < strata; ++s) sum += spread[of(s)] + 0.5 * mean_spread;
+        Design out;
+        const int floor = pixels / static_cast<int>(strata) / 2;  // the other half by spread
+        const double free = pixels - floor * static_cast<double>(strata);
+        double before = 0.0;
+        for (std::size_t s = 0; s < strata; ++s) {
+            const double share = sum > 0.0 ? (spread[of(s)] + 0.5 * mean_spread) / sum
+                                           : 1.0 / static_cast<double>(strata);
+            const double after = before + free * share;
+            out.counts.push_back(floor + static_cast<int>(std::floor(after + 1e-6)) -
+                                 static_cast<int>(std::floor(before + 1e-6)));
+            before = after;
+            const double louder = mean_noise > 0.0 ? noise[of(s)] / mean_noise : 1.0;
+            out.samples.push_back(
+                std::clamp(static_cast<int>(std::lround(2.0 * std::cbrt(louder * louder))), 1, 8));
+        }
+        return out;
+    }
+
+    // False if cancelled.
+    bool rounds(Design design, std::vector<Traced>& pixels) {
+        double round = 0.0;  // samples
+        for (std::size_t s = 0; s < design.counts.size(); ++s)
+            round += double(design.counts[s]) * design.samples[s];
+        const double most = double(options_.samples) * static_cast<double>(pixels.size());
+        if (round * 2.0 > most) {  // too few for differences between strata
+            std::fill(design.samples.begin(), design.samples.end(), 1);
+            round = static_cast<double>(pixels.size());
+        }
+        const int all = static_cast<int>(std::min(most / round, 1e9));
+        int done = 0;
+        int next = std::min(timed() ? 4 : std::max(all / 8, 2), all);
+        while (next > 0) {
+            const Clock::time_point begin = Clock::now();
+            trace(pixels, 2, [&](std::size_t s) { return next * design.samples[s]; });
+            done += next;
+            const double spent = seconds_since(start_), one = seconds_since(begin) / next;
+            double share = double(done) / all;
+            next = std::min(next, all - done);
+            if (timed()) {
+                share = std::max(share, std::min(spent / options_.seconds, 1.0));
+                const double left = options_.seconds - spent;
+                next = std::min(
+                    static_cast<int>(std::min(std::max(left, 0.0) / std::max(one, 1e-9), 1e9)),
+                    all - done);
+                // In parts, so that it can be cancelled and times may change.
+                next = std::min(next, std::max(4, static_cast<int>(std::max(done, next / 3))));
+            }
+            if (progress_ && !progress_(next > 0 ? share : 1.0)) return false;
+        }
+        return true;
+    }
+
+    void add_counts(const std::vector<Traced>& pixels) {
+        out_.pixels += static_cast<int>(pixels.size());
+        for (const Traced& pixel : pixels) {
+            out_.samples += pixel.taken;
+            out_.non_finite += pixel.non_finite;
+        }
+    }
+
+    const Brightness& brightness_;
+    const VerifyOptions& options_;
+    const Progress& progress_;
+    const LightOf light_;
+    const PixelDraws draws_;
+    const Clock::time_point start_ = Clock::now();
+    Verification out_;
+};
+
+Options tracing_of(const VerifyOptions& options) {
+    const auto in = [](const char* name, double value, double low, double high) {
+        if (!(value >= low && value <= high))
+            throw Error(std::string("reference: verify: ") + name + " is " + std::to_string(value) +
+                        ", " + std::to_string(low) + " to " + std::to_string(high) + " needed");
+    };
+    in("seconds", options.seconds, 0, 1e9);
+    in("pixels", options.pixels, 16, 1 << 20);
+    in("samples", options.samples, 8, 1 << 20);
+    Options out;
+    out.effects = options.effects;
+    out.threads = options.threads;
+    check_options(out);
+    return out;
+}
+
+Brightness brightness_of(const std::vector<glm::vec3>& radiance, std::size_t width,
+                         std::size_t height) {
+    if (radiance.size() != width * height || radiance.empty())
+        throw Error("reference: verify: the picture has " + std::to_string(radiance.size()) +
+                    " pixels, " + std::to_string(width * height) + " needed, at least 1");
+    Brightness out{{}, width, height};
+    std::size_t bad = 0;
+    for (const glm::vec3& rgb : radiance) {
+        out.values.push_back(static_cast<float>(luminance(glm::dvec3(rgb))));
+        bad += !std::isfinite(out.values.back());
+    }
+    if (bad > 0)
+        throw Error("reference: verify: " + std::to_string(bad) +
+                    " pixels of the picture are not finite");
+    return out;
+}
+
+}  // namespace
+
+Verification PathTracer::verify(const Camera& camera, int width, int height,
+                                const std::vector<glm::vec3>& radiance,
+                                const VerifyOptions& options, const Progress& progress) const {
+    const Options tracing = tracing_of(options);
+    if (width < 1 || width > 16384 || height < 1 || height > 16384)
+        throw Error("reference: verify: the picture is " + std::to_string(width) + "x" +
+                    std::to_string(height) + ", 1x1 to 16384x16384 needed");
+    const Brightness brightness =
+        brightness_of(radiance, static_cast<std::size_t>(width), static_cast<std::size_t>(height));
+    const Paths paths = world_->paths(tracing);
+    const PixelLight light(world_->geometry, world_->tracer, paths, camera, width, height);
+    return Verifier(brightness, options, progress,
+                    [&](std::size_t pixel, Random& random) { return light(pixel, random); })
+        .run();
+}
+
+Verification PathTracer::verify(const std::vector<Place>& places,
+                                const std::vector<glm::vec3>& irradiance,
+                                const VerifyOptions& options, const Progress& progress) const {
+    const Options tracing = tracing_of(options);
+    const Brightness brightness = brightness_of(irradiance, places.size(), 1);
+    const Paths paths = world_->paths(tracing);
+    return Verifier(brightness, options, progress,
+                    [&](std::size_t place, Random& random) {
+                        return light_at(places[place], world_->geometry, paths, random);
+                    })
+        .run();
+}
+
+}  // namespace clgi::reference
