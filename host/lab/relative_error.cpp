@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/luminance.hpp"
 #include "lab/rgb_planes.hpp"
-#include "scene/luminance.hpp"
 
 namespace clgi::lab {
 
@@ -27,6 +27,17 @@ double relative_error(const io::Image& a, const io::Image& b, const Mask* mask) 
     }
     const auto count = static_cast<double>(mask ? mask->pixels : pixels);
     return mean > 0.0 ? std::sqrt(std::max(square, 0.0) / count) / (mean / count) : 0.0;
+}
+
+double luminance_ratio(const io::Image& a, const io::Image& b, const Mask* mask) {
+    const auto sum = [&](const io::Image& picture) {
+        const std::vector<double> values = luminance_of(picture);
+        double out = 0.0;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (!mask || (*mask)[i]) out += values[i];
+        return out;
+    };
+    return sum(a) / sum(b);
 }
 
 }  // namespace clgi::lab

@@ -14,4 +14,7 @@ namespace clgi::lab {
 // or no pixel counts.
 double relative_error(const io::Image& a, const io::Image& b, const Mask* mask = nullptr);
 
+// Mean luminance of a over that of b, over the same pixels.
+double luminance_ratio(const io::Image& a, const io::Image& b, const Mask* mask = nullptr);
+
 }  // namespace clgi::lab

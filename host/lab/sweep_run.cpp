@@ -5,22 +5,10 @@
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
 
-#include "lab/luminance.hpp"
 #include "lab/pareto.hpp"
 #include "lab/relative_error.hpp"
 
 namespace clgi::lab {
-namespace {
-
-double sum_of_luminance(const io::Image& picture, const Mask* mask) {
-    const std::vector<double> values = luminance_of(picture);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (!mask || (*mask)[i]) sum += values[i];
-    return sum;
-}
-
-}  // namespace
 
 void SweepProgress::part(double from, double span) {
     from_ = from;
@@ -43,8 +31,7 @@ void judge(SweepPoint& point, const std::vector<SweepTruth>& truths, const Mask*
     for (const SweepTruth& truth : truths)
         point.error.push_back(relative_error(point.picture, truth.picture, mask));
     point.front.assign(truths.size(), false);
-    point.energy =
-        sum_of_luminance(point.picture, mask) / sum_of_luminance(truths.front().picture, mask);
+    point.energy = luminance_ratio(point.picture, truths.front().picture, mask);
 }
 
 Sweep sweep_of(SweepOf of, const SweepSetup& setup) {

@@ -14,6 +14,7 @@
 #include "lab/hdr_flip.hpp"
 #include "lab/mask.hpp"
 #include "lab/metrics.hpp"
+#include "lab/relative_error.hpp"
 #include "program/commands.hpp"
 
 namespace clgi::program {
@@ -31,11 +32,19 @@ struct CompareFlags {
     double scale = 0.0;
 };
 
+// As sweeps and --verify state them: the noise that B states of itself is not part of the error.
+struct OfLuminance {
+    double error = 0.0;
+    double energy = 0.0;
+};
+
 // JSON has no infinity: psnr of equal pictures and quotients by zero become null.
-void print_json(const lab::Comparison& c) {
+void print_json(const lab::Comparison& c, const OfLuminance& luminance) {
     const nlohmann::ordered_json json = {
         {"rmse", c.rmse},
         {"rel_rmse", c.rel_rmse},
+        {"luminance_error", luminance.error},
+        {"luminance_energy", luminance.energy},
         {"rel_mse", c.rel_mse},
         {"psnr", c.psnr},
         {"smape", c.smape},
@@ -55,9 +64,10 @@ void print_json(const lab::Comparison& c) {
     fmt::print("{}\n", json.dump(2));
 }
 
-void print_text(const lab::Comparison& c) {
+void print_text(const lab::Comparison& c, const OfLuminance& luminance) {
     fmt::print("rmse          {:.6g}\n", c.rmse);
     fmt::print("rel_rmse      {:.6g}\n", c.rel_rmse);
+    fmt::print("luminance     error {:.6g}, energy {:.6g}\n", luminance.error, luminance.energy);
     fmt::print("rel_mse       {:.6g}\n", c.rel_mse);
     fmt::print("psnr          {:.4g} dB\n", c.psnr);
     fmt::print("smape         {:.6g}\n", c.smape);
@@ -93,6 +103,8 @@ void run_compare(const CompareFlags& flags) {
     const lab::Mask mask = mask_from(flags, b);
 
     lab::Comparison comparison = lab::compare(a, b, {&mask, false});
+    const OfLuminance luminance = {lab::relative_error(a, b, &mask),
+                                   lab::luminance_ratio(a, b, &mask)};
     std::vector<float> flip;
     if (!flags.no_flip) {
         flip = lab::hdr_flip(a, b);
@@ -106,9 +118,9 @@ void run_compare(const CompareFlags& flags) {
         if (!flags.json) fmt::print("full colour   {:.6g}\n", picture.scale.to);
     }
     if (flags.json) {
-        print_json(comparison);
+        print_json(comparison, luminance);
     } else {
-        print_text(comparison);
+        print_text(comparison, luminance);
     }
 }
 

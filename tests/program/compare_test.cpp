@@ -64,14 +64,17 @@ TEST_F(Compare, JsonHasEveryKey) {
     std::set<std::string> keys;
     const auto report = json(pair());
     for (const auto& [key, value] : report.items()) keys.insert(key);
-    EXPECT_EQ(keys, (std::set<std::string>{"rmse", "rel_rmse", "rel_mse", "psnr", "smape", "flip",
-                                           "p999_abs", "max_abs", "max_at", "mean_a", "mean_b",
-                                           "energy_ratio", "nonfinite_a", "nonfinite_b", "width",
-                                           "height", "pixels"}));
+    EXPECT_EQ(keys,
+              (std::set<std::string>{"rmse", "rel_rmse", "luminance_error", "luminance_energy",
+                                     "rel_mse", "psnr", "smape", "flip", "p999_abs", "max_abs",
+                                     "max_at", "mean_a", "mean_b", "energy_ratio", "nonfinite_a",
+                                     "nonfinite_b", "width", "height", "pixels"}));
     EXPECT_EQ(report.at("mean_a"), 2.5);
     EXPECT_DOUBLE_EQ(report.at("smape").get<double>(), 0.1);
     EXPECT_EQ(report.at("pixels"), 32);
     EXPECT_GT(report.at("flip"), 0.0);
+    EXPECT_NEAR(report.at("luminance_error").get<double>(), 0.5 * std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(report.at("luminance_energy").get<double>(), 1.25, 1e-6);
 }
 
 TEST_F(Compare, EqualPicturesHaveNullForTheirPsnr) {
