@@ -24,7 +24,6 @@ using Clock = std::chrono::steady_clock;
 using LightOf = std::function<glm::vec3(std::size_t pixel, Random& random)>;
 
 constexpr int fewest_pixels = 200;                       // whatever the time
-constexpr int first_samples = 8;                         // of a pixel of the first pass
 constexpr std::uint64_t own_seed = 0x7665726966790000u;  // no stream of render() or irradiance()
 
 double seconds_since(Clock::time_point start) {
@@ -132,33 +131,41 @@ private:
             });
     }
 
-    // The first pass: two pixels of each of a few strata. It decides where pixels and samples go.
-    // It is not part of the result, so that the result is unbiased.
-    std::vector<Traced> look() const {
+    // The first pass: two pixels of each of a few strata, with a time limit for a tenth of it. It
+    // decides where pixels and samples go. It is not part of the result, so that the result is
+    // unbiased.
+    std::vector<Traced> look() {
         const auto strata = static_cast<std::size_t>(std::clamp(options_.pixels / 8, 2, 64));
         std::vector<Traced> out = drawn(std::vector<int>(strata, 2), 0);
-        trace(out, 1, [](std::size_t) { return first_samples; });
+        const auto add = [&](int samples) {
+            trace(out, 1, [&](std::size_t) { return samples; });
+            first_samples_ += samples;
+        };
+        add(8);
+        for (int k = 0; k < 8 && seconds_since(start_) < 0.1 * options_.seconds; ++k) {
+            const double more =
+                first_samples_ * (0.1 * options_.seconds / seconds_since(start_) - 1.0);
+            add(std::clamp(static_cast<int>(more), 1, 3 * first_samples_));
+        }
         return out;
     }
 
-    // With a time limit, more pixels leave fewer paths for each. The interval is shortest if the
-    // noise of the paths and the differences between pixels have the same variance.
+    // With a time limit, more pixels leave fewer paths for each. Differences between n pixels have
+    // a variance of about D^2 / n, D the mean squared error; the noise of N paths with a variance S
+    // each has one of about S^2 n / N^2. Their sum is least at n = N D / S.
     int pixel_count(const std::vector<Traced>& first, double first_seconds) const {
         if (!timed()) return options_.pixels;
-        double noise = 0.0, spread = 0.0;  // squares, of what pixels add to the mean
-        for (std::size_t k = 0; k + 1 < first.size(); k += 2) {
-            const Traced &a = first[k], &b = first[k + 1];
-            const auto noise_of = [](const Traced& p) {
-                return 2.0 * std::pow(p.drawn.weight * p.variance(), 2);
-            };
-            noise += noise_of(a) + noise_of(b);
-            spread += std::pow(a.weighted().square - b.weighted().square, 2);
+        double square = 0.0, variance = 0.0;
+        for (const Traced& pixel : first) {
+            square += pixel.drawn.weight * pixel.squared_error();
+            variance += pixel.drawn.weight * pixel.variance();
         }
-        const double of_paths = noise / (first_samples * (first_samples - 1.0));
-        const double of_pixels = std::max(spread - of_paths, 0.0);
-        const double paths = (options_.seconds - first_seconds) *
-                             static_cast<double>(first.size()) * first_samples / first_seconds;
-        const double best = noise > 0.0 ? std::sqrt(of_pixels / noise) * paths : options_.pixels;
+        const auto count = static_cast<double>(first.size());
+        square -= variance * std::sqrt(2.0 / count) / first_samples_;  // which noise may have made
+        const double paths =
+            (options_.seconds - first_seconds) * count * first_samples_ / first_seconds;
+        const double best =
+            variance > 0.0 ? std::max(square, 0.0) / variance * paths : double(options_.pixels);
         const double most = std::min(paths / 16.0, double(options_.pixels));
         return std::max(std::min(fewest_pixels, options_.pixels),
                         static_cast<int>(std::min(best, most)));
@@ -174,7 +181,7 @@ private:
             for (const Traced* pixel : {&first[2 * s], &first[2 * s + 1]}) {
                 const double weight = 0.5 * pixel->drawn.weight;
                 spread[s] += weight * (std::max(pixel->squared_error(), 0.0) +
-                                       pixel->variance() / first_samples);
+                                       pixel->variance() / first_samples_);
                 noise[s] += weight * pixel->variance();
             }
             mean_spread += spread[s] / static_cast<double>(spread.size());
@@ -250,6 +257,7 @@ private:
     const LightOf light_;
     const PixelDraws draws_;
     const Clock::time_point start_ = Clock::now();
+    int first_samples_ = 0;  // of a pixel of the first pass
     Verification out_;
 };
 
