@@ -10,6 +10,7 @@
 
 #include "lab/bake_state.hpp"
 #include "lab/baked_atlas.hpp"
+#include "lab/reference_atlas.hpp"
 #include "lab/reference_picture.hpp"
 #include "program/animation.hpp"
 #include "program/bake_gltf.hpp"
@@ -19,6 +20,7 @@
 #include "program/picture.hpp"
 #include "program/session.hpp"
 #include "program/stopwatch.hpp"
+#include "program/verify.hpp"
 #include "program/version.hpp"
 
 namespace clgi::program {
@@ -30,6 +32,7 @@ struct BakeFlags {
     PictureFlags picture;
     EnvironmentFlags environment;
     AnimationFlags animation;
+    VerifyFlags verify;
     RendererOptions options;  // vpls, layout and light_atlas of them
     bool progressive = false;
     bool dilate = false;
@@ -87,14 +90,40 @@ void check(const BakeFlags& flags) {
         throw Error("bake: --gltf-lights and --gltf-detail go only with --gltf");
     if (flags.progressive && flags.picture.exr.empty() && flags.picture.png.empty())
         throw Error("bake: --progressive goes only with -o or --png");
+    check_verify("bake", flags.verify);
+}
+
+std::string effects_of(const BakeFlags& flags) {
+    return flags.options.light_atlas.direct ? "direct,indirect" : "indirect";
 }
 
 // The atlas as a picture, in the files that are asked for.
 void save_atlas(const BakeFlags& flags, const AtlasLayout& atlas,
-                const std::vector<glm::vec3>& irradiance) {
+                const std::vector<glm::vec3>& irradiance,
+                const std::optional<reference::Verification>& verified = std::nullopt) {
     if (flags.picture.exr.empty() && flags.picture.png.empty()) return;
-    const std::string effects = flags.options.light_atlas.direct ? "direct,indirect" : "indirect";
-    save_picture(lab::baked_image(atlas, irradiance, effects, flags.dilate), flags.picture);
+    io::Image image = lab::baked_image(atlas, irradiance, effects_of(flags), flags.dilate);
+    if (verified) add_verified(image, *verified);
+    save_picture(image, flags.picture);
+}
+
+// The error of the texels whose centre is covered, against all bounces. Nothing if it is not asked
+// for or cancelled.
+std::optional<reference::Verification> verify_atlas(const BakeFlags& flags, const Scene& scene,
+                                                    const AtlasLayout& atlas,
+                                                    const std::vector<glm::vec3>& irradiance,
+                                                    double spent) {
+    if (!flags.verify.on) return std::nullopt;
+    std::vector<glm::vec3> found;
+    for (std::size_t k = 0; k < atlas.texels.size(); ++k)
+        if (atlas.texels[k].centre) found.push_back(irradiance[k]);
+    const lab::AtlasPlaces places = lab::atlas_places(scene, atlas);
+    return verify(scene, flags.verify, spent,
+                  [&](const auto& tracer, reference::VerifyOptions options) {
+                      options.effects = reference::parse_effects(effects_of(flags));
+                      return tracer.verify(places.places, found, options,
+                                           progress_bar("verify", flags.device.quiet));
+                  });
 }
 
 // Quick bakes with fewer VPLs, each saved: something to look at early that becomes better. As each
@@ -157,12 +186,14 @@ void run_bake(BakeFlags flags) {
 
     std::vector<glm::vec3> irradiance = solver.irradiance();
     if (flags.stitch) irradiance = stitched_seams(scene, layout.atlas, irradiance);
-    save_atlas(flags, layout.atlas, irradiance);
+    const auto verified = verify_atlas(flags, scene, layout.atlas, irradiance,
+                                       layout_seconds + build_seconds + bake_seconds);
+    save_atlas(flags, layout.atlas, irradiance, verified);
     const std::optional<LitGltf> gltf =
         save_bake_gltf(scene, layout.atlas, irradiance, flags.picture.exposure, flags.gltf);
     if (!flags.stats.empty())
         save_bake_stats({scene, layout, solver, atlas_seams(scene, layout.atlas, irradiance), gltf,
-                         layout_seconds, build_seconds, bake_seconds, resumed_at},
+                         verified, layout_seconds, build_seconds, bake_seconds, resumed_at},
                         flags.stats);
     if (!flags.resume.empty()) {
         std::error_code ignored;
@@ -175,8 +206,9 @@ void run_bake(BakeFlags flags) {
     for (const std::string& file :
          {flags.picture.exr, flags.picture.png, flags.gltf.lit, flags.gltf.unwrapped})
         if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
-    fmt::print("{}: {} texels lit by {} VPLs, {:.2f} s\n", files, layout.atlas.texels.size(),
-               layout.vpls.vpls.size(), layout_seconds + bake_seconds);
+    fmt::print("{}: {} texels lit by {} VPLs, {:.2f} s{}\n", files, layout.atlas.texels.size(),
+               layout.vpls.vpls.size(), layout_seconds + bake_seconds,
+               verified ? ", " + verify_line(*verified) : "");
 }
 
 }  // namespace
@@ -207,6 +239,7 @@ void add_bake(CLI::App& app) {
                       "Fill texels that are covered in part, and those around charts");
     command->add_flag("--stitch", flags->stitch,
                       "Make light agree where charts cut a smooth surface");
+    add_verify_flag(*command, flags->verify, "atlas");
     add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
     add_animation_flags(*command, flags->animation);

@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.hpp"
 #include "lab/timing.hpp"
+#include "program/verify.hpp"
 #include "program/version.hpp"
 
 namespace clgi::program {
@@ -62,6 +63,7 @@ void save_bake_stats(const BakeRecord& record, const std::filesystem::path& path
         {"warnings", record.scene.warnings}};
     if (record.gltf)
         json["gltf"] = {{"exposure", record.gltf->stops}, {"detail", record.gltf->detail}};
+    if (record.verified) json["measured_error"] = verify_json(*record.verified);
     io::AtomicFile file(path);
     const std::string text =
         json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/clgi.hpp>
+#include <clgi/reference.hpp>
 #include <filesystem>
 #include <optional>
 
@@ -16,6 +17,7 @@ struct BakeRecord {
     const LightAtlasSolver& solver;
     AtlasSeams seams;
     std::optional<LitGltf> gltf;  // none: no such file
+    std::optional<reference::Verification> verified;
     double layout_seconds = 0.0;  // patches, VPLs and texels
     double build_seconds = 0.0;   // kernels and buffers
     double bake_seconds = 0.0;

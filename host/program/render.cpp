@@ -89,6 +89,12 @@ void check(const RenderFlags& flags) {
     refuse(is_given(flags, "rings") && flags.coarse == 0, "--rings goes only with --coarse");
     refuse(method == "atlas" && flags.options.vpls.count < 1,
            "--vpls is 0, at least 1 needed with --method atlas");
+    if (!flags.verify.on) return;
+    check_verify("render", flags.verify);
+    refuse(flags.fps.has_value(), "--verify is of one picture; with --time instead of --fps");
+    refuse(flags.spin_light && flags.frames > 1,
+           "--verify goes not with --spin-light, under whose lights the last picture is");
+    refuse(is_given(flags, "no-direct"), "--verify is against all light; it excludes --no-direct");
 }
 
 // Everything that a render is made of, from the flags to the last frame.
@@ -111,6 +117,7 @@ public:
                             planned || flags_.method == "atlas");
         check_camera("render", flags_.camera, scene_);
         prepare_motion(flags_, scene_);
+        if (flags_.verify.on) truth_ = scene_;  // before a plan leaves something out
         if (flags_.gbuffer == "gl") gl_.emplace();
         session_ =
             gl_ ? open_session(flags_.device,
@@ -149,7 +156,7 @@ public:
         if (flags_.replicates > 1)
             replicate();
         else if (!flags_.fps)
-            save(flags_.picture);
+            check_and_save(lab::radiance_picture(*renderer_));
         motion.report();
         tell(motion);
     }
@@ -190,6 +197,7 @@ private:
         const auto go_on = [](double) { return !interrupted(); };
         record_.frame_ms.push_back(lab::time_frame(session_.queue, [&] {
             const Motion::Step step = motion.at(frame);
+            last_camera_ = step.camera;
             follow(step, flags_.fps || frame == 0);
             if (always || step.lights) prepare(go_on);
             if (gl_)
@@ -217,7 +225,25 @@ private:
         record_.replicates = lab::replicate(*renderer_, camera_, flags_.replicates,
                                             [](double) { return !interrupted(); });
         if (!record_.replicates) throw Interrupted();
-        save_picture(record_.replicates->mean, flags_.picture);
+        check_and_save(record_.replicates->mean);
+    }
+
+    // The picture of the last frame. --verify measures its error against all light. After Ctrl-C in
+    // the check the picture is saved without it.
+    void check_and_save(io::Image picture) {
+        if (truth_) {
+            const double spent = 1e-3 * (record_.build_ms + record_.prepare_ms +
+                                         lab::spread(record_.frame_ms).median);
+            record_.verified =
+                verify(*truth_, flags_.verify, spent, [&](const auto& tracer, const auto& options) {
+                    return tracer.verify(last_camera_, picture.width, picture.height,
+                                         radiance_of(picture), options,
+                                         progress_bar("verify", flags_.device.quiet));
+                });
+        }
+        if (record_.verified) add_verified(picture, *record_.verified);
+        save_picture(picture, flags_.picture);
+        if (truth_ && interrupted()) throw Interrupted();
     }
 
     void save(const PictureFlags& files) { save_picture(lab::radiance_picture(*renderer_), files); }
@@ -229,6 +255,13 @@ private:
         record_.gbuffer = flags_.gbuffer;
         record_.exchanges = exchanges_;
         record_.warnings = scene_.warnings;
+        if (record_.verified && record_.planned) {
+            const std::string less = expected_less(record_.planned->plan.error, *record_.verified);
+            if (!less.empty()) {
+                record_.warnings.push_back(less);
+                notice(false, "warning: " + less);
+            }
+        }
         fill(record_, *renderer_, scene_);
         for (const std::string& warning : troubles(*renderer_, exchanges_))
             notice(false, "warning: " + warning);
@@ -246,8 +279,17 @@ private:
             if (!warning.empty()) notice(false, warning);
         }
         if (!flags_.device.quiet)
-            fmt::print("{}: {}\n", names_of(flags_.picture), summary(record_, *renderer_));
+            fmt::print("{}: {}\n", names_of(flags_.picture),
+                       with_check(summary(record_, *renderer_)));
         if (!flags_.stats.empty()) save_stats(record_, flags_.stats);
+    }
+
+    // In the first line of the result.
+    std::string with_check(std::string text) const {
+        if (record_.verified)
+            text.insert(std::min(text.find('\n'), text.size()),
+                        ", " + verify_line(*record_.verified));
+        return text;
     }
 
     RenderFlags& flags_;
@@ -257,7 +299,9 @@ private:
     std::optional<GlFrames> gl_;
     Renderer* renderer_ = nullptr;
     Camera camera_;
-    bool moves_ = false;  // vertices do, between frames
+    Camera last_camera_;          // of the last frame
+    std::optional<Scene> truth_;  // with --verify
+    bool moves_ = false;          // vertices do, between frames
     AntiradianceFrames exchanges_;
     RenderRecord record_;
 };
@@ -300,6 +344,7 @@ void add_render(CLI::App& app) {
         ->check(CLI::IsMember({"cl", "gl"}));
     add_ask_flags(*command, flags->ask);
     add_plan_flags(*command, flags->plan);
+    add_verify_flag(*command, flags->verify, "picture");
     add_animation_flags(*command, flags->animation);
     command->add_option("--frames", flags->frames, "Pictures to render and time; the last is kept")
         ->type_name("N")

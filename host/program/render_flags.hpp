@@ -14,6 +14,7 @@
 #include "program/picture.hpp"
 #include "program/plan_request.hpp"
 #include "program/session.hpp"
+#include "program/verify.hpp"
 
 namespace clgi::program {
 
@@ -21,6 +22,7 @@ struct RenderFlags {
     DeviceFlags device;
     PictureFlags picture;
     AskFlags ask;
+    VerifyFlags verify;
     EnvironmentFlags environment;
     AnimationFlags animation;
     std::optional<double> fps;  // frames a second of the animation, each in a file of its own

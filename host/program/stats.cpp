@@ -7,6 +7,7 @@
 
 #include "io/atomic_file.hpp"
 #include "program/plan_text.hpp"
+#include "program/verify.hpp"
 #include "program/version.hpp"
 
 namespace clgi::program {
@@ -101,6 +102,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         out["plan"]["ms"] = record.planned->milliseconds;
     }
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
+    if (record.verified) out["measured_error"] = verify_json(*record.verified);
     io::AtomicFile file(path);
     const std::string text = out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
     file.write(text.data(), text.size());

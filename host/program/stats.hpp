@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/device_scene.hpp>
+#include <clgi/reference.hpp>
 #include <clgi/renderer.hpp>
 #include <filesystem>
 #include <memory>
@@ -60,7 +61,8 @@ struct RenderRecord {
     std::string gl_path;         // of gl: "copied: ..."
     std::optional<lab::Replicates> replicates;
     std::optional<AskRecord> ask;  // where a result was asked for
-    double prepare_ms = 0.0;       // what precedes the first picture, such as a bake
+    std::optional<reference::Verification> verified;
+    double prepare_ms = 0.0;  // what precedes the first picture, such as a bake
     std::optional<BakeSummary> bake;
     std::optional<TransferSummary> transfer;
     std::optional<IrradianceCacheStatus> cache;

@@ -1,0 +1,131 @@
+// render --verify and bake --verify: the error that they measure is the one that clgi compare
+// finds.
+// SPDX-License-Identifier: MIT
+#include <clgi/io/image.hpp>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace {
+
+using clgi::test::Outcome;
+using clgi::test::Program;
+using nlohmann::json;
+
+class VerifyProgram : public Program {
+protected:
+    // What a picture is off a converged one.
+    json compared(const std::string& picture, const std::string& truth) const {
+        const Outcome outcome = run("compare --no-flip --json " + picture + " " + truth);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return json::parse(outcome.out);
+    }
+
+    // slack: the noise of the truth, and what one check in forty misses.
+    static void expect_in(const json& found, double wanted, double slack) {
+        EXPECT_LE(found.at("low").get<double>(), wanted + slack) << found;
+        EXPECT_GE(found.at("high").get<double>(), wanted - slack) << found;
+        EXPECT_LE(found.at("low"), found.at("value"));
+        EXPECT_LE(found.at("value"), found.at("high"));
+    }
+};
+
+TEST_F(VerifyProgram, MeasuresTheErrorOfAPicture) {
+    const std::string scene = make("cornell --light spot");
+    const std::string exr = file("a.exr").string(), truth = file("t.exr").string();
+    const Outcome outcome =
+        run("render " + scene + " --size 64x48 --full --method second-order --verify 0.3s -o " +
+            exr + " --stats " + file("s.json").string());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    ASSERT_EQ(run("reference " + scene + " --size 64x48 --spp 400 --quiet --full -o " + truth).code,
+              0);
+    EXPECT_NE(outcome.out.find(", measured error "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("), energy 0.7"), std::string::npos) << outcome.out;
+    const json found = json::parse(read("s.json")).at("measured_error");
+    const json compare = compared(exr, truth);
+    // One bounce of many: some 10 %.
+    expect_in(found, compare.at("luminance_error"), 0.01);
+    EXPECT_NEAR(found.at("value").get<double>(), compare.at("luminance_error").get<double>(), 0.03);
+    expect_in(found.at("energy"), compare.at("luminance_energy"), 0.01);
+    EXPECT_GE(found.at("pixels"), 328);
+    EXPECT_GT(found.at("samples"), 328 * 8);
+    EXPECT_EQ(found.at("non_finite"), 0);
+    EXPECT_GT(found.at("seconds"), 0.1);
+    EXPECT_LT(found.at("seconds"), 3.0);
+
+    const clgi::io::Image image = clgi::io::load_image(exr);
+    for (const auto& [name, value] : {std::pair{"clgi:measured_error", found.at("value")},
+                                      {"clgi:measured_error_low", found.at("low")},
+                                      {"clgi:measured_error_high", found.at("high")},
+                                      {"clgi:measured_energy", found.at("energy").at("value")},
+                                      {"clgi:measured_energy_low", found.at("energy").at("low")},
+                                      {"clgi:measured_energy_high", found.at("energy").at("high")}})
+        EXPECT_NEAR(std::stod(image.attributes.at(name)), value.get<double>(), 1e-5) << name;
+}
+
+TEST_F(VerifyProgram, LooksAtTheLastPicture) {
+    // The camera goes around: another one's pixels would differ by half of the picture.
+    const std::string scene = make("cornell --light spot");
+    const auto error = [&](const std::string& flags) {
+        const Outcome outcome =
+            run("render " + scene +
+                " --size 64x48 --method second-order "
+                "--verify --quiet --png " +
+                file("a.png").string() + " --stats " + file("s.json").string() + flags);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+        return json::parse(read("s.json")).at("measured_error").at("low").get<double>();
+    };
+    EXPECT_LT(error(" --frames 2 --orbit"), 0.6);
+    EXPECT_LT(error(" --replicates 2"), 0.4);
+}
+
+TEST_F(VerifyProgram, SaysWhereAPlanExpectedLess) {
+    // Without light that goes on between surfaces, by request; the truth has all of it.
+    const std::string scene = make("cornell --light spot");
+    const Outcome outcome = run("render " + scene +
+                                " --size 64x48 --time-budget 0.3s --verify 0.3s "
+                                "--without first-bounce,further-bounces --png " +
+                                file("a.png").string() + " --stats " + file("s.json").string());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json stats = json::parse(read("s.json"));
+    EXPECT_GT(stats.at("measured_error").at("low"), 0.1);
+    if (stats.at("plan").contains("error")) {
+        EXPECT_NE(outcome.err.find("clgi: warning: the plan expected an error of "),
+                  std::string::npos)
+            << outcome.err;
+        EXPECT_NE(stats.at("warnings").dump().find("the plan expected"), std::string::npos);
+    }
+}
+
+TEST_F(VerifyProgram, MeasuresTheErrorOfABake) {
+    const std::string scene = make("cornell --light spot");
+    const std::string exr = file("a.exr").string(), truth = file("t.exr").string();
+    const std::string gltf = file("u.glb").string();
+    const Outcome outcome =
+        run("bake " + scene + " --atlas-size 48 --vpls 200 --verify 0.3s -o " + exr +
+            " --unwrapped " + gltf + " --stats " + file("s.json").string());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    ASSERT_EQ(
+        run("reference " + gltf + " --atlas 48 --effects indirect --spp 400 --quiet -o " + truth)
+            .code,
+        0);
+    EXPECT_NE(outcome.out.find(" s, measured error "), std::string::npos) << outcome.out;
+    const json found = json::parse(read("s.json")).at("measured_error");
+    const json compare = compared(exr, truth + " --mask " + truth);
+    expect_in(found, compare.at("luminance_error"), 0.015);
+    expect_in(found.at("energy"), compare.at("luminance_energy"), 0.015);
+    EXPECT_NEAR(std::stod(clgi::io::load_image(exr).attributes.at("clgi:measured_error")),
+                found.at("value").get<double>(), 1e-5);
+}
+
+TEST_F(VerifyProgram, RefusesWhatItCannotCheck) {
+    const std::string scene = make("cornell");
+    const std::string out = " -o " + file("a.exr").string();
+    for (const std::string flags : {"--verify 5", "--verify 0s", "--verify --fps 10",
+                                    "--verify --no-direct", "--verify --frames 3 --spin-light"})
+        expect_one_error_line(run("render " + scene + out + " " + flags), 1);
+    expect_one_error_line(run("bake " + scene + out + " --verify fast"), 1);
+}
+
+}  // namespace
