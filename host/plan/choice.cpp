@@ -46,9 +46,7 @@ Choice candidates_for(const Plan& plan) {
         if (bakes_the_rest(plan)) out.methods.push_back(Method::light_atlas);
         return out;
     }
-    if (sky_alone)
-        return {{Method::dynamic_transfer, Method::antiradiance},
-                "the environment is the light, and most of it is seen"};
+    if (sky) return {{Method::irradiance_cache}, "the sky lights what the picture sees"};
     if (analysis.surfaces.gloss > noticeable && plan.on(Effect::gloss) &&
         analysis.surfaces.triangles <= most_glossy_triangles)
         return {{Method::antiradiance}, "glossy surfaces reflect indirect light"};

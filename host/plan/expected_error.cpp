@@ -31,6 +31,12 @@ double direct_error(const Plan& plan) {
     return usual / std::sqrt(fineness_of(plan));
 }
 
+// Methods whose error is that of the whole picture, the sky's light with it.
+bool gathers_the_sky(const Plan& plan) {
+    return plan.method == Method::dynamic_transfer ||
+           (plan.method == Method::irradiance_cache && has_sky(plan));
+}
+
 std::optional<double> indirect_error(const Plan& plan, const Preset& preset) {
     if (!plan.on(Effect::first_bounce)) {
         const EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
@@ -44,7 +50,7 @@ std::optional<double> indirect_error(const Plan& plan, const Preset& preset) {
 }  // namespace
 
 std::optional<double> expected_error(const Plan& plan, const Preset& preset) {
-    if (plan.method == Method::dynamic_transfer) {
+    if (gathers_the_sky(plan)) {
         const double whole = preset.error[static_cast<std::size_t>(kind_of(plan))];
         return whole > 0.0 ? std::optional(whole) : std::nullopt;
     }
@@ -66,7 +72,7 @@ bool left_out_by_request(const Plan& plan) {
 
 std::string evidence_of_error(const Plan& plan) {
     const std::string kind = name_of(kind_of(plan));
-    if (plan.method == Method::dynamic_transfer) return "measured in " + kind + " scenes";
+    if (gathers_the_sky(plan)) return "measured in " + kind + " scenes";
     const std::string direct = exact_direct_light(plan) ? "direct light is exact"
                                : plan.probe             ? "direct light by a probe"
                                                         : "direct light as in closed rooms";

@@ -71,6 +71,9 @@ const std::vector<Preset>& presets() {
         {Method::light_atlas, 512, 1600, {0.00548, 0.0362, 0.161, 0.3, 0.0369}},
         {Method::light_atlas, 512, 6400, {0.00379, 0.0153, 0.134, 0.253, 0.0242}},
         {Method::dynamic_transfer, 0, 0, {0, 0, 0.05, 0.05, 0}},
+        {Method::irradiance_cache, 16, 200, {0.03, 0.174, 0, 0.306, 0.581}},
+        {Method::irradiance_cache, 32, 400, {0.03, 0.125, 0, 0.252, 0.382}},
+        {Method::irradiance_cache, 32, 1000, {0.03, 0.11, 0, 0.237, 0.303}},
     };
     return out;
 }

@@ -87,7 +87,7 @@ void use_preset(Plan& plan, const Preset& preset) {
             break;
         case Method::irradiance_cache:
             plan.cache.seen = preset.places;
-            plan.cache.met = 3 * preset.places / 2;
+            plan.cache.met = 3 * preset.places;
             plan.cache.face = preset.directions;
             break;
     }

@@ -18,7 +18,7 @@ namespace clgi {
 
 struct IrradianceCacheOptions {
     int seen = 400;  // records on what the picture shows, about; 1 to 20000
-    int met = 1500;  // records on what these see, and what those see in turn; 0 to 20000
+    int met = 1200;  // records on what these see, and what those see in turn; 0 to 20000
     int face = 32;   // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
     int bounces = 0;  // reflections of light before it reaches a record; 0: until it rests
     // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false: by

@@ -1,11 +1,9 @@
 // One step of the iteration over the records' light.
 //
-//   indirect_i = B_i + sum_j T_ij E_j,   E_i' = D_i + indirect_i
-//
-// D: direct light, by shadow maps.                                      [derived: Jacobi iteration]
+//   E_i' = B_i + R_i + sum_j T_ij E_j     (link.cl)                       [derived: Jacobi iteration]
 //
 // Work size    1D, one work-item a record and channel; any local size; tail guarded
-// Writes       its own light, the same without direct light, and by how much it changed
+// Writes       its own light
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/cache.h"
 #include "packet.clh"
@@ -14,10 +12,9 @@ kernel void cache_bounce(
     const CacheBounceParams  params,
     global const float*      restrict rows,      // [record][3][stride]
     global const float*      restrict base,      // [3][stride]
-    global const float*      restrict direct,    // [3][stride]
+    global const float*      restrict reflected,  // [3][stride]
     global const float*      restrict light,     // [3][stride] before this step
-    global float*            restrict next,      // [3][stride]
-    global float*            restrict indirect)  // [3][stride]
+    global float*            restrict next)      // [3][stride]
 {
     uint item = (uint)get_global_id(0);
     if (item >= 3 * params.record_count) return;
@@ -33,6 +30,5 @@ kernel void cache_bounce(
     float sum = 0.0f;
     for (int k = 0; k < CLGI_WIDTH; ++k) sum += lanes[k];
     uint at = channel * stride + record;
-    indirect[at] = base[at] + sum;
-    next[at] = direct[at] + base[at] + sum;
+    next[at] = base[at] + reflected[at] + sum;
 }

@@ -1,19 +1,23 @@
 // What arrives at records from all that their hemicubes see: a row of the transport, and what does
-// not depend on other records, the sky and emission.
+// not depend on other records, the light of the sky and of emission, and direct light once reflected.
 //
-//   E_i = B_i + sum_j T_ij E_j,   T_ij = sum over pixels w rho W_j,   B_i = sum w pi L
+//   E_i = B_i + R_i + sum_j T_ij E_j
+//   T_ij = sum over pixels w rho W_j,   B_i = sum w pi L,   R_i = sum w rho D
 //
 // w: form factor of a pixel, rho: reflectance of the surface in it, W_j: share of record j in it
-// (lookup.clh).                               [derived: radiosity of points, gathered by hemicubes]
+// (lookup.clh), D: direct light there, by shadow maps (lights/direct.clh). E has no direct light.
+//                               [derived: radiosity of points, gathered by hemicubes]
 //
 // Work size    1D, one work-item a record; any local size; tail guarded
 // Writes       its own row and its own base light
-// Cost         some 300 flops a pixel that shows a surface, 60 and a look-up one that shows the sky
+// Cost         some 300 flops a pixel that shows a surface, and 60 for each emitter; 60 and a look-up
+//              one that shows the sky
 // SPDX-License-Identifier: MIT
 #include "cache/lookup.clh"
 #include "cache/sees.clh"
 #include "gbuffer/hit.clh"
 #include "gbuffer/window.clh"
+#include "lights/direct.clh"
 
 // pi times the radiance that comes from a direction, without the sky's factor.
 static float3 cache_sky(const CacheParams* params, global const float* texels, float3 d) {
@@ -36,8 +40,12 @@ kernel void cache_link(
     global const float*  restrict planes,      // [RECORD_PLANES][stride] of all records
     global const float*  restrict sky,         // [sky_height][sky_width][3]
     SCENE_ARGUMENTS,
+    global const Emitter*  restrict emitters,  // [emitter_count]
+    global const View*   restrict light_views,
+    global const uint*   restrict shadow_maps,
     global float*        restrict rows,        // [record][3][stride]
-    global float*        restrict base)        // [3][stride] exposed lux
+    global float*        restrict base,        // [3][stride] B, exposed lux
+    global float*        restrict reflected)   // [3][stride] R
 {
     uint item = (uint)get_global_id(0);
     if (item >= params.count) return;
@@ -46,7 +54,8 @@ kernel void cache_link(
     uint stride = params.stride;
     global float* row = rows + (ulong)record * 3 * stride;
     for (uint k = 0; k < 3 * stride; ++k) row[k] = 0.0f;
-    float3 own = (float3)(0.0f), above = (float3)(0.0f);
+    float3 own = (float3)(0.0f), above = (float3)(0.0f), once = (float3)(0.0f);
+    ShadowMaps maps = {shadow_maps, 1};
     float all = 0.0f;
     global const float* normal = planes + RECORD_NORMAL * stride + record;
     int valid = normal[0] != 0.0f || normal[stride] != 0.0f || normal[2 * stride] != 0.0f;
@@ -74,6 +83,23 @@ kernel void cache_link(
             }
             if (!packet_any(triangle >= 0)) continue;
             Surface surface = gbuffer_surface(&view, x, y, triangle, &scene, info.flags);
+            floatp lit[3] = {packet_zero, packet_zero, packet_zero};
+            ShadowPoint point = {surface.x,           surface.y,           surface.z,
+                                 surface.geometric_x, surface.geometric_y, surface.geometric_z};
+            for (uint e = 0; e < params.emitter_count; ++e) {
+                global const Emitter* emitter = emitters + e;
+                DirectRay ray = direct_ray(emitter, &point);
+                floatp arriving =
+                    direct_arriving(emitter, light_views, &maps, &point, surface.normal_x,
+                                    surface.normal_y, surface.normal_z, &ray, 1.0f);
+                lit[0] = fma(arriving, packet_splat(emitter->intensity.x), lit[0]);
+                lit[1] = fma(arriving, packet_splat(emitter->intensity.y), lit[1]);
+                lit[2] = fma(arriving, packet_splat(emitter->intensity.z), lit[2]);
+            }
+            float direct[3][CLGI_WIDTH];
+            packet_store(lit[0] * surface.base_r, direct[0]);
+            packet_store(lit[1] * surface.base_g, direct[1]);
+            packet_store(lit[2] * surface.base_b, direct[2]);
             float at[9][CLGI_WIDTH];
             int front[CLGI_WIDTH];
             packet_store(surface.x, at[0]);
@@ -100,6 +126,7 @@ kernel void cache_link(
                                                 (float3)(at[0][k], at[1][k], at[2][k]),
                                                 (float3)(at[3][k], at[4][k], at[5][k]), CACHE_FEW);
                 float diffuse = factors[k] * materials[words & TRIANGLE_MATERIAL].reflectance.x;
+                once += diffuse * (float3)(direct[0][k], direct[1][k], direct[2][k]);
                 for (uint i = 0; i < share.count; ++i) {
                     global float* to = row + share.record[i];
                     float weight = diffuse * share.weight[i];
@@ -117,4 +144,7 @@ kernel void cache_link(
     base[record] = own.x;
     base[stride + record] = own.y;
     base[2 * stride + record] = own.z;
+    reflected[record] = scale * once.x;
+    reflected[stride + record] = scale * once.y;
+    reflected[2 * stride + record] = scale * once.z;
 }

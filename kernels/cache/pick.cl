@@ -23,7 +23,7 @@ kernel void cache_pick(
     if (item >= params.count * params.picks) return;
     SceneBuffers scene = SCENE_BUFFERS;
     uint record = item / params.picks;
-    uint index = params.seed + (params.first + record) * params.picks + item % params.picks + 1;
+    uint index = (params.first + record) * params.picks + item % params.picks + 1;
     global const View* faces = views + 5 * (params.first + record);
     float radius = sqrt(radical_inverse(index, 2)), angle = 2.0f * CLGI_PI * radical_inverse(index, 3);
     float a = radius * cos(angle), b = radius * sin(angle);

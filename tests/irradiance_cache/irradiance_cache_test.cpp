@@ -206,6 +206,28 @@ TEST(IrradianceCache, IsTheSameTwiceAndFollowsItsLights) {
     EXPECT_NEAR(after.z / before.z, 2.0, 1e-3);
 }
 
+// Records are shadowed also where the picture has no direct light of its own.
+TEST(IrradianceCache, LeavesOutDirectLightAlone) {
+    Scene scene = test::plain_scene({0.7f, 0.4f, 0.6f});
+    test::add_box(scene, {-1, 0, -1}, {1, 1.5, 1}, -1);
+    test::add_box(scene, {-0.2, 0.2, -0.8}, {0.8, 0.5, 0.8}, 1);
+    scene.lights = {test::point_light({0.3, 1.3, 0.1}, 8.0f)};
+    scene.cameras = {test::camera_at({-0.9, 0.3, 0.8}, {0.2, 0.2, -0.4}, 1.2f)};
+    const auto all = pictured(scene, cache_options());
+    IrradianceCacheOptions options = cache_options();
+    options.picture.direct = false;
+    const auto indirect = pictured(scene, options);
+    SecondOrderOptions direct;
+    direct.width = cache_width;
+    direct.height = cache_height;
+    direct.indirect = false;
+    const auto alone = test::render(scene, scene.cameras[0], direct).radiance;
+    for (std::size_t i = 0; i < alone.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(indirect.radiance[i][c] + alone[i][c], all.radiance[i][c],
+                        1e-3 * all.radiance[i][c] + 1e-5);
+}
+
 TEST(IrradianceCache, ShowsNothingWhereNothingIs) {
     Scene scene;
     scene.cameras = {test::camera_at({0, 0, 1}, {0, 0, 0}, 1.0f)};

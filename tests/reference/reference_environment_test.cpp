@@ -33,11 +33,11 @@ reference::Options sky_options(const std::string& effects, int samples,
     return options;
 }
 
-struct Estimate {
+struct PlaceEstimate {
     double mean = 0.0, error = 0.0;  // and its standard error
 };
 
-Estimate estimate_of(const Irradiance& found) {
+PlaceEstimate estimate_of(const Irradiance& found) {
     double sum = 0.0, square = 0.0;
     for (std::size_t i = 0; i < found.values.size(); ++i) {
         sum += double{found.values[i].x};
@@ -55,7 +55,7 @@ Scene scene_under(const Environment& sky) {
     return scene;
 }
 
-Estimate lit(const Environment& sky, const glm::vec3& normal, int samples = 256,
+PlaceEstimate lit(const Environment& sky, const glm::vec3& normal, int samples = 256,
              Sampling sampling = Sampling::both) {
     const std::vector<Place> places(200, {{0, 0, 0}, glm::normalize(normal)});
     return estimate_of(
@@ -63,7 +63,7 @@ Estimate lit(const Environment& sky, const glm::vec3& normal, int samples = 256,
 }
 
 // 4.5 standard errors: one false alarm in 150,000.
-void expect_lit(const Estimate& found, double wanted, double slack, const std::string& what) {
+void expect_lit(const PlaceEstimate& found, double wanted, double slack, const std::string& what) {
     EXPECT_NEAR(found.mean, wanted, 4.5 * found.error + slack * wanted) << what;
     EXPECT_LT(found.error, 0.01 * wanted) << what << ": too noisy to say anything";
 }
@@ -255,11 +255,11 @@ TEST(ReferenceEnvironment, FindsASmallSun) {
         128, 64, [](int row, int column) { return row == 20 && column == 70 ? 1e5f : 1.0f; });
     const glm::dvec3 vector = test::vector_of(test::block_of(sky, 20, 1, 70, 1));
     const double wanted = pi + (1e5 - 1) * vector.y;
-    const Estimate both = lit(sky, {0, 1, 0}, 256);
+    const PlaceEstimate both = lit(sky, {0, 1, 0}, 256);
     expect_lit(both, wanted, 2e-5, "both");
     expect_lit(lit(sky, {0, 1, 0}, 256, Sampling::lights), wanted, 2e-5, "lights");
     // Lobes alone need thousands of times the samples for the same error.
-    const Estimate lobes = lit(sky, {0, 1, 0}, 256, Sampling::lobes);
+    const PlaceEstimate lobes = lit(sky, {0, 1, 0}, 256, Sampling::lobes);
     EXPECT_NEAR(lobes.mean, wanted, 4.5 * lobes.error + 2e-5 * wanted);
     EXPECT_GT(lobes.error, 40 * both.error);
 }

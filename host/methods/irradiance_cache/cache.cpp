@@ -3,7 +3,6 @@
 #include <clgi/advanced/planes.hpp>
 #include <clgi/irradiance_cache.hpp>
 #include <clgi/passes/cache.hpp>
-#include <clgi/passes/lights.hpp>
 #include <cmath>
 #include <utility>
 
@@ -32,6 +31,7 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
                     ", a multiple of 8 needed");
     options.picture = without_sky(options.picture);
     options.picture.build = full(options.picture.build);
+    options.picture.shadow_maps = true;  // records are lit by them
     options.picture.build.textures = options.picture.build.textures && scene.needs_textures();
     if (options.emission) options.picture.emitters.area_samples = 0;
     return options;
@@ -46,7 +46,6 @@ struct IrradianceCache::State {
           options(checked(wanted, of)),
           picture(programs, queue, of, options.picture, cache_owner),
           passes(programs, options.picture.build),
-          lights(programs, options.picture.build),
           cubes(programs, options.picture.build) {
         // A block of pixels has up to four records.
         capacity = static_cast<std::size_t>(4 * options.seen + options.met);
@@ -59,7 +58,6 @@ struct IrradianceCache::State {
         passes.build({"link", "bounce", "show"});
         if (options.met > 0) passes.build({"pick"});
         cubes.build({"cubes", "raster_views"});
-        lights.build({"direct"});
     }
 
     void add_to(BufferTable& table) {
@@ -72,12 +70,11 @@ struct IrradianceCache::State {
         table.add(b.visibility, "what hemicubes see", lower,
                   3 * face * face * capacity * sizeof(std::uint64_t));
         table.add(b.rows, "transport", lower, 3 * plane * capacity);
-        for (cl::Buffer* light : {&b.base, &b.direct, &b.light, &b.next, &b.indirect})
+        for (cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
             table.add(*light, "light", lower, 3 * plane);
         table.add(chosen, "records", lower, plane);
         table.add(places, "places", lower, RECORD_PLANES * pick_stride * word);
         table.add(b.sky, "the sky", "the environment", std::max<std::size_t>(16, sky.texels.size() * word));
-        table.add_word(bad_records, "counters", 0);
     }
 
     // Reads whole planes, waiting.
@@ -160,6 +157,7 @@ struct IrradianceCache::State {
         out.emission = options.emission ? 1 : 0;
         out.picks = picks_per_record;
         out.pick_stride = static_cast<std::uint32_t>(pick_stride);
+        out.emitter_count = static_cast<std::uint32_t>(picture.emitters().emitters.size());
         return out;
     }
 
@@ -223,8 +221,12 @@ struct IrradianceCache::State {
         record.write(b.lists, made.lists.data(), made.lists.size() * sizeof(std::uint32_t));
         if (!sky.texels.empty())
             record.write(b.sky, sky.texels.data(), sky.texels.size() * sizeof(float));
+        // To the stride: rows are summed in whole packets.
+        for (const cl::Buffer* buffer : {&b.base, &b.reflected, &b.light, &b.next})
+            record.fill(*buffer, 0);
         record("cache.link", records.size(), [&](const WaitList& wait) {
-            return passes.link(record.queue(), params(0, records.size()), tree, scene, b, wait);
+            return passes.link(record.queue(), params(0, records.size()), tree, scene,
+                               picture.emitter_buffers(), b, wait);
         });
     }
 
@@ -239,17 +241,15 @@ struct IrradianceCache::State {
     void light() {
         Recorder& record = picture.record();
         const auto count = static_cast<std::uint32_t>(records.size());
-        const EmitterBuffers& emitters = picture.emitter_buffers();
-        const DirectParams direct{stride, count,
-                                  static_cast<std::uint32_t>(picture.emitters().emitters.size()),
-                                  1.0f, 1, 0, 0, 0};
-        record("lights.direct", count, [&](const WaitList& wait) {
-            return lights.direct(record.queue(), direct, emitters, b.planes, b.direct, bad_records,
-                                 wait);
+        record("cache.begin", count, [&](const WaitList& wait) {
+            cl::Event copied;
+            record.queue().enqueueCopyBuffer(b.base, b.light, 0, 0,
+                                             3 * std::size_t{stride} * sizeof(float), &wait,
+                                             &copied);
+            return copied;
         });
-        for (const cl::Buffer* buffer : {&b.light, &b.next}) record.fill(*buffer, 0);  // to the stride
         const CacheBounceParams params{count, stride, 0, 0};
-        const int limit = options.bounces > 0 ? options.bounces + 1 : most_steps;
+        const int limit = options.bounces > 0 ? options.bounces : most_steps;
         found.converged = false;
         int step = 0;
         while (step < limit && !found.converged) {
@@ -262,7 +262,7 @@ struct IrradianceCache::State {
             }
             if (options.bounces == 0) found.converged = rests();
         }
-        found.bounces = step - 1;
+        found.bounces = step;
         if (options.bounces > 0) found.converged = true;
     }
 
@@ -297,12 +297,11 @@ struct IrradianceCache::State {
     IrradianceCacheOptions options;
     Picture picture;
     CachePasses passes;
-    LightPasses lights;
     GBufferPasses cubes;
     CacheBuffers b;
     CacheTree tree{};
     CoarseSky sky;
-    cl::Buffer chosen, places, bad_records;
+    cl::Buffer chosen, places;
     std::vector<CacheRecord> records;
     std::size_t capacity = 0, pick_stride = 0;
     std::uint32_t stride = 0;
@@ -337,8 +336,7 @@ cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
 
 IrradianceCacheStatus IrradianceCache::status() const {
     IrradianceCacheStatus out = state_->found;
-    out.non_finite =
-        state_->picture.non_finite() + state_->picture.read_word(state_->bad_records);
+    out.non_finite = state_->picture.non_finite();
     return out;
 }
 

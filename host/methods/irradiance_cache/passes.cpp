@@ -7,6 +7,7 @@
 #include "core/opencl/program.hpp"
 #include "core/opencl/variants.hpp"
 #include "core/opencl/word.hpp"
+#include "shading/lights/emitter_buffers.hpp"
 
 namespace clgi {
 namespace {
@@ -60,15 +61,20 @@ cl::Event CachePasses::pick(const cl::CommandQueue& queue, const CacheParams& pa
 
 cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& params,
                             const CacheTree& tree, const DeviceScene& scene,
-                            const CacheBuffers& b, const WaitList& wait) const {
+                            const EmitterBuffers& emitters, const CacheBuffers& b,
+                            const WaitList& wait) const {
     need_records(link_, params, b);
     need_tree(link_, tree, b);
     need(link_, "sky", b.sky,
          3 * word * std::max<std::size_t>(1, std::size_t{params.sky_width} * params.sky_height));
     need(link_, "rows", b.rows, 3 * word * params.stride * (std::size_t{params.first} + params.count));
     need(link_, "base", b.base, 3 * word * params.stride);
+    need(link_, "reflected", b.reflected, 3 * word * params.stride);
+    need_depth_words(link_, 1, emitters.kind);
+    need_emitters(link_, emitters, params.emitter_count);
     return launch(link_, queue, params.count, wait, params, tree, scene.info(), b.views,
-                  b.visibility, b.nodes, b.lists, b.planes, b.sky, scene, b.rows, b.base);
+                  b.visibility, b.nodes, b.lists, b.planes, b.sky, scene, emitters.emitters,
+                  emitters.views, emitters.visibility, b.rows, b.base, b.reflected);
 }
 
 cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
@@ -76,10 +82,10 @@ cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBouncePa
     need_stride(bounce_, "stride", params.stride, params.record_count);
     const std::size_t plane = word * params.stride;
     need(bounce_, "rows", b.rows, 3 * plane * params.record_count);
-    for (const cl::Buffer* light : {&b.base, &b.direct, &b.light, &b.next, &b.indirect})
+    for (const cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
         need(bounce_, "light", *light, 3 * plane);
     return launch(bounce_, queue, std::size_t{3} * params.record_count, wait, params, b.rows,
-                  b.base, b.direct, b.light, b.next, b.indirect);
+                  b.base, b.reflected, b.light, b.next);
 }
 
 cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams& params,
@@ -87,11 +93,11 @@ cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams
                             const cl::Buffer& irradiance, const WaitList& wait) const {
     need_tree(show_, tree, b);
     need_stride(show_, "stride", params.stride, params.point_count);
-    need(show_, "light", b.indirect, 3 * word * tree.stride);
+    need(show_, "light", b.light, 3 * word * tree.stride);
     need(show_, "points", points.planes, point_bytes(show_.storage, params.stride));
     need(show_, "irradiance", irradiance, irradiance_bytes(show_.storage, params.stride));
     return launch(show_, queue, params.point_count, wait, params, tree, b.nodes, b.lists, b.planes,
-                  b.indirect, points.planes, irradiance);
+                  b.light, points.planes, irradiance);
 }
 
 }  // namespace clgi

@@ -15,10 +15,10 @@ PictureOptions checked(PictureOptions options, const DeviceScene& scene, const s
     return options;
 }
 
-// Shadow maps serve direct light alone.
+// Shadow maps serve direct light, and solvers that ask for them.
 EmitterOptions emitters_of(const PictureOptions& options) {
     EmitterOptions out = options.emitters;
-    out.shadows = out.shadows && options.direct;
+    out.shadows = out.shadows && (options.direct || options.shadow_maps);
     return out;
 }
 

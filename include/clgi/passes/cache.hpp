@@ -8,6 +8,7 @@
 #include <clgi/advanced/pass.hpp>
 #include <clgi/device_scene.hpp>
 #include <clgi/passes/gbuffer.hpp>
+#include <clgi/passes/lights.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
 
@@ -21,9 +22,8 @@ struct CacheBuffers {
     cl::Buffer nodes, lists;     // of the tree
     cl::Buffer sky;              // [sky_height][sky_width][3] float
     cl::Buffer rows;             // [records][3][stride] float
-    cl::Buffer base, direct;     // [3][stride] float, exposed lux
-    cl::Buffer light, next;      // the same
-    cl::Buffer indirect;         // the same
+    cl::Buffer base, reflected;  // [3][stride] float, exposed lux
+    cl::Buffer light, next;      // the same; without direct light
 };
 
 class CLGI_API CachePasses {
@@ -36,16 +36,17 @@ public:
                    const DeviceScene& scene, const CacheBuffers& buffers, const cl::Buffer& places,
                    const WaitList& wait = {}) const;
 
-    // Rows of the transport of params.count records, and their base light.
+    // Rows of the transport of params.count records, their base light, and direct light once
+    // reflected: emitters have depth maps.
     cl::Event link(const cl::CommandQueue& queue, const CacheParams& params, const CacheTree& tree,
-                   const DeviceScene& scene, const CacheBuffers& buffers,
-                   const WaitList& wait = {}) const;
+                   const DeviceScene& scene, const EmitterBuffers& emitters,
+                   const CacheBuffers& buffers, const WaitList& wait = {}) const;
 
-    // light -> next, indirect.
+    // light -> next.
     cl::Event bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
                      const CacheBuffers& buffers, const WaitList& wait = {}) const;
 
-    // buffers.indirect -> irradiance [IRRADIANCE_PLANES][params.stride] of the points of a G-buffer,
+    // buffers.light -> irradiance [IRRADIANCE_PLANES][params.stride] of the points of a G-buffer,
     // in the storage of these passes.
     cl::Event show(const cl::CommandQueue& queue, const CacheShowParams& params,
                    const CacheTree& tree, const CacheBuffers& buffers, const GBuffer& points,

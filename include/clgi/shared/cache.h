@@ -40,7 +40,7 @@ typedef struct {
     uint picks;     // surfaces of each record that pick takes
     uint first_pick;  // place of the first record's
     uint pick_stride;
-    uint seed;
+    uint emitter_count;  // with shadow maps of depth alone
 } CacheParams;
 
 typedef struct {
