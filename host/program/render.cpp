@@ -24,9 +24,8 @@
 namespace clgi::program {
 namespace {
 
-constexpr unsigned all_methods =
-    of_direct | of_second_order | of_light_atlas | of_antiradiance | of_transfer |
-    of_irradiance_cache;
+constexpr unsigned all_methods = of_direct | of_second_order | of_light_atlas | of_antiradiance |
+                                 of_transfer | of_irradiance_cache;
 
 // Options that a plan keeps where flags set them.
 bool plan_keeps(const OptionRow& row) {
@@ -330,8 +329,7 @@ void add_render(CLI::App& app) {
             "environment with its shadows; antiradiance: many bounces, no visibility; "
             "cache: many bounces, gathered where the picture needs them; direct: no indirect light")
         ->type_name("METHOD")
-        ->check(
-            CLI::IsMember(
+        ->check(CLI::IsMember(
             {"auto", "second-order", "atlas", "transfer", "antiradiance", "cache", "direct"}));
     add_place_options(*command, flags->scene_index, flags->camera);
     add_environment_flags(*command, flags->environment);

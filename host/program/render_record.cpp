@@ -50,7 +50,8 @@ void fill(RenderRecord& record, const Renderer& renderer, const Scene& scene) {
         for (const std::string& warning : troubles(renderer, record.exchanges))
             record.warnings.push_back(warning);
     }
-    if (const IrradianceCache* solver = renderer.irradiance_cache()) record.cache = solver->status();
+    if (const IrradianceCache* solver = renderer.irradiance_cache())
+        record.cache = solver->status();
     if (const DynamicTransferSolver* solver = renderer.dynamic_transfer())
         record.transfer = summary_of(*solver, renderer, scene.triangles.size());
 }
@@ -95,8 +96,9 @@ std::string summary(const RenderRecord& record, const Renderer& renderer) {
             "{:.1f} ms a frame ({} frames, {} receivers at vertices, {} at pixels, {} triangles)",
             ms, frames, transfer->receivers, transfer->receiver_pixels, transfer->triangles);
     if (const auto& cache = record.cache)
-        return fmt::format("{:.1f} ms a frame ({} frames, {} records seen and {} met, {} reflections)",
-                           ms, frames, cache->seen, cache->met, cache->bounces);
+        return fmt::format(
+            "{:.1f} ms a frame ({} frames, {} records seen and {} met, {} reflections)", ms, frames,
+            cache->seen, cache->met, cache->bounces);
     const SecondOrderOptions& options = renderer.second_order()->options();
     std::string out =
         fmt::format("{:.1f} ms a frame ({} frames, {} VPLs and {} negative VPLs, {} triangles)", ms,

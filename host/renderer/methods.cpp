@@ -261,8 +261,8 @@ bool Cache::prepare(const Progress& progress, std::vector<PassEvent>&) {
 }
 
 void Cache::reconfigure(const ViewSetup& s) {
-    solver = std::make_unique<IrradianceCache>(s.programs, s.queue, s.device,
-                                               cache_options(s.options));
+    solver =
+        std::make_unique<IrradianceCache>(s.programs, s.queue, s.device, cache_options(s.options));
 }
 
 cl::Event Cache::render(const Camera& camera, const WaitList& wait) {

@@ -293,7 +293,8 @@ std::vector<OptionRow> of_all() {
 const std::vector<OptionRow>& option_table() {
     static const std::vector<OptionRow> table = [] {
         std::vector<OptionRow> out;
-        for (const auto& rows : {of_pictures(), of_bake(), of_masks(), of_elements(), of_records(), of_all()})
+        for (const auto& rows :
+             {of_pictures(), of_bake(), of_masks(), of_elements(), of_records(), of_all()})
             out.insert(out.end(), rows.begin(), rows.end());
         return out;
     }();

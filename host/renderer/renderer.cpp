@@ -161,6 +161,8 @@ Estimate Renderer::estimate() const {
         case Method::dynamic_transfer:
             return clgi::estimate(device, *s.scene, *s.device,
                                   renderer::transfer_options(s.options));
+        case Method::irradiance_cache:
+            return clgi::estimate(device, *s.device, renderer::cache_options(s.options));
         default:
             return clgi::estimate(device, *s.device, renderer::second_order_options(s.options));
     }

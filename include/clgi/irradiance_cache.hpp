@@ -2,8 +2,8 @@
 // hemicubes at places that the picture needs.                      [Ward88; derived: hemicubes]
 //
 // The other methods look at the scene; this one looks at what the picture sees, and at what that
-// sees in turn. So light that comes through a window, from a far wall or out of a terrain a thousand
-// times larger than the room costs what it weighs in the picture.
+// sees in turn. So light that comes through a window, from a far wall or out of a terrain a
+// thousand times larger than the room costs what it weighs in the picture.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -17,12 +17,12 @@
 namespace clgi {
 
 struct IrradianceCacheOptions {
-    int seen = 400;  // records on what the picture shows, about; 1 to 20000
-    int met = 1200;  // records on what these see, and what those see in turn; 0 to 20000
-    int face = 32;   // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
+    int seen = 400;   // records on what the picture shows, about; 1 to 20000
+    int met = 1200;   // records on what these see, and what those see in turn; 0 to 20000
+    int face = 32;    // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
     int bounces = 0;  // reflections of light before it reaches a record; 0: until it rests
-    // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false: by
-    // points with shadow maps (EmitterOptions::area_samples), whose shadows are sharper.
+    // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false:
+    // by points with shadow maps (EmitterOptions::area_samples), whose shadows are sharper.
     bool emission = false;
     PictureOptions picture;  // but environment_lights: the sky lights by hemicubes
 };
@@ -33,6 +33,11 @@ struct IrradianceCacheStatus : SolverStatus {
     std::size_t seen = 0, met = 0;  // records
     int bounces = 0;                // reflections that were made
 };
+
+// What a picture will allocate, without the picture's own buffers, and take, both about, before any
+// of it is made.
+CLGI_API Estimate estimate(const cl::Device& device, const DeviceScene& scene,
+                           const IrradianceCacheOptions& options);
 
 // Owns its buffers, works on the given queue (in order or not). The scene must outlive this object.
 // One thread at a time.

@@ -69,16 +69,16 @@ TEST_P(IrradianceCachePictures, HaveTheSkyOfATiltedPlane) {
         Scene scene = test::plain_scene({0.8f, 0.5f, 0.2f});
         const glm::dvec3 up(std::sin(tilt), std::cos(tilt), 0.0), across(up.y, -up.x, 0.0);
         const glm::dvec3 deep(0, 0, 1);
-        test::add_quad(scene, {2.0 * (-across + deep), 2.0 * (across + deep),
-                               2.0 * (across - deep), 2.0 * (-across - deep)});
+        test::add_quad(scene, {2.0 * (-across + deep), 2.0 * (across + deep), 2.0 * (across - deep),
+                               2.0 * (-across - deep)});
         scene.environment = upper_half({1.0f, 2.0f, 4.0f});
         scene.cameras = {test::camera_at(2.0 * up + 0.1 * deep, {0, 0, 0}, 0.6f)};
         const CachePicture found = pictured(scene, cache_options());
         EXPECT_EQ(found.status.non_finite, 0u);
         EXPECT_EQ(found.status.met, 0u);
         for (int c = 0; c < 3; ++c) {
-            const double wanted = scene.materials[0].base_color[c] * (1 << c) *
-                                  (1.0 + std::cos(tilt)) / 2.0;
+            const double wanted =
+                scene.materials[0].base_color[c] * (1 << c) * (1.0 + std::cos(tilt)) / 2.0;
             for (const glm::vec3& value : found.radiance)
                 ASSERT_NEAR(value[c], wanted, 0.03 * wanted) << tilt << " " << c;
             EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.01 * wanted) << tilt;
@@ -96,8 +96,7 @@ TEST_P(IrradianceCachePictures, HaveAllReflectionsOfASphere) {
         IrradianceCacheOptions options = cache_options();
         options.bounces = bounces;
         const CachePicture found = pictured(scene, options);
-        const double gain =
-            bounces == 0 ? 2.5 : (1.0 - std::pow(0.6, bounces + 1)) / 0.4;
+        const double gain = bounces == 0 ? 2.5 : (1.0 - std::pow(0.6, bounces + 1)) / 0.4;
         EXPECT_TRUE(found.status.converged);
         for (int c = 0; c < 3; ++c) {
             const double wanted = 0.6 / pi * scene.lights[0].intensity[c] * gain;
@@ -115,8 +114,8 @@ TEST_P(IrradianceCachePictures, HaveALampByHemicubes) {
     lamp.base_color = glm::vec4(0, 0, 0, 1);
     lamp.emission = {3.0f, 2.0f, 1.0f};
     const std::uint32_t glows = test::add_material(scene, lamp);
-    test::add_quad(scene, {glm::dvec3(-0.5, 1, -0.5), {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}},
-                   glows);
+    test::add_quad(
+        scene, {glm::dvec3(-0.5, 1, -0.5), {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}}, glows);
     scene.cameras = {test::camera_at({0, 0.8, 0.001}, {0, 0, 0}, 0.1f)};
     IrradianceCacheOptions options = cache_options(20, 0);
     options.emission = true;
@@ -137,7 +136,8 @@ TEST_P(IrradianceCachePictures, HaveALampByHemicubes) {
                     0.02 * mean_radiance(found.radiance)[c]);
 }
 
-// A coloured room with a window, looked at away from it, in a plain that is a thousand times larger.
+// A coloured room with a window, looked at away from it, in a plain that is a thousand times
+// larger.
 TEST_P(IrradianceCachePictures, OfARoomWithAWindowAreThePathTracers) {
     Scene scene = test::plain_scene({0.7f, 0.6f, 0.5f});
     const auto paint = [&](const glm::vec3& albedo) {
@@ -165,8 +165,7 @@ TEST_P(IrradianceCachePictures, OfARoomWithAWindowAreThePathTracers) {
     options.width = cache_width;
     options.height = cache_height;
     options.samples = 256;
-    const reference::Picture truth =
-        reference::PathTracer(scene).render(scene.cameras[0], options);
+    const reference::Picture truth = reference::PathTracer(scene).render(scene.cameras[0], options);
     const glm::dvec3 got = mean_radiance(found.radiance), wanted = mean_radiance(truth.radiance);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c] / wanted[c], 1.0, 0.06) << c;
     // In blocks, which have little of the path tracer's noise.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/kit/ranges.hpp"
 #include "core/opencl/check.hpp"
 #include "core/opencl/variants.hpp"
 #include "methods/irradiance_cache/coarse_sky.hpp"
@@ -19,7 +20,7 @@ constexpr const char* cache_owner = "irradiance-cache";
 constexpr std::uint32_t picks_per_record = 16;
 constexpr int most_steps = 256, steps_a_look = 8;
 constexpr float rest = 1e-3f;
-constexpr float lift_share = 4e-6f;              // of the scene's radius
+constexpr float lift_share = 4e-6f;  // of the scene's radius
 
 IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene& scene) {
     need_range(cache_owner, "seen", options.seen, 1, 20000);
@@ -37,7 +38,29 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     return options;
 }
 
+// A block of pixels has up to four records.
+std::size_t most_records(const IrradianceCacheOptions& options) {
+    const auto pixels = static_cast<std::size_t>(options.picture.width) *
+                        static_cast<std::size_t>(options.picture.height);
+    return std::min(4 * static_cast<std::size_t>(options.seen), 4 * pixels) +
+           static_cast<std::size_t>(options.met);
+}
+
 }  // namespace
+
+Estimate estimate(const cl::Device& device, const DeviceScene& scene,
+                  const IrradianceCacheOptions& options) {
+    const IrradianceCacheOptions o = checked(options, scene);
+    const auto most = static_cast<double>(most_records(o)), face = static_cast<double>(o.face);
+    const double records = 1.6 * o.seen + o.met;  // as many as a room has
+    const double per_record = 5.0 * sizeof(View) + 24.0 * face * face + 12.0 * most +
+                              36.0 * (1 + picks_per_record) + 64.0;
+    constexpr double pairs = 25.0, drawn = 1e-8;  // a pixel; a triangle in a hemicube, seconds
+    const double milliseconds = 1e3 * records *
+                                (3.0 * face * face * pairs / pairs_per_second(device) +
+                                 drawn * static_cast<double>(scene.info().triangle_count));
+    return {static_cast<std::size_t>(most * per_record), milliseconds};
+}
 
 struct IrradianceCache::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,
@@ -47,9 +70,7 @@ struct IrradianceCache::State {
           picture(programs, queue, of, options.picture, cache_owner),
           passes(programs, options.picture.build),
           cubes(programs, options.picture.build) {
-        // A block of pixels has up to four records.
-        capacity = static_cast<std::size_t>(4 * options.seen + options.met);
-        capacity = std::min(capacity, 4 * picture.pixels() + static_cast<std::size_t>(options.met));
+        capacity = most_records(options);
         stride = plane_stride(capacity);
         sky = coarse_sky(scene.environment());
         BufferTable all = picture.table();
@@ -74,7 +95,8 @@ struct IrradianceCache::State {
             table.add(*light, "light", lower, 3 * plane);
         table.add(chosen, "records", lower, plane);
         table.add(places, "places", lower, RECORD_PLANES * pick_stride * word);
-        table.add(b.sky, "the sky", "the environment", std::max<std::size_t>(16, sky.texels.size() * word));
+        table.add(b.sky, "the sky", "the environment",
+                  std::max<std::size_t>(16, sky.texels.size() * word));
     }
 
     // Reads whole planes, waiting.
@@ -82,9 +104,8 @@ struct IrradianceCache::State {
                                           std::size_t count) {
         std::vector<float> values(RECORD_PLANES * plane_floats);
         const WaitList pending = picture.record().waits();
-        picture.record().queue().enqueueReadBuffer(planes, CL_TRUE, 0,
-                                                   values.size() * sizeof(float), values.data(),
-                                                   &pending);
+        picture.record().queue().enqueueReadBuffer(
+            planes, CL_TRUE, 0, values.size() * sizeof(float), values.data(), &pending);
         std::vector<CacheRecord> out(count);
         for (std::size_t i = 0; i < count; ++i) {
             glm::vec3* parts[] = {&out[i].position, &out[i].normal, &out[i].geometric};
@@ -243,9 +264,8 @@ struct IrradianceCache::State {
         const auto count = static_cast<std::uint32_t>(records.size());
         record("cache.begin", count, [&](const WaitList& wait) {
             cl::Event copied;
-            record.queue().enqueueCopyBuffer(b.base, b.light, 0, 0,
-                                             3 * std::size_t{stride} * sizeof(float), &wait,
-                                             &copied);
+            record.queue().enqueueCopyBuffer(
+                b.base, b.light, 0, 0, 3 * std::size_t{stride} * sizeof(float), &wait, &copied);
             return copied;
         });
         const CacheBounceParams params{count, stride, 0, 0};
@@ -285,8 +305,8 @@ struct IrradianceCache::State {
     }
 
     void show() {
-        const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()),
-                                     picture.stride(), 0, 0};
+        const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()), picture.stride(),
+                                     0, 0};
         picture.record()("cache.show", picture.pixels(), [&](const WaitList& wait) {
             return passes.show(picture.record().queue(), params, tree, b, picture.gbuffer(),
                                picture.irradiance(), wait);

@@ -19,15 +19,13 @@ CoarseSky coarse_sky(const std::optional<Environment>& environment) {
     const Environment picture = with_picture(*environment);
     out.width = std::min(picture.width, sky_columns);
     out.height = std::min(picture.height, sky_rows);
-    std::vector<glm::dvec4> sums(static_cast<std::size_t>(out.width) * out.height,
-                                 glm::dvec4(0.0));
+    std::vector<glm::dvec4> sums(static_cast<std::size_t>(out.width) * out.height, glm::dvec4(0.0));
     for (int y = 0; y < picture.height; ++y) {
         const double weight = texel_solid_angle(picture.width, picture.height, y);
         for (int x = 0; x < picture.width; ++x) {
             const int column = static_cast<int>(std::int64_t{x} * out.width / picture.width);
             const int row = static_cast<int>(std::int64_t{y} * out.height / picture.height);
-            const glm::dvec3 texel(
-                picture.texels[static_cast<std::size_t>(y) * picture.width + x]);
+            const glm::dvec3 texel(picture.texels[static_cast<std::size_t>(y) * picture.width + x]);
             sums[static_cast<std::size_t>(row) * out.width + column] +=
                 weight * glm::dvec4(texel, 1.0);
         }

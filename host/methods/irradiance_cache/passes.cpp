@@ -67,7 +67,8 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
     need_tree(link_, tree, b);
     need(link_, "sky", b.sky,
          3 * word * std::max<std::size_t>(1, std::size_t{params.sky_width} * params.sky_height));
-    need(link_, "rows", b.rows, 3 * word * params.stride * (std::size_t{params.first} + params.count));
+    need(link_, "rows", b.rows,
+         3 * word * params.stride * (std::size_t{params.first} + params.count));
     need(link_, "base", b.base, 3 * word * params.stride);
     need(link_, "reflected", b.reflected, 3 * word * params.stride);
     need_depth_words(link_, 1, emitters.kind);

@@ -8,7 +8,7 @@ namespace clgi {
 namespace {
 
 constexpr std::size_t most_in_block = 4;
-constexpr float alike = 0.9f;     // cosine between normals that one record stands in for
+constexpr float alike = 0.9f;      // cosine between normals that one record stands in for
 constexpr float off_plane = 0.3f;  // distance off the plane, of the distance
 constexpr float widest = 0.6f, narrowest = 0.01f, narrower = 0.75f;  // spacing by distance
 
@@ -34,10 +34,9 @@ std::vector<CacheRecord> seen_records(const std::vector<CacheRecord>& pixels, in
             // The middle of the block first.
             for (int k = 0; k < across * down && out.size() - first < most_in_block; ++k) {
                 const int at = (k + (down / 2) * across + across / 2) % (across * down);
-                const CacheRecord& pixel =
-                    pixels[static_cast<std::size_t>(top + at / across) *
-                               static_cast<std::size_t>(width) +
-                           static_cast<std::size_t>(left + at % across)];
+                const CacheRecord& pixel = pixels[static_cast<std::size_t>(top + at / across) *
+                                                      static_cast<std::size_t>(width) +
+                                                  static_cast<std::size_t>(left + at % across)];
                 if (!exists(pixel)) continue;
                 const bool known = std::any_of(
                     out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
@@ -58,8 +57,8 @@ void add_records(std::vector<CacheRecord>& records, const std::vector<CacheRecor
             if (taken[i] || !exists(candidate)) continue;
             const glm::vec3 away = candidate.position - records[viewers[i]].position;
             const float apart = spacing * spacing * glm::dot(away, away);
-            const bool near = std::any_of(
-                records.begin(), records.end(), [&](const CacheRecord& record) {
+            const bool near =
+                std::any_of(records.begin(), records.end(), [&](const CacheRecord& record) {
                     const glm::vec3 d = candidate.position - record.position;
                     return glm::dot(d, d) < apart &&
                            glm::dot(record.normal, candidate.normal) > alike;

@@ -47,14 +47,13 @@ private:
     }
 
     static std::uint32_t octant(const glm::vec3& p, const glm::vec3& centre) {
-        return (p.x > centre.x ? 1u : 0u) | (p.y > centre.y ? 2u : 0u) |
-               (p.z > centre.z ? 4u : 0u);
+        return (p.x > centre.x ? 1u : 0u) | (p.y > centre.y ? 2u : 0u) | (p.z > centre.z ? 4u : 0u);
     }
 
     // Farther off its own plane counts as farther away.
     std::uint32_t leaf(const glm::vec3& centre, float half_side) {
-        const auto number = static_cast<std::uint32_t>(
-            out_.lists.size() / (std::size_t{CACHE_WAYS} * CACHE_LISTED));
+        const auto number = static_cast<std::uint32_t>(out_.lists.size() /
+                                                       (std::size_t{CACHE_WAYS} * CACHE_LISTED));
         for (const std::vector<std::uint32_t>& candidates : facing_) {
             std::vector<std::pair<float, std::uint32_t>> near;
             for (const std::uint32_t i : candidates) {

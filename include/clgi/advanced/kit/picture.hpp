@@ -71,7 +71,9 @@ public:
     Interval interval() const { return record_.interval(); }
     const PictureOptions& options() const { return options_; }
     const EmitterSet& emitters() const { return emitters_.set(); }
-    const EmitterBuffers& emitter_buffers() const { return emitters_.buffers(); }  // with shadow maps
+    const EmitterBuffers& emitter_buffers() const {
+        return emitters_.buffers();
+    }  // with shadow maps
     std::size_t bytes() const { return bytes_; }
     std::uint32_t stride() const { return seen_.stride; }
     const cl::Buffer& radiance() const { return radiance_; }  // [RADIANCE_PLANES][stride()] cd/m^2
