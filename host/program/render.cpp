@@ -84,6 +84,8 @@ void check(const RenderFlags& flags) {
     const bool asks = tunes || !ask.time_budget.empty();
     refuse(flags.gbuffer == "gl" && (asks || flags.replicates > 1),
            "--gbuffer gl excludes --replicates, --target-error, --time-budget and --frame-time");
+    refuse(method == "cache" && flags.device.storage == "half",
+           "--storage half goes not with --method cache");
     refuse(flags.coarse > 0 && method != "transfer", "--coarse goes only with --method transfer");
     refuse(is_given(flags, "rings") && flags.coarse == 0, "--rings goes only with --coarse");
     refuse(method == "atlas" && flags.options.vpls.count < 1,

@@ -59,6 +59,7 @@ DynamicTransferOptions transfer_options(const RendererOptions& options) {
 IrradianceCacheOptions cache_options(const RendererOptions& options) {
     IrradianceCacheOptions out = options.cache;
     out.picture = options.picture;
+    out.picture.build = full(options.picture.build);
     return out;
 }
 

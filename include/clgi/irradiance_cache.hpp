@@ -24,7 +24,8 @@ struct IrradianceCacheOptions {
     // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false:
     // by points with shadow maps (EmitterOptions::area_samples), whose shadows are sharper.
     bool emission = false;
-    PictureOptions picture;  // but environment_lights: the sky lights by hemicubes
+    // But environment_lights: the sky lights by hemicubes. build.storage is full.
+    PictureOptions picture;
 };
 
 // converged: the last reflection changed the light at no record by more than a thousandth of the

@@ -250,7 +250,73 @@ TEST(IrradianceCache, SaysWhatItCannotDo) {
     EXPECT_NE(refused([](Options& o) { o.face = 36; }).find("multiple of 8"), std::string::npos);
     EXPECT_NE(refused([](Options& o) { o.face = 264; }).find("face"), std::string::npos);
     EXPECT_NE(refused([](Options& o) { o.bounces = -1; }).find("bounces"), std::string::npos);
+    EXPECT_NE(refused([](Options& o) { o.picture.build.storage = Storage::half; }).find("storage"),
+              std::string::npos);
     EXPECT_NE(refused([](Options& o) { o.picture.width = 0; }).find("width"), std::string::npos);
+}
+
+// Each pass with buffers for its records, and then with one of them too small.
+TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
+    const DeviceScene scene = test::on_device(furnace({.subdivisions = 1}));
+    const CachePasses passes(test::programs(), test::usual_build());
+    const cl::CommandQueue& queue = test::device().queue;
+    constexpr std::uint32_t records = 4, stride = 16, size = 8;
+    CacheParams params{};
+    params.count = records;
+    params.stride = stride;
+    params.size = size;
+    params.picks = 2;
+    params.pick_stride = 16;
+    CacheTree tree{};
+    tree.record_count = records;
+    tree.stride = stride;
+    tree.node_count = 1;
+    const std::vector<std::uint32_t> leaf = {CACHE_LEAF};
+    const auto buffers = [&](cl::Buffer CacheBuffers::*small) {
+        CacheBuffers b;
+        b.planes = test::empty<float>(RECORD_PLANES * stride);
+        b.views = test::empty<View>(5 * records);
+        b.visibility = test::empty<std::uint64_t>(3 * size * size * records);
+        b.nodes = test::upload(leaf);
+        b.lists = test::empty<std::uint32_t>(CACHE_WAYS * CACHE_LISTED);
+        b.sky = test::empty<float>(4);
+        b.rows = test::empty<float>(3 * stride * records);
+        for (cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
+            *light = test::empty<float>(3 * stride);
+        if (small) b.*small = test::empty<float>(1);
+        return b;
+    };
+    const cl::Buffer places = test::empty<float>(RECORD_PLANES * 16);
+    EmitterBuffers emitters;
+    emitters.kind = Pixels::depth;
+    for (cl::Buffer* buffer : {&emitters.emitters, &emitters.views, &emitters.visibility})
+        *buffer = test::empty<float>(64);
+    GBuffer points;
+    points.stride = stride;
+    points.planes = test::empty<float>(GBUFFER_PLANES * stride);
+    const cl::Buffer irradiance = test::empty<float>(3 * stride);
+    const auto pick = [&](const CacheBuffers& b) { passes.pick(queue, params, scene, b, places); };
+    const auto link = [&](const CacheBuffers& b) {
+        passes.link(queue, params, tree, scene, emitters, b);
+    };
+    const auto bounce = [&](const CacheBuffers& b) {
+        passes.bounce(queue, {records, stride, 0, 0}, b);
+    };
+    const auto show = [&](const CacheBuffers& b) {
+        passes.show(queue, {4, stride, 0, 0}, tree, b, points, irradiance);
+    };
+    using B = CacheBuffers;
+    for (const auto small : {&B::views, &B::visibility}) EXPECT_THROW(pick(buffers(small)), Error);
+    for (const auto small :
+         {&B::planes, &B::views, &B::visibility, &B::rows, &B::base, &B::reflected})
+        EXPECT_THROW(link(buffers(small)), Error);
+    for (const auto small : {&B::rows, &B::base, &B::reflected, &B::light, &B::next})
+        EXPECT_THROW(bounce(buffers(small)), Error);
+    for (const auto small : {&B::planes, &B::light}) EXPECT_THROW(show(buffers(small)), Error);
+    EXPECT_NO_THROW(bounce(buffers(nullptr)));
+    params.size = 12;
+    EXPECT_THROW(pick(buffers(nullptr)), Error);
+    queue.finish();
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include "core/kit/ranges.hpp"
 #include "core/opencl/check.hpp"
-#include "core/opencl/variants.hpp"
 #include "methods/irradiance_cache/coarse_sky.hpp"
 #include "methods/irradiance_cache/records.hpp"
 #include "shading/kit/without_sky.hpp"
@@ -30,8 +29,10 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     if (options.face % 8 != 0)
         throw Error(std::string(cache_owner) + ": face is " + std::to_string(options.face) +
                     ", a multiple of 8 needed");
+    if (options.picture.build.storage != Storage::full)
+        throw Error(std::string(cache_owner) +
+                    ": storage is half, full needed: the host reads where pixels are");
     options.picture = without_sky(options.picture);
-    options.picture.build = full(options.picture.build);
     options.picture.shadow_maps = true;  // records are lit by them
     options.picture.build.textures = options.picture.build.textures && scene.needs_textures();
     if (options.emission) options.picture.emitters.area_samples = 0;
