@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
+#include "core/on_threads.hpp"
 #include "methods/antiradiance/linking.hpp"
-#include "methods/antiradiance/on_threads.hpp"
 
 namespace clgi {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "methods/antiradiance/on_threads.hpp"
+#include "core/on_threads.hpp"
 #include "methods/antiradiance/vertex_cells.hpp"
 
 namespace clgi {
