@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include "lab/scenes/deforming.hpp"
+#include "lab/scenes/drawn.hpp"
 #include "lab/scenes/interiors.hpp"
 
 #include "lab/scenes/rooms.hpp"
@@ -32,6 +33,8 @@ struct SceneFlags {
     std::optional<int> rooms;
     std::optional<float> door;  // degrees
     std::optional<float> roughness;
+    std::optional<std::uint32_t> seed;
+    std::optional<double> extent;  // m
     bool quiet = false;
 };
 
@@ -109,8 +112,15 @@ Scene make_glossy(const SceneFlags& flags) {
     return make(options);
 }
 
-const std::vector<SceneKind>& scene_kinds() {
-    static const std::vector<SceneKind> kinds = {
+Scene make_drawn(const SceneFlags& flags) {
+    DrawnOptions options;
+    take(options.seed, flags.seed);
+    take(options.extent, flags.extent);
+    return drawn(flags.name, options);
+}
+
+std::vector<SceneKind> all_kinds() {
+    std::vector<SceneKind> kinds = {
         {"box", {"--mesh", "--light", "--cone"}, make_box},
         {"character", {}, [](const SceneFlags&) { return character(); }},
         {"chess", {}, [](const SceneFlags&) { return chess(); }},
@@ -126,6 +136,13 @@ const std::vector<SceneKind>& scene_kinds() {
         {"office", {}, [](const SceneFlags&) { return office(); }},
         {"oriental-like", {}, [](const SceneFlags&) { return oriental_like(); }},
     };
+    for (const DrawnKind& kind : drawn_kinds())
+        kinds.push_back({kind.name, {"--seed", "--extent"}, make_drawn});
+    return kinds;
+}
+
+const std::vector<SceneKind>& scene_kinds() {
+    static const std::vector<SceneKind> kinds = all_kinds();
     return kinds;
 }
 
@@ -145,7 +162,8 @@ const SceneKind& find_kind(const std::string& name) {
 // A flag that would be ignored is probably a mistake.
 void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
     static const std::vector<std::string> all = {"--mesh", "--light", "--albedo", "--subdivisions",
-                                                 "--cone", "--rooms", "--door",   "--roughness"};
+                                                 "--cone", "--rooms", "--door",   "--roughness",
+                                                 "--seed", "--extent"};
     for (const std::string& flag : all) {
         const bool known =
             std::find(kind.flags.begin(), kind.flags.end(), flag) != kind.flags.end();
@@ -210,6 +228,17 @@ void add_scene(CLI::App& app) {
         ->type_name("X")
         ->default_str(
             fmt::format("{}; glossy-...: {}", HandOptions().roughness, GlossyOptions().roughness));
+    std::string drawn_names;
+    for (const DrawnKind& kind : drawn_kinds())
+        drawn_names += (drawn_names.empty() ? "" : ", ") + kind.name;
+    command->add_option("--seed", flags->seed, drawn_names + ": what they are drawn from")
+        ->type_name("N")
+        ->default_str("0");
+    command
+        ->add_option("--extent", flags->extent,
+                     "Of the same: half the side of the ground around, metres, 0 to 1e5")
+        ->type_name("M")
+        ->default_str("none, or as the kind has it");
     add_quiet_flag(*command, flags->quiet);
     command->callback([command, flags] { run_scene(*command, *flags); });
 }
