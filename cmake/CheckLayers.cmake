@@ -61,7 +61,7 @@ set(headers_antiradiance antiradiance advanced/antiradiance_view advanced/direct
     passes/antiradiance_gloss passes/moving_elements shared/antiradiance shared/moving_elements)
 set(headers_irradiance_cache irradiance_cache passes/cache shared/cache)
 set(headers_renderer options renderer)
-set(headers_plan plan advanced/effects advanced/analysis advanced/tuning)
+set(headers_plan plan advanced/effects advanced/analysis advanced/reach advanced/tuning)
 set(headers_reference reference)
 set(headers_clgi clgi)  # the umbrella
 

@@ -47,11 +47,14 @@ Choice candidates_for(const Plan& plan) {
         return out;
     }
     if (sky) return {{Method::irradiance_cache}, "the sky lights what the picture sees"};
+    if (sees_little(plan))
+        return {{Method::irradiance_cache}, "the picture sees a small part of the scene"};
     if (analysis.surfaces.gloss > noticeable && plan.on(Effect::gloss) &&
         analysis.surfaces.triangles <= most_glossy_triangles)
         return {{Method::antiradiance}, "glossy surfaces reflect indirect light"};
-    return {{Method::second_order, Method::antiradiance, Method::light_atlas},
-            "light goes on between surfaces"};
+    return {
+        {Method::second_order, Method::antiradiance, Method::light_atlas, Method::irradiance_cache},
+        "light goes on between surfaces"};
 }
 
 // Whether a method has all effects that are on, and can leave out those that are off by request.

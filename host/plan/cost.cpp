@@ -161,7 +161,7 @@ PlanCost dynamic_transfer(const Plan& plan) {
 // Each record has its hemicube drawn and looked up.
 PlanCost irradiance_cache(const Plan& plan) {
     const IrradianceCacheOptions& options = plan.cache;
-    const double records = 1.5 * options.seen + options.met,
+    const double records = 1.5 * options.seen + options.met + options.refined,
                  pixels = 3.0 * options.face * options.face;
     Amount frame = picture(plan, false);
     frame += {records * (0.05 + 1e-5 * triangles(plan) + 1e-4 * pixels) + 1e-6 * records * records,

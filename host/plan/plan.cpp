@@ -9,6 +9,7 @@
 
 #include "plan/method.hpp"
 #include "plan/probe.hpp"
+#include "plan/reach.hpp"
 #include "plan/requested_analysis.hpp"
 #include "plan/settings.hpp"
 
@@ -93,9 +94,10 @@ void price(const cl::Device& device, Plan& plan) {
 }
 
 Plan planned(const cl::Device& device, const SceneAnalysis& analysis, const PlanRequest& request,
-             const std::optional<ProbeResult>& probed) {
+             const std::optional<Reach>& reach, const std::optional<ProbeResult>& probed) {
     Plan plan;
     plan.request = request;
+    plan.reach = reach;
     plan.analysis = requested_analysis(analysis, request);
     plan.probe = probed;
     plan.effects = choose_effects(plan.analysis, request.tolerance, probed);
@@ -112,7 +114,7 @@ Plan planned(const cl::Device& device, const SceneAnalysis& analysis, const Plan
 Plan make_plan(const cl::Device& device, const SceneAnalysis& analysis,
                const PlanRequest& request) {
     check(request);
-    return planned(device, analysis, request, std::nullopt);
+    return planned(device, analysis, request, std::nullopt, std::nullopt);
 }
 
 Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
@@ -120,16 +122,20 @@ Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Sc
     check(request);
     const auto device = queue.getInfo<CL_QUEUE_DEVICE>();
     const SceneAnalysis analysis = scene_analysis(scene);
-    const Plan unprobed = planned(device, analysis, request, std::nullopt);
     const bool one_picture = !request.animated && !request.lights_change && !request.camera_moves;
+    std::optional<Reach> reach;
+    if (one_picture) reach = reach_of(scene, camera, request.width, request.height);
+    const Plan unprobed = planned(device, analysis, request, reach, std::nullopt);
     const bool open = unprobed.on(Effect::first_bounce) || unprobed.on(Effect::direct_shadows);
     if (!one_picture || !open) return unprobed;
     // What reflects nothing looks the same however it is lit.
     if (!(unprobed.analysis.surfaces.largest_albedo > 0.0))
-        return planned(device, analysis, request, ProbeResult{});
+        return planned(device, analysis, request, reach, ProbeResult{});
+    if (sees_little(unprobed)) return unprobed;
     const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device,
                                planned_scene(scene, unprobed));
-    return planned(device, analysis, request, probe(queue, programs, uploaded, camera, unprobed));
+    return planned(device, analysis, request, reach,
+                   probe(queue, programs, uploaded, camera, unprobed));
 }
 
 }  // namespace clgi

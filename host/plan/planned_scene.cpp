@@ -10,6 +10,9 @@
 namespace clgi {
 namespace {
 
+// Of the scene, what the picture reaches: below these it is a small part of it.
+constexpr double small_size = 0.125, small_area = 0.3, small_power = 0.5;
+
 bool kept(const Light& light, const Plan& plan) {
     if (light.intensity == glm::vec3(0.0f) && !plan.request.lights_change) return false;
     switch (light.kind) {
@@ -120,6 +123,12 @@ void drop_motion(Scene& scene, const Plan& plan) {
 
 }  // namespace
 
+bool sees_little(const Plan& plan) {
+    if (!plan.reach) return false;
+    const Reach& reach = *plan.reach;
+    return reach.size < small_size || reach.area < small_area || reach.power < small_power;
+}
+
 Scene planned_scene(const Scene& scene, const Plan& plan) {
     Scene out = scene;
     drop_lights(out, plan);
@@ -136,6 +145,8 @@ Scene planned_scene(const Scene& scene, const Plan& plan) {
     }
     drop_unread(out);
     drop_motion(out, plan);
+    if (sees_little(plan))
+        out.focus = Focus{plan.reach->sphere.centre, 2.0 * plan.reach->sphere.radius};
     return out;
 }
 

@@ -24,6 +24,7 @@ void Rays::add(const glm::dvec3& from, const glm::dvec3& along, double longest, 
     nearest_.push_back(longest);
     met_.push_back(nothing);
     search_.push_back(search);
+    triangle_.push_back(0);
 }
 
 void Rays::choose(const LocalTriangle* first, const LocalTriangle* last) {
@@ -49,7 +50,7 @@ void Rays::choose(const LocalTriangle* first, const LocalTriangle* last) {
 }
 
 // [Moeller and Trumbore 1997], the determinant by the triangle's normal.
-void Rays::meet(const LocalTriangle& triangle) {
+void Rays::meet(const LocalTriangle& triangle, std::uint32_t index) {
     const glm::dvec3 &a = triangle.corners[0], e1 = triangle.corners[1] - a,
                      e2 = triangle.corners[2] - a, n = glm::cross(e1, e2);
     for (const std::size_t i : chosen_) {
@@ -67,6 +68,7 @@ void Rays::meet(const LocalTriangle& triangle) {
         nearest_[i] =
             search_[i] == any ? -1.0 : distance;  // before all boxes: it is not asked again
         met_[i] = facing < 0.0 && !triangle.double_sided ? back : front;
+        triangle_[i] = index;
     }
 }
 
@@ -75,7 +77,7 @@ void Rays::trace(const std::vector<LocalTriangle>& triangles) {
         const std::size_t last = std::min(first + block, triangles.size());
         choose(&triangles[first], triangles.data() + last);
         for (std::size_t t = first; t < last && !chosen_.empty(); ++t)
-            if (!triangles[t].is_line()) meet(triangles[t]);
+            if (!triangles[t].is_line()) meet(triangles[t], static_cast<std::uint32_t>(t));
     }
 }
 

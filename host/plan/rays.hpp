@@ -27,17 +27,19 @@ public:
     // Of the nearest triangle.
     bool met_back(std::size_t i) const { return met_[i] == back; }
     double distance(std::size_t i) const { return nearest_[i]; }
+    std::uint32_t triangle(std::size_t i) const { return triangle_[i]; }
 
 private:
     enum : std::uint8_t { nothing, front, back };
 
     void choose(const LocalTriangle* first, const LocalTriangle* last);
-    void meet(const LocalTriangle& triangle);
+    void meet(const LocalTriangle& triangle, std::uint32_t index);
 
     // Planes of rays, so that one triangle is compared with many.
     std::vector<double> from_[3], along_[3], per_along_[3];
     std::vector<double> nearest_;
     std::vector<std::uint8_t> met_, search_;
+    std::vector<std::uint32_t> triangle_;
     std::vector<std::size_t> chosen_;  // that pass through a box before what they have met
 };
 

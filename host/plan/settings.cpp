@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/opencl/variants.hpp"
 #include "plan/sky.hpp"
@@ -63,6 +64,16 @@ void change_emitters(Plan& plan, const Change& change) {
     plan.transfer_view.picture = plan.picture;
 }
 
+// Whether points on emissive surfaces are not enough: most of them would lie where the picture does
+// not reach, or each stands for more than a small part of what that is across.
+bool lamps_are_large(const Plan& plan) {
+    constexpr double small = 0.06, few = 0.3;
+    const Reach reach = plan.reach.value_or(Reach());
+    const double point =
+        std::sqrt(reach.emissive_area / (std::numbers::pi * plan.picture.emitters.area_samples));
+    return reach.hidden > few || (reach.points > 0 && point > small * reach.sphere.radius);
+}
+
 // The settings of a preset.
 void use_preset(Plan& plan, const Preset& preset) {
     plan.picture.width = plan.second_order.width = plan.request.width;
@@ -86,8 +97,10 @@ void use_preset(Plan& plan, const Preset& preset) {
         case Method::dynamic_transfer:
             break;
         case Method::irradiance_cache:
+            plan.cache.emission = plan.on(Effect::area_light) && lamps_are_large(plan);
             plan.cache.seen = preset.places;
             plan.cache.met = 3 * preset.places;
+            plan.cache.refined = preset.places;
             plan.cache.face = preset.directions;
             break;
     }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "plan/about.hpp"
 #include "plan/rays.hpp"
 #include "plan/surface_points.hpp"
 #include "scene/luminance.hpp"
@@ -21,17 +21,6 @@ constexpr std::size_t most_seekers = 256;  // points that look for lights and wa
 constexpr double most_lights = 16.0;       // for each of them
 constexpr double grazing = 1e-3;           // cosine: light that comes in below it does not count
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// A unit vector about n, its density in proportion to the cosine. [Malley's method]
-glm::dvec3 about(const glm::dvec3& n, double u, double v) {
-    const glm::dvec3 helper =
-        std::abs(n.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 right = glm::normalize(glm::cross(n, helper));
-    const glm::dvec3 up = glm::cross(n, right);
-    const double radius = std::sqrt(u), angle = 2.0 * std::numbers::pi * v;
-    return radius * std::cos(angle) * right + radius * std::sin(angle) * up +
-           std::sqrt(1.0 - u) * n;
-}
 
 struct Way {
     glm::dvec3 along;  // unit

@@ -79,8 +79,8 @@ void add_plan(CLI::App& app) {
     add_environment_flags(*command, flags->environment);
     command->add_option("--method", flags->method, "auto: the plan chooses")
         ->type_name("METHOD")
-        ->check(
-            CLI::IsMember({"auto", "second-order", "atlas", "transfer", "antiradiance", "direct"}));
+        ->check(CLI::IsMember(
+            {"auto", "second-order", "atlas", "transfer", "antiradiance", "cache", "direct"}));
     add_plan_flags(*command, flags->plan);
     command
         ->add_option("--target-error", flags->target_error,

@@ -42,8 +42,8 @@ std::string settings_text(const Plan& plan) {
             return fmt::format("{} bands, {} bounces", plan.transfer.masks.bands,
                                plan.transfer.interreflections);
         case Method::irradiance_cache:
-            return fmt::format("{} and {} records, hemicubes of {} pixels", plan.cache.seen,
-                               plan.cache.met, plan.cache.face);
+            return fmt::format("{}, {} and {} records, hemicubes of {} pixels", plan.cache.seen,
+                               plan.cache.met, plan.cache.refined, plan.cache.face);
     }
     return "";
 }
@@ -73,6 +73,7 @@ ordered_json settings_json(const Plan& plan) {
         case Method::irradiance_cache:
             return {{"seen", plan.cache.seen},
                     {"met", plan.cache.met},
+                    {"refined", plan.cache.refined},
                     {"face", plan.cache.face},
                     {"emission", plan.cache.emission}};
     }
@@ -209,6 +210,15 @@ ordered_json plan_json(const Plan& plan) {
         out["error_ground"] = plan.error_evidence;
     }
     if (!plan.unavoidable.empty()) out["unavoidable"] = effect_names(plan.unavoidable);
+    if (plan.reach)
+        out["reach"] = {{"radius", plan.reach->sphere.radius},
+                        {"size", plan.reach->size},
+                        {"area", plan.reach->area},
+                        {"power", plan.reach->power},
+                        {"emissive_area", plan.reach->emissive_area},
+                        {"hidden", plan.reach->hidden},
+                        {"points", plan.reach->points},
+                        {"ms", plan.reach->milliseconds}};
     if (plan.probe)
         out["probe"] = {{"first_bounce", number(plan.probe->first_bounce)},
                         {"reflected", number(plan.probe->reflected)},

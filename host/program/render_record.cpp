@@ -97,8 +97,8 @@ std::string summary(const RenderRecord& record, const Renderer& renderer) {
             ms, frames, transfer->receivers, transfer->receiver_pixels, transfer->triangles);
     if (const auto& cache = record.cache)
         return fmt::format(
-            "{:.1f} ms a frame ({} frames, {} records seen and {} met, {} reflections)", ms, frames,
-            cache->seen, cache->met, cache->bounces);
+            "{:.1f} ms a frame ({} frames, {} records seen, {} met and {} refined, {} reflections)",
+            ms, frames, cache->seen, cache->met, cache->refined, cache->bounces);
     const SecondOrderOptions& options = renderer.second_order()->options();
     std::string out =
         fmt::format("{:.1f} ms a frame ({} frames, {} VPLs and {} negative VPLs, {} triangles)", ms,

@@ -78,6 +78,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
     if (record.cache)
         out["cache"] = {{"seen", record.cache->seen},
                         {"met", record.cache->met},
+                        {"refined", record.cache->refined},
                         {"reflections", record.cache->bounces},
                         {"converged", record.cache->converged}};
     if (record.antiradiance) {

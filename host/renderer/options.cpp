@@ -261,6 +261,10 @@ std::vector<OptionRow> of_records() {
         number(row("met", "N", of_irradiance_cache,
                    "Records on what those see, and what these see in turn", 0, 20000),
                [](O& o) -> int& { return o.cache.met; }),
+        number(
+            row("refined", "N", of_irradiance_cache,
+                "Records more where light changes between those that the picture shows", 0, 20000),
+            [](O& o) -> int& { return o.cache.refined; }),
         number(row("face", "N", of_irradiance_cache,
                    "Pixels of the face of a record's hemicube, a multiple of 8", 8, 256),
                [](O& o) -> int& { return o.cache.face; }),

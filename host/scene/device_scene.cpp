@@ -103,7 +103,8 @@ struct DeviceScene::Cut {
 
 DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene) {
     validate(scene);
-    if (!scene.triangles.empty()) frame_ = local_frame(united(bounds(scene), scene.moving_bounds));
+    if (!scene.triangles.empty())
+        frame_ = local_frame(united(bounds(scene), scene.moving_bounds), scene.focus);
     frame_.exposure = common_exposure(scene, frame_);
     lights_ = scene.lights;
 
@@ -269,7 +270,7 @@ View make_view(const Camera& camera, const SceneFrame& frame, int width, int hei
     const float half_height = orthographic ? static_cast<float>(camera.half_height * frame.scale)
                                            : std::tan(0.5f * camera.vertical_fov);
     float near = static_cast<float>(camera.near * frame.scale);
-    if (!orthographic && !(near > 0.0f)) near = 1e-3f * frame.radius;
+    if (!orthographic && !(near > 0.0f)) near = 1e-3f * frame.detail;
     view.eye = glm::vec4(eye, orthographic ? 1.0f : 0.0f);
     view.right = glm::vec4(camera.right, half_height * aspect);
     view.up = glm::vec4(camera.up, half_height);

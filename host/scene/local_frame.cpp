@@ -13,16 +13,22 @@ Bounds united(const Bounds& box, const std::optional<Bounds>& other) {
     return {glm::min(box.low, other->low), glm::max(box.high, other->high)};
 }
 
-SceneFrame local_frame(const Bounds& box) {
+SceneFrame local_frame(const Bounds& box, const std::optional<Focus>& focus) {
     SceneFrame frame;
     frame.origin = 0.5 * (box.low + box.high);
-    const double radius = 0.5 * glm::length(box.high - box.low);
-    if (radius > 0.0) {
+    double radius = 0.5 * glm::length(box.high - box.low), detail = radius;
+    if (focus && focus->radius < radius) {
+        radius += glm::distance(focus->centre, frame.origin);
+        frame.origin = focus->centre;
+        detail = focus->radius;
+    }
+    if (detail > 0.0) {
         int exponent = 0;
-        std::frexp(radius, &exponent);
+        std::frexp(detail, &exponent);
         frame.scale = std::ldexp(1.0, -exponent);
     }
     frame.radius = static_cast<float>(std::max(radius * frame.scale, 1e-6));
+    frame.detail = static_cast<float>(std::max(detail * frame.scale, 1e-6));
     return frame;
 }
 

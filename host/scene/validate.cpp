@@ -180,6 +180,11 @@ void check_bounds(const Bounds& box) {
     }
 }
 
+void check_focus(const Focus& focus) {
+    if (!is_place(focus.centre) || !(focus.radius > 0.0) || !std::isfinite(focus.radius))
+        fail("the focus has a centre beyond 1e18 m, or a radius that is not above 0 or not finite");
+}
+
 void check_environment(const Environment& environment) {
     const std::string size =
         std::to_string(environment.width) + "x" + std::to_string(environment.height);
@@ -256,6 +261,7 @@ void validate(const Scene& scene) {
     check_cameras(scene);
     if (scene.environment) check_environment(*scene.environment);
     if (scene.moving_bounds) check_bounds(*scene.moving_bounds);
+    if (scene.focus) check_focus(*scene.focus);
     if (scene.animation) validate_animation(*scene.animation, scene);
 }
 

@@ -12,15 +12,16 @@
 
 namespace clgi {
 
-// local = (world - origin) * scale. The scale is a power of two that brings the scene's radius
-// into [0.5, 1), so neither size nor place of a scene costs precision: a scene moved or scaled by
-// powers of two gives the same bits.
-// Light is exposed by a power of two as well: radiance on the device is radiance / exposure.
+// local = (world - origin) * scale. The scale is a power of two that brings the radius of the
+// scene, or of its focus, into [0.5, 1), so neither size nor place of a scene costs precision: a
+// scene moved or scaled by powers of two gives the same bits. Light is exposed by a power of two as
+// well: radiance on the device is radiance / exposure.
 struct SceneFrame {
     glm::dvec3 origin = glm::dvec3(0.0);
     double scale = 1.0;
     double exposure = 1.0;
-    float radius = 1.0f;  // of the sphere around the local bounds
+    float radius = 1.0f;  // of a sphere around the origin that holds the scene
+    float detail = 1.0f;  // of the focus: lifts, biases and near planes are shares of it
 
     glm::vec3 to_local(const glm::dvec3& world) const {
         return glm::vec3((world - origin) * scale);

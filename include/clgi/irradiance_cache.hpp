@@ -19,10 +19,12 @@ namespace clgi {
 struct IrradianceCacheOptions {
     int seen = 400;   // records on what the picture shows, about; 1 to 20000
     int met = 1200;   // records on what these see, and what those see in turn; 0 to 20000
+    int refined = 300;  // records more where light changes between those that are seen; 0 to 20000
     int face = 32;    // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
     int bounces = 0;  // reflections of light before it reaches a record; 0: until it rests
     // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false:
-    // by points with shadow maps (EmitterOptions::area_samples), whose shadows are sharper.
+    // those within the scene's focus by points with shadow maps (EmitterOptions::area_samples),
+    // whose shadows are sharper.
     bool emission = false;
     // But environment_lights: the sky lights by hemicubes. build.storage is full.
     PictureOptions picture;
@@ -31,7 +33,7 @@ struct IrradianceCacheOptions {
 // converged: the last reflection changed the light at no record by more than a thousandth of the
 // brightest.
 struct IrradianceCacheStatus : SolverStatus {
-    std::size_t seen = 0, met = 0;  // records
+    std::size_t seen = 0, met = 0, refined = 0;  // records
     int bounces = 0;                // reflections that were made
 };
 

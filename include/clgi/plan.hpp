@@ -6,6 +6,7 @@
 #include <clgi/advanced/analysis.hpp>
 #include <clgi/advanced/effects.hpp>
 #include <clgi/advanced/export.hpp>
+#include <clgi/advanced/reach.hpp>
 #include <clgi/renderer.hpp>
 #include <optional>
 #include <string>
@@ -54,6 +55,7 @@ struct Plan : RendererOptions {
     // Of the scene without the lights and the gloss that the request leaves out.
     SceneAnalysis analysis;
     std::optional<ProbeResult> probe;
+    std::optional<Reach> reach;  // of the camera; none without one
     EffectChoices effects;
     // What all effects that are left out for the tolerance change: 0 where that is proven,
     // otherwise an estimate by the probe with a margin.
@@ -78,14 +80,19 @@ struct Plan : RendererOptions {
 CLGI_API Plan make_plan(const cl::Device& device, const SceneAnalysis& analysis,
                         const PlanRequest& request);
 
-// Analyses the scene. If the analysis leaves open whether indirect light matters, uploads the scene
-// and draws a few small pictures of it.
+// Analyses the scene and what the camera reaches of it. If that leaves open whether indirect light
+// matters, uploads the scene and draws a few small pictures of it.
 CLGI_API Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
                         const Camera& camera, const PlanRequest& request);
 
+// Whether the picture reaches so little of the scene that methods that share their work out over
+// all of it, and a probe by them, tell little of the picture.
+CLGI_API bool sees_little(const Plan& plan);
+
 // The scene without the lights, emission, environment, gloss, textures, alpha masks and animation
 // whose effects are off. A texture of one colour is replaced by this colour. Textures that are no
-// longer read are dropped, and the others are renumbered.
+// longer read are dropped, and the others are renumbered. Where the picture sees little of the
+// scene, the focus is what it reaches.
 CLGI_API Scene planned_scene(const Scene& scene, const Plan& plan);
 
 }  // namespace clgi

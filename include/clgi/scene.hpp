@@ -109,6 +109,12 @@ struct Bounds {
     glm::dvec3 high = glm::dvec3(0.0);
 };
 
+// A sphere around what pictures show and what that is lit by.
+struct Focus {
+    glm::dvec3 centre = glm::dvec3(0.0);  // metres
+    double radius = 1.0;
+};
+
 struct Scene {
     std::string name;
 
@@ -130,6 +136,9 @@ struct Scene {
     std::optional<Animation> animation;   // none: nothing moves by itself
     std::optional<Bounds> moving_bounds;  // a box that moving vertices stay in; the local frame on
                                           // the device covers it too
+    std::optional<Focus> focus;  // none: all of it. The local frame lies around it, and what must
+                                 // be small, such as distances that surfaces are lifted by, is
+                                 // small beside it
 
     std::vector<std::string> warnings;  // one line each: what was ignored, corrected or assumed
 };

@@ -18,7 +18,7 @@ kernel void cache_bounce(
 {
     uint item = (uint)get_global_id(0);
     if (item >= 3 * params.record_count) return;
-    uint channel = item / params.record_count, record = item % params.record_count;
+    uint channel = item / params.record_count, record = params.first + item % params.record_count;
     uint stride = params.stride;
     global const float* row = rows + ((ulong)record * 3 + channel) * stride;
     global const float* from = light + channel * stride;

@@ -29,6 +29,13 @@ static float3 cache_sky(const CacheParams* params, global const float* texels, f
     return vload3(y * params->sky_width + x, texels);
 }
 
+// Whether the middle of a triangle lies outside the focus (host/shading/lights/emitters.cpp).
+static int cache_is_beyond(const CacheParams* params, global const float4* positions, uint4 words) {
+    float3 middle = (positions[words.x].xyz + positions[words.y].xyz + positions[words.z].xyz) *
+                    (1.0f / 3.0f);
+    return dot(middle, middle) > params->focus;
+}
+
 kernel void cache_link(
     const CacheParams    params,
     const CacheTree      tree,
@@ -120,8 +127,11 @@ kernel void cache_link(
                 if (seen[k] < 0) continue;
                 uint words = triangles[seen[k]].w;
                 if (!front[k] && !(words & (uint)TRIANGLE_DOUBLE_SIDED)) continue;
-                if (params.emission)
-                    own += factors[k] * CLGI_PI * (float3)(glow[0][k], glow[1][k], glow[2][k]);
+                float3 radiance = (float3)(glow[0][k], glow[1][k], glow[2][k]);
+                if (dot(radiance, radiance) > 0.0f &&
+                    (params.emission == CACHE_EMISSION_ALL ||
+                     cache_is_beyond(&params, positions, triangles[seen[k]])))
+                    own += factors[k] * CLGI_PI * radiance;
                 CacheShare share = cache_lookup(&tree, nodes, lists, planes,
                                                 (float3)(at[0][k], at[1][k], at[2][k]),
                                                 (float3)(at[3][k], at[4][k], at[5][k]), CACHE_FEW);

@@ -18,12 +18,14 @@ namespace {
 constexpr const char* cache_owner = "irradiance-cache";
 constexpr std::uint32_t picks_per_record = 16;
 constexpr int most_steps = 256, steps_a_look = 8;
+constexpr int refinements = 2;
 constexpr float rest = 1e-3f;
 constexpr float lift_share = 4e-6f;  // of the scene's radius
 
 IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene& scene) {
     need_range(cache_owner, "seen", options.seen, 1, 20000);
     need_range(cache_owner, "met", options.met, 0, 20000);
+    need_range(cache_owner, "refined", options.refined, 0, 20000);
     need_range(cache_owner, "face", options.face, 8, 256);
     need_range(cache_owner, "bounces", options.bounces, 0, 1000);
     if (options.face % 8 != 0)
@@ -36,6 +38,7 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     options.picture.shadow_maps = true;  // records are lit by them
     options.picture.build.textures = options.picture.build.textures && scene.needs_textures();
     if (options.emission) options.picture.emitters.area_samples = 0;
+    options.picture.emitters.focused = true;
     return options;
 }
 
@@ -44,7 +47,7 @@ std::size_t most_records(const IrradianceCacheOptions& options) {
     const auto pixels = static_cast<std::size_t>(options.picture.width) *
                         static_cast<std::size_t>(options.picture.height);
     return std::min(4 * static_cast<std::size_t>(options.seen), 4 * pixels) +
-           static_cast<std::size_t>(options.met);
+           static_cast<std::size_t>(options.met) + static_cast<std::size_t>(options.refined);
 }
 
 }  // namespace
@@ -53,7 +56,7 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
                   const IrradianceCacheOptions& options) {
     const IrradianceCacheOptions o = checked(options, scene);
     const auto most = static_cast<double>(most_records(o)), face = static_cast<double>(o.face);
-    const double records = 1.6 * o.seen + o.met;  // as many as a room has
+    const double records = 1.6 * o.seen + o.met + o.refined;  // as many as a room has
     const double per_record = 5.0 * sizeof(View) + 24.0 * face * face + 12.0 * most +
                               36.0 * (1 + picks_per_record) + 64.0;
     constexpr double pairs = 25.0, drawn = 1e-8;  // a pixel; a triangle in a hemicube, seconds
@@ -83,7 +86,7 @@ struct IrradianceCache::State {
     }
 
     void add_to(BufferTable& table) {
-        const char* lower = "seen, met or face";
+        const char* lower = "seen, met, refined or face";
         const std::size_t word = sizeof(float), plane = stride * word;
         const auto face = static_cast<std::size_t>(options.face);
         pick_stride = plane_stride(capacity * picks_per_record);
@@ -95,6 +98,7 @@ struct IrradianceCache::State {
         for (cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
             table.add(*light, "light", lower, 3 * plane);
         table.add(chosen, "records", lower, plane);
+        table.add(doubt, "doubt", "width or height", word * picture.stride());
         table.add(places, "places", lower, RECORD_PLANES * pick_stride * word);
         table.add(b.sky, "the sky", "the environment",
                   std::max<std::size_t>(16, sky.texels.size() * word));
@@ -138,7 +142,7 @@ struct IrradianceCache::State {
         const auto from = static_cast<std::uint32_t>(first);
         const auto count = static_cast<std::uint32_t>(records.size() - first);
         const auto face = static_cast<std::uint32_t>(options.face);
-        const float lift = lift_share * scene.frame().radius;
+        const float lift = lift_share * scene.frame().detail;
         CubeParams params{};
         params.point_count = count;
         params.faces = 5;
@@ -176,7 +180,8 @@ struct IrradianceCache::State {
             for (int c = 0; c < 4; ++c) (&out.sky.x)[c] = (&turned.factor.x)[c] * exposed;
             out.sky_turn = turned.turn;
         }
-        out.emission = options.emission ? 1 : 0;
+        out.emission = options.emission ? CACHE_EMISSION_ALL : CACHE_EMISSION_BEYOND;
+        out.focus = scene.frame().detail * scene.frame().detail;
         out.picks = picks_per_record;
         out.pick_stride = static_cast<std::uint32_t>(pick_stride);
         out.emitter_count = static_cast<std::uint32_t>(picture.emitters().emitters.size());
@@ -211,43 +216,53 @@ struct IrradianceCache::State {
     void choose(const View& view) {
         Recorder& record = picture.record();
         record.wait();
-        const std::vector<CacheRecord> pixels =
-            read_records(picture.gbuffer().planes, picture.stride(), picture.pixels());
-        records = seen_records(pixels, static_cast<int>(view.width), static_cast<int>(view.height),
+        shown = read_records(picture.gbuffer().planes, picture.stride(), picture.pixels());
+        records = seen_records(shown, static_cast<int>(view.width), static_cast<int>(view.height),
                                options.seen);
-        if (records.size() > capacity - static_cast<std::size_t>(options.met))
-            records.resize(capacity - static_cast<std::size_t>(options.met));
+        const std::size_t most = capacity - static_cast<std::size_t>(options.met) -
+                                 static_cast<std::size_t>(options.refined);
+        if (records.size() > most) records.resize(most);
         found.seen = records.size();
-        found.met = 0;
+        found.met = found.refined = 0;
         if (records.empty()) return;
         write_records();
         draw(0);
         const auto met = static_cast<std::size_t>(options.met);
         meet(0, met - met / 3);
-        meet(found.seen, std::min(met / 3, capacity - records.size()));
+        meet(found.seen, met / 3);
         found.met = records.size() - found.seen;
     }
 
-    void link() {
+    // A tree of all records, for one of two uses.
+    void plant(CacheTree& planted, cl::Buffer& nodes, cl::Buffer& lists) {
         const RecordTree made = make_tree(records);
-        tree = {};
-        for (int c = 0; c < 3; ++c) (&tree.centre.x)[c] = made.centre[c];
-        tree.centre.w = made.half_side;
-        tree.node_count = static_cast<std::uint32_t>(made.nodes.size());
-        tree.record_count = static_cast<std::uint32_t>(records.size());
-        tree.stride = stride;
+        planted = {};
+        for (int c = 0; c < 3; ++c) (&planted.centre.x)[c] = made.centre[c];
+        planted.centre.w = made.half_side;
+        planted.node_count = static_cast<std::uint32_t>(made.nodes.size());
+        planted.record_count = static_cast<std::uint32_t>(records.size());
+        planted.stride = stride;
         Recorder& record = picture.record();
-        grow(b.nodes, made.nodes.size() * sizeof(std::uint32_t));
-        grow(b.lists, made.lists.size() * sizeof(std::uint32_t));
-        record.write(b.nodes, made.nodes.data(), made.nodes.size() * sizeof(std::uint32_t));
-        record.write(b.lists, made.lists.data(), made.lists.size() * sizeof(std::uint32_t));
-        if (!sky.texels.empty())
-            record.write(b.sky, sky.texels.data(), sky.texels.size() * sizeof(float));
-        // To the stride: rows are summed in whole packets.
-        for (const cl::Buffer* buffer : {&b.base, &b.reflected, &b.light, &b.next})
-            record.fill(*buffer, 0);
-        record("cache.link", records.size(), [&](const WaitList& wait) {
-            return passes.link(record.queue(), params(0, records.size()), tree, scene,
+        grow(nodes, made.nodes.size() * sizeof(std::uint32_t));
+        grow(lists, made.lists.size() * sizeof(std::uint32_t));
+        record.write(nodes, made.nodes.data(), made.nodes.size() * sizeof(std::uint32_t));
+        record.write(lists, made.lists.data(), made.lists.size() * sizeof(std::uint32_t));
+    }
+
+    // The transport of the records from `first` on, from those that light goes between.
+    void link(std::size_t first) {
+        Recorder& record = picture.record();
+        if (first == 0) {
+            plant(tree, b.nodes, b.lists);
+            // To the stride: rows are summed in whole packets.
+            for (const cl::Buffer* buffer : {&b.base, &b.reflected, &b.light, &b.next})
+                record.fill(*buffer, 0);
+            if (!sky.texels.empty())
+                record.write(b.sky, sky.texels.data(), sky.texels.size() * sizeof(float));
+        }
+        const std::size_t count = records.size() - first;
+        record("cache.link", count, [&](const WaitList& wait) {
+            return passes.link(record.queue(), params(first, count), tree, scene,
                                picture.emitter_buffers(), b, wait);
         });
     }
@@ -269,22 +284,61 @@ struct IrradianceCache::State {
                 b.base, b.light, 0, 0, 3 * std::size_t{stride} * sizeof(float), &wait, &copied);
             return copied;
         });
-        const CacheBounceParams params{count, stride, 0, 0};
         const int limit = options.bounces > 0 ? options.bounces : most_steps;
         found.converged = false;
         int step = 0;
         while (step < limit && !found.converged) {
             const int last = std::min(limit, step + steps_a_look);
-            for (; step < last; ++step) {
-                record("cache.bounce", 3 * count, [&](const WaitList& wait) {
-                    return passes.bounce(record.queue(), params, b, wait);
-                });
-                std::swap(b.light, b.next);
-            }
+            for (; step < last; ++step) bounce(0);
             if (options.bounces == 0) found.converged = rests();
         }
         found.bounces = step;
         if (options.bounces > 0) found.converged = true;
+    }
+
+    void bounce(std::size_t first) {
+        Recorder& record = picture.record();
+        const auto count = static_cast<std::uint32_t>(records.size() - first);
+        const CacheBounceParams params{count, stride, static_cast<std::uint32_t>(first), 0};
+        record("cache.bounce", 3 * count, [&](const WaitList& wait) {
+            return passes.bounce(record.queue(), params, b, wait);
+        });
+        std::swap(b.light, b.next);
+    }
+
+    // More records where the light changes between those that are there, in rounds of ever smaller
+    // blocks. They gather what the last reflection did for the others, which have no light of
+    // theirs.
+    void refine(const View& view) {
+        if (options.refined == 0) return;
+        const auto width = static_cast<int>(view.width), height = static_cast<int>(view.height);
+        int side = block_side(width, height, options.seen);
+        auto left = static_cast<std::size_t>(options.refined);
+        for (int round = 0; round < refinements; ++round) {
+            side = std::max(side / 2, 1);
+            const std::vector<CacheRecord> more =
+                doubtful_records(shown, read_doubt(), width, height, side,
+                                 left / static_cast<std::size_t>(refinements - round));
+            if (more.empty()) return;
+            const std::size_t first = records.size();
+            records.insert(records.end(), more.begin(), more.end());
+            left -= more.size();
+            found.refined += more.size();
+            write_records();
+            draw(first);
+            link(first);
+            std::swap(b.light, b.next);
+            bounce(first);
+            show();
+        }
+    }
+
+    std::vector<float> read_doubt() {
+        std::vector<float> out(picture.pixels());
+        const WaitList pending = picture.record().waits();
+        picture.record().queue().enqueueReadBuffer(doubt, CL_TRUE, 0, out.size() * sizeof(float),
+                                                   out.data(), &pending);
+        return out;
     }
 
     // Whether the last step changed little.
@@ -306,11 +360,18 @@ struct IrradianceCache::State {
     }
 
     void show() {
+        const bool refined = found.refined > 0;
+        if (refined) plant(all_tree, all_nodes, all_lists);
+        CacheBuffers all = b;
+        if (refined) {
+            all.nodes = all_nodes;
+            all.lists = all_lists;
+        }
         const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()), picture.stride(),
                                      0, 0};
         picture.record()("cache.show", picture.pixels(), [&](const WaitList& wait) {
-            return passes.show(picture.record().queue(), params, tree, b, picture.gbuffer(),
-                               picture.irradiance(), wait);
+            return passes.show(picture.record().queue(), params, refined ? all_tree : tree, all,
+                               picture.gbuffer(), picture.irradiance(), doubt, wait);
         });
     }
 
@@ -320,10 +381,12 @@ struct IrradianceCache::State {
     CachePasses passes;
     GBufferPasses cubes;
     CacheBuffers b;
-    CacheTree tree{};
+    CacheTree tree{}, all_tree{};  // of those that light goes between, of these and refined ones
     CoarseSky sky;
-    cl::Buffer chosen, places;
+    cl::Buffer all_nodes, all_lists;  // of all_tree
+    cl::Buffer chosen, places, doubt;
     std::vector<CacheRecord> records;
+    std::vector<CacheRecord> shown;  // what each pixel shows
     std::size_t capacity = 0, pick_stride = 0;
     std::uint32_t stride = 0;
     IrradianceCacheStatus found;
@@ -347,9 +410,10 @@ cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
     if (s.records.empty()) {
         s.picture.record().fill(s.picture.irradiance(), 0);
     } else {
-        s.link();
+        s.link(0);
         s.light();
         s.show();
+        s.refine(view);
     }
     s.picture.combine(view);
     return s.picture.end(view);

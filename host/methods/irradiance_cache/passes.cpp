@@ -80,9 +80,10 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
 
 cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
                               const CacheBuffers& b, const WaitList& wait) const {
-    need_stride(bounce_, "stride", params.stride, params.record_count);
+    const std::size_t end = std::size_t{params.first} + params.record_count;
+    need_stride(bounce_, "stride", params.stride, end);
     const std::size_t plane = word * params.stride;
-    need(bounce_, "rows", b.rows, 3 * plane * params.record_count);
+    need(bounce_, "rows", b.rows, 3 * plane * end);
     for (const cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
         need(bounce_, "light", *light, 3 * plane);
     return launch(bounce_, queue, std::size_t{3} * params.record_count, wait, params, b.rows,
@@ -91,14 +92,16 @@ cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBouncePa
 
 cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams& params,
                             const CacheTree& tree, const CacheBuffers& b, const GBuffer& points,
-                            const cl::Buffer& irradiance, const WaitList& wait) const {
+                            const cl::Buffer& irradiance, const cl::Buffer& doubt,
+                            const WaitList& wait) const {
     need_tree(show_, tree, b);
     need_stride(show_, "stride", params.stride, params.point_count);
     need(show_, "light", b.light, 3 * word * tree.stride);
     need(show_, "points", points.planes, point_bytes(show_.storage, params.stride));
     need(show_, "irradiance", irradiance, irradiance_bytes(show_.storage, params.stride));
+    need(show_, "doubt", doubt, word * params.stride);
     return launch(show_, queue, params.point_count, wait, params, tree, b.nodes, b.lists, b.planes,
-                  b.light, points.planes, irradiance);
+                  b.light, points.planes, irradiance, doubt);
 }
 
 }  // namespace clgi

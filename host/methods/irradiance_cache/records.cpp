@@ -22,10 +22,41 @@ bool stands_in(const CacheRecord& record, const CacheRecord& pixel) {
 
 }  // namespace
 
+int block_side(int width, int height, int count) {
+    const double area = static_cast<double>(width) * height;
+    return std::max(1, static_cast<int>(std::sqrt(area / count)));
+}
+
+std::vector<CacheRecord> doubtful_records(const std::vector<CacheRecord>& pixels,
+                                          const std::vector<float>& doubt, int width, int height,
+                                          int side, std::size_t count) {
+    struct Block {
+        double sum = 0.0;
+        std::size_t pixel = 0;  // that is most in doubt
+    };
+    const int across = (width + side - 1) / side, down = (height + side - 1) / side;
+    std::vector<Block> blocks(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(x);
+            if (!(doubt[at] > 0.0f) || !std::isfinite(doubt[at]) || !exists(pixels[at])) continue;
+            Block& block = blocks[static_cast<std::size_t>(y / side * across + x / side)];
+            if (!(block.sum > 0.0) || doubt[at] > doubt[block.pixel]) block.pixel = at;
+            block.sum += double{doubt[at]};
+        }
+    std::erase_if(blocks, [](const Block& block) { return !(block.sum > 0.0); });
+    count = std::min(count, blocks.size());
+    std::partial_sort(blocks.begin(), blocks.begin() + static_cast<std::ptrdiff_t>(count),
+                      blocks.end(), [](const Block& a, const Block& b) { return a.sum > b.sum; });
+    std::vector<CacheRecord> out;
+    for (std::size_t k = 0; k < count; ++k) out.push_back(pixels[blocks[k].pixel]);
+    return out;
+}
+
 std::vector<CacheRecord> seen_records(const std::vector<CacheRecord>& pixels, int width, int height,
                                       int count) {
-    const double area = static_cast<double>(width) * height;
-    const int side = std::max(1, static_cast<int>(std::sqrt(area / count)));
+    const int side = block_side(width, height, count);
     std::vector<CacheRecord> out;
     for (int top = 0; top < height; top += side)
         for (int left = 0; left < width; left += side) {

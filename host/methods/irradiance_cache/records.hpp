@@ -14,6 +14,15 @@ namespace clgi {
 std::vector<CacheRecord> seen_records(const std::vector<CacheRecord>& pixels, int width, int height,
                                       int count);
 
+// Side of these blocks, pixels.
+int block_side(int width, int height, int count);
+
+// A record in each of the `count` blocks of side x side pixels in which the sum of `doubt` is
+// largest, at the pixel where most of it is; none where there is no doubt.
+std::vector<CacheRecord> doubtful_records(const std::vector<CacheRecord>& pixels,
+                                          const std::vector<float>& doubt, int width, int height,
+                                          int side, std::size_t count);
+
 // Adds up to `count` of the candidates to the records, as far from each other and from what is
 // there, in distances from those that see them, as it takes. viewers: record that sees each
 // candidate; a candidate without normal is left out.

@@ -3,6 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+#include "core/on_threads.hpp"
 
 namespace clgi {
 namespace {
@@ -12,21 +17,43 @@ constexpr int deepest = 20;
 // A record is listed where it can stand in for a surface that faces a way: cosine with the axis.
 // A surface whose main axis that is has a cosine of 0.577 at least.
 constexpr float least_cosine = 0.1f;
+constexpr float off_within = 1.7f;  // of half a leaf's side: that far off the plane is on it
+
+// Of the six ways that a surface can face.
+using Candidates = std::array<std::vector<std::uint32_t>, CACHE_WAYS>;
+
+struct Leaf {
+    glm::vec3 centre;
+    float half_side;
+    std::shared_ptr<const Candidates> candidates;
+};
 
 class TreeMaker {
 public:
     TreeMaker(const std::vector<CacheRecord>& records, RecordTree& out)
-        : records_(records), out_(out) {
-        for (std::uint32_t i = 0; i < records.size(); ++i)
+        : records_(records), out_(out) {}
+
+    Candidates all() const {
+        Candidates out;
+        for (std::uint32_t i = 0; i < records_.size(); ++i)
             for (std::uint32_t way = 0; way < CACHE_WAYS; ++way)
-                if (along(records[i].normal, way) > least_cosine) facing_[way].push_back(i);
+                if (along(records_[i].normal, way) > least_cosine) out[way].push_back(i);
+        return out;
     }
 
+    // candidates: those that some leaf within may list.
     std::uint32_t node(const glm::vec3& centre, float half_side,
-                       const std::vector<std::uint32_t>& inside, int depth) {
-        if (inside.size() <= most_in_leaf || depth == deepest) return leaf(centre, half_side);
+                       const std::vector<std::uint32_t>& inside,
+                       const std::shared_ptr<const Candidates>& candidates, int depth) {
+        if (inside.size() <= most_in_leaf || depth == deepest) {
+            leaves_.push_back({centre, half_side, candidates});
+            return CACHE_LEAF | static_cast<std::uint32_t>(leaves_.size() - 1);
+        }
         const auto place = static_cast<std::uint32_t>(out_.nodes.size());
         out_.nodes.resize(place + 8);
+        const auto fewer = std::make_shared<Candidates>();
+        for (std::size_t way = 0; way < CACHE_WAYS; ++way)
+            (*fewer)[way] = nearest(centre, half_side, (*candidates)[way]);
         for (std::uint32_t child = 0; child < 8; ++child) {
             std::vector<std::uint32_t> part;
             for (const std::uint32_t i : inside)
@@ -34,10 +61,24 @@ public:
             const float half = 0.5f * half_side;
             const glm::vec3 side((child & 1u) ? half : -half, (child & 2u) ? half : -half,
                                  (child & 4u) ? half : -half);
-            const std::uint32_t made = node(centre + side, half, part, depth + 1);
+            const std::uint32_t made = node(centre + side, half, part, fewer, depth + 1);
             out_.nodes[place + child] = made;
         }
         return place;
+    }
+
+    void list_all() {
+        out_.lists.resize(leaves_.size() * CACHE_WAYS * CACHE_LISTED);
+        constexpr std::size_t at_once = 16;
+        std::atomic<std::size_t> next = 0;
+        on_threads(thread_count(0), [&](int) {
+            while (true) {
+                const std::size_t first = next.fetch_add(at_once);
+                if (first >= leaves_.size()) return;
+                for (std::size_t k = first; k < std::min(first + at_once, leaves_.size()); ++k)
+                    list(k);
+            }
+        });
     }
 
 private:
@@ -50,30 +91,54 @@ private:
         return (p.x > centre.x ? 1u : 0u) | (p.y > centre.y ? 2u : 0u) | (p.z > centre.z ? 4u : 0u);
     }
 
-    // Farther off its own plane counts as farther away.
-    std::uint32_t leaf(const glm::vec3& centre, float half_side) {
-        const auto number = static_cast<std::uint32_t>(out_.lists.size() /
-                                                       (std::size_t{CACHE_WAYS} * CACHE_LISTED));
-        for (const std::vector<std::uint32_t>& candidates : facing_) {
-            std::vector<std::pair<float, std::uint32_t>> near;
-            for (const std::uint32_t i : candidates) {
-                const glm::vec3 d = centre - records_[i].position;
-                const float off =
-                    std::max(std::abs(glm::dot(d, records_[i].normal)) - 1.7f * half_side, 0.0f);
-                near.emplace_back(glm::dot(d, d) + 16.0f * off * off, i);
-            }
+    // Square of a distance at which a record counts; farther off its own plane counts as farther
+    // away. nearer: by so much, of both.
+    static float apart(const CacheRecord& record, const glm::vec3& place, float half_side,
+                       float nearer) {
+        const glm::vec3 d = place - record.position;
+        const float far = std::max(glm::length(d) - nearer, 0.0f);
+        const float off =
+            std::max(std::abs(glm::dot(d, record.normal)) - nearer - off_within * half_side, 0.0f);
+        return far * far + 16.0f * off * off;
+    }
+
+    // Without those that enough others are nearer than, wherever in the cube a leaf lies.
+    std::vector<std::uint32_t> nearest(const glm::vec3& centre, float half_side,
+                                       const std::vector<std::uint32_t>& candidates) const {
+        if (candidates.size() <= CACHE_LISTED) return candidates;
+        const float reach = std::sqrt(3.0f) * half_side;
+        std::vector<float> most;
+        most.reserve(candidates.size());
+        for (const std::uint32_t i : candidates)
+            most.push_back(apart(records_[i], centre, 0.0f, -reach));
+        std::nth_element(most.begin(), most.begin() + CACHE_LISTED - 1, most.end());
+        const float enough = most[CACHE_LISTED - 1];
+        std::vector<std::uint32_t> out;
+        for (const std::uint32_t i : candidates)
+            if (apart(records_[i], centre, half_side, reach) <= enough) out.push_back(i);
+        return out;
+    }
+
+    // Of one leaf.
+    void list(std::size_t number) {
+        const Leaf& leaf = leaves_[number];
+        std::uint32_t* to = &out_.lists[number * CACHE_WAYS * CACHE_LISTED];
+        std::vector<std::pair<float, std::uint32_t>> near;
+        for (const std::vector<std::uint32_t>& some : *leaf.candidates) {
+            near.clear();
+            for (const std::uint32_t i : some)
+                near.emplace_back(apart(records_[i], leaf.centre, leaf.half_side, 0.0f), i);
             const std::size_t count = std::min<std::size_t>(near.size(), CACHE_LISTED);
             std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count),
                               near.end());
             for (std::size_t k = 0; k < CACHE_LISTED; ++k)
-                out_.lists.push_back(k < count ? near[k].second : CACHE_NONE);
+                *to++ = k < count ? near[k].second : CACHE_NONE;
         }
-        return CACHE_LEAF | number;
     }
 
     const std::vector<CacheRecord>& records_;
     RecordTree& out_;
-    std::array<std::vector<std::uint32_t>, CACHE_WAYS> facing_;
+    std::vector<Leaf> leaves_;
 };
 
 }  // namespace
@@ -92,8 +157,11 @@ RecordTree make_tree(const std::vector<CacheRecord>& records) {
     const glm::vec3 half = 0.5f * (high - low);
     out.half_side = std::max({half.x, half.y, half.z, 1e-6f});
     out.nodes.push_back(0);
-    const std::uint32_t root = TreeMaker(records, out).node(out.centre, out.half_side, all, 0);
+    TreeMaker maker(records, out);
+    const std::uint32_t root =
+        maker.node(out.centre, out.half_side, all, std::make_shared<Candidates>(maker.all()), 0);
     out.nodes[0] = root;
+    maker.list_all();
     return out;
 }
 

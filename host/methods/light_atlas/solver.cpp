@@ -80,7 +80,7 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     bytes = all.bytes();
     b.samples.planes = b.sites.samples;
     b.listed.planes = b.blocks.planes;
-    lift = 2e-5f * scene.frame().radius;
+    lift = 2e-5f * scene.frame().detail;
     build();
     emitters.write(record);
     upload(vpl_layout, atlas_layout, made);

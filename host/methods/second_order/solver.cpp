@@ -12,7 +12,7 @@ using namespace second_order;
 
 namespace {
 
-// A distance from a tangent plane of this share of the scene's radius weighs as much as a right
+// A distance from a tangent plane of this share of the focus's radius weighs as much as a right
 // angle between normals.
 constexpr float plane_distance = 0.1f;
 
@@ -118,7 +118,7 @@ void SecondOrderSolver::State::light_points(const View& view) {
                               b.stride,
                               b.low_stride,
                               options.discontinuity_threshold,
-                              1.0f / (plane_distance * scene.frame().radius),
+                              1.0f / (plane_distance * scene.frame().detail),
                               step,
                               0};
     record("gbuffer.downsample", low_pixels, [&](const WaitList& wait) {

@@ -25,7 +25,7 @@ void SecondOrderSolver::State::place_negative(const View& view) {
     const NegativeParams params{static_cast<std::uint32_t>(emitters.set().vpl_count),
                                 static_cast<std::uint32_t>(options.negative_vpls),
                                 buffers.stride,
-                                16.0f * 5.96e-8f * (2.0f * scene.frame().radius),
+                                16.0f * 5.96e-8f * (2.0f * scene.frame().detail),
                                 options.footprint,
                                 replicate_shift(replicate, ShiftUse::image, 0),
                                 replicate_shift(replicate, ShiftUse::image, 1),

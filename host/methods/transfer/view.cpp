@@ -206,7 +206,7 @@ struct DynamicTransferView::State {
 
     PixelParams run_of(std::uint32_t first, std::uint32_t length) const {
         return {
-            first, length, probing.pixel_stride, receivers.stride, lift * scene.frame().radius, 0,
+            first, length, probing.pixel_stride, receivers.stride, lift * scene.frame().detail, 0,
             0,     0};
     }
 

@@ -82,7 +82,7 @@ Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterO
     Source out;
     const bool spot = light.kind == Light::Kind::spot;
     const glm::vec3 eye = frame.to_local(light.position);
-    const float near = 1e-4f * frame.radius;
+    const float near = 1e-4f * frame.detail;
     // Candela keep their meaning when lengths are scaled: I / d^2 = (I s^2) / (d s)^2.
     const glm::vec3 intensity =
         glm::vec3(glm::dvec3(light.intensity) * (frame.scale * frame.scale / frame.exposure));
@@ -153,9 +153,14 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
     if (triangles.empty() || options.area_samples < 1) return out;
     std::vector<double> cumulative;
     double total = 0.0;
-    for (const EmissiveTriangle& t : triangles)
-        cumulative.push_back(total += pi * t.area * luminance(t.radiance));
     const SceneFrame& frame = scene.frame();
+    const auto is_beyond = [&](const EmissiveTriangle& t) {
+        const glm::vec3 middle = (t.corner[0] + t.corner[1] + t.corner[2]) * (1.0f / 3.0f);
+        return options.focused && glm::dot(middle, middle) > frame.detail * frame.detail;
+    };
+    for (const EmissiveTriangle& t : triangles)
+        cumulative.push_back(total += is_beyond(t) ? 0.0 : pi * t.area * luminance(t.radiance));
+    if (!(total > 0.0)) return out;
     const double share = total / options.area_samples;
     for (int k = 0; k < options.area_samples; ++k) {
         // Every replicate moves the points within their strata.
@@ -175,7 +180,7 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
             index, 3, replicate_shift(options.replicate, ShiftUse::area, 1));
         const glm::vec3 on = t.corner[0] * (1.0f - root) + t.corner[1] * (root * (1.0f - v)) +
                              t.corner[2] * (root * v);
-        const float lift = 1e-4f * frame.radius;
+        const float lift = 1e-4f * frame.detail;
         const float lum = luminance(t.radiance);
         Source source;
         Emitter& e = source.emitter;

@@ -15,6 +15,7 @@ struct EmitterOptions {
     int shadow_size = 512;        // pixels per side of a spot or directional light's map
     int face_size = 256;          // pixels per side of a cube or hemicube face
     int area_samples = 16;        // sample points on all emissive surfaces together
+    bool focused = false;         // of surfaces within the scene's focus alone
     int environment_lights = 16;  // directional lights that approximate it
     // 0: the Halton points themselves. Other values: randomised shifts of them (Cranley and
     // Patterson). The differences between replicates estimate the error of one.

@@ -42,15 +42,17 @@ public:
                    const DeviceScene& scene, const EmitterBuffers& emitters,
                    const CacheBuffers& buffers, const WaitList& wait = {}) const;
 
-    // light -> next.
+    // light -> next, of params.record_count records.
     cl::Event bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
                      const CacheBuffers& buffers, const WaitList& wait = {}) const;
 
     // buffers.light -> irradiance [IRRADIANCE_PLANES][params.stride] of the points of a G-buffer,
-    // in the storage of these passes.
+    // in the storage of these passes, and how much the records of each differ, doubt
+    // [params.stride] float.
     cl::Event show(const cl::CommandQueue& queue, const CacheShowParams& params,
                    const CacheTree& tree, const CacheBuffers& buffers, const GBuffer& points,
-                   const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+                   const cl::Buffer& irradiance, const cl::Buffer& doubt,
+                   const WaitList& wait = {}) const;
 
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;

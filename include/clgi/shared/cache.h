@@ -26,6 +26,10 @@ typedef struct {
     uint pad_;
 } CacheTree;
 
+// Emissive surfaces that hemicubes light by: those beyond the focus, which have no points with
+// shadow maps (EmitterOptions::focused), or all.
+enum { CACHE_EMISSION_BEYOND = 0, CACHE_EMISSION_ALL = 1 };
+
 // Records of a batch and their hemicubes.
 typedef struct {
     uint first;   // record
@@ -36,23 +40,27 @@ typedef struct {
     uint sky_width;  // texels; 0: no sky
     uint sky_height;
     float sky_turn;  // in turns, as in EnvironmentParams
-    uint emission;  // 1: emissive surfaces count
+    uint emission;   // which emissive surfaces count, a CACHE_EMISSION
     uint picks;     // surfaces of each record that pick takes
     uint first_pick;  // place of the first record's
     uint pick_stride;
     uint emitter_count;  // with shadow maps of depth alone
+    float focus;         // square of its radius, local units
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
 } CacheParams;
 
 typedef struct {
     uint record_count;
     uint stride;  // of planes, and of a row of the transport
-    uint pad0_;
-    uint pad1_;
+    uint first;   // record
+    uint pad_;
 } CacheBounceParams;
 
 typedef struct {
     uint point_count;
-    uint stride;  // of the G-buffer and the irradiance
+    uint stride;  // of the G-buffer, the irradiance and the doubt
     uint pad0_;
     uint pad1_;
 } CacheShowParams;

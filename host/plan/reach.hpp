@@ -1,0 +1,15 @@
+// What a picture reaches: the places that it shows and those that send light there, followed from
+// the camera backwards.                    [derived: Smits92, importance; Veach97, 4.6, its paths]
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/advanced/reach.hpp>
+#include <clgi/scene.hpp>
+
+namespace clgi {
+
+// Paths of three surfaces through some hundred pixels, or fewer where there are many triangles.
+// Camera and scene have passed validate().
+Reach reach_of(const Scene& scene, const Camera& camera, int width, int height);
+
+}  // namespace clgi

@@ -1,0 +1,26 @@
+// How much of a scene a picture sees, at first and at second hand.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/scene.hpp>
+#include <cstddef>
+
+namespace clgi {
+
+// Estimated by few paths from the camera backwards: a seldom seen part may be missed.
+struct Reach {
+    std::size_t points = 0;  // places that paths met; 0: nothing is known, and the rest is 1
+    // Around nine tenths of them.
+    Focus sphere;
+    // Shares of what the sphere, half as large again, holds: of the scene's area, and of the power
+    // of its lamps (lumen, without directional lights and the environment).
+    double area = 1.0, power = 1.0;
+    double emissive_area = 0.0;  // m^2, of what it holds
+    // Share of the power of these emissive surfaces that none of the places sees.
+    double hidden = 0.0;
+    // Radius of the sphere over that of the scene.
+    double size = 1.0;
+    double milliseconds = 0.0;
+};
+
+}  // namespace clgi
