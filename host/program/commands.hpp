@@ -13,6 +13,7 @@ void add_render(CLI::App& app);
 void add_bake(CLI::App& app);
 void add_transfer(CLI::App& app);
 void add_reference(CLI::App& app);
+void add_verify(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_bench(CLI::App& app);

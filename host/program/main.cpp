@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
         clgi::program::add_bake(app);
         clgi::program::add_transfer(app);
         clgi::program::add_reference(app);
+        clgi::program::add_verify(app);
         clgi::program::add_compare(app);
         clgi::program::add_sweep(app);
         clgi::program::add_bench(app);

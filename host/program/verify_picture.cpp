@@ -1,0 +1,97 @@
+// clgi verify PICTURE SCENE: the error of a picture of any origin, by a few path-traced pixels.
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <clgi/error.hpp>
+#include <clgi/reference.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "io/image_formats.hpp"
+#include "program/animation.hpp"
+#include "program/commands.hpp"
+#include "program/duration.hpp"
+#include "program/session.hpp"
+#include "program/verify.hpp"
+
+namespace clgi::program {
+namespace {
+
+struct VerifyPictureFlags {
+    std::string picture;
+    std::string scene;
+    EnvironmentFlags environment;
+    AnimationFlags animation;
+    std::string time = "2s";
+    std::string effects;
+    std::uint64_t seed = 1;
+    int scene_index = -1;
+    int camera = 0;
+    bool json = false;
+    bool quiet = false;
+};
+
+// Throws InputError for a picture that is not of radiance.
+io::Image read_radiance(const std::string& path) {
+    io::Image out = io::read_image(path);
+    for (const char* name : {"R", "G", "B"})
+        if (!out.find(name)) throw InputError(path + ": it has no channel " + name);
+    if (const std::size_t bad = io::make_finite(out))
+        throw InputError(fmt::format("{}: {} samples are not finite", path, bad));
+    return out;
+}
+
+void run_verify(const VerifyPictureFlags& flags) {
+    reference::VerifyOptions options;
+    options.seconds = 1e-3 * parse_milliseconds("verify", "--limit", flags.time);
+    options.samples = 1 << 20;  // time is the limit
+    options.seed = flags.seed;
+    options.effects = reference::parse_effects(flags.effects);
+    const io::Image picture = read_radiance(flags.picture);
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.quiet);
+    pose_scene("verify", flags.animation, scene);
+    check_camera("verify", flags.camera, scene);
+    const reference::PathTracer tracer(scene);
+    catch_interrupts();
+    const reference::Verification found =
+        tracer.verify(scene.cameras[static_cast<std::size_t>(flags.camera)], picture.width,
+                      picture.height, radiance_of(picture), options,
+                      progress_bar("verify", flags.quiet));
+    if (found.cancelled) throw Interrupted();
+    if (flags.json)
+        fmt::print("{}\n", verify_json(found).dump(2));
+    else
+        fmt::print("{}: {}\n", flags.picture, verify_line(found));
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "verify", "The error of a picture, by path-tracing some hundred of its pixels");
+    const auto flags = std::make_shared<VerifyPictureFlags>();
+    command
+        ->add_option("picture", flags->picture,
+                     "The picture to judge, .exr or .hdr: radiance in cd/m^2 from the scene's camera")
+        ->required()
+        ->type_name("PICTURE");
+    command->add_option("scene", flags->scene, ".gltf or .glb file")
+        ->required()
+        ->type_name("SCENE");
+    add_environment_flags(*command, flags->environment);
+    add_place_options(*command, flags->scene_index, flags->camera);
+    add_animation_flags(*command, flags->animation);
+    command->add_option("--limit", flags->time, "How long pixels are traced")->type_name("TIME");
+    command
+        ->add_option("--effects", flags->effects,
+                     "Light paths that count, as those of clgi reference")
+        ->type_name("LIST")
+        ->default_str("all");
+    command->add_option("--seed", flags->seed, "Seed of the random numbers")->type_name("N");
+    command->add_flag("--json", flags->json, "Print JSON");
+    add_quiet_flag(*command, flags->quiet);
+    command->callback([flags] { run_verify(*flags); });
+}
+
+}  // namespace clgi::program
