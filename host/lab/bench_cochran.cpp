@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <clgi/device.hpp>
-#include <clgi/error.hpp>
 #include <clgi/renderer.hpp>
 #include <cmath>
 #include <limits>
@@ -14,13 +12,14 @@
 namespace clgi::lab {
 namespace {
 
+constexpr int frame_width = 640, frame_height = 480;
 constexpr double low_share_wanted = 0.875;  // the paper's own setting
 // A pair of light and point in image.gather: 3 subtractions, 3 dot products of 5, 2 maxima and
 // their product, 5 fused multiply-adds (3 for colour, 2 in the kernel), 1 sum, 1 product, 1
 // division.
 constexpr double flops_per_pair = 3 + 15 + 3 + 10 + 1 + 1 + 1;
 
-struct Row {
+struct Pictures {
     std::string name;
     int positive, negative;
     double paper_fps;
@@ -31,23 +30,19 @@ struct Row {
 // With kernels that all share.
 struct Bench {
     const BenchSetup& setup;
-    Programs programs;
-    DeviceScene scene;
-
-    explicit Bench(const BenchSetup& all)
-        : setup(all),
-          programs(all.queue.getInfo<CL_QUEUE_CONTEXT>(), all.queue.getInfo<CL_QUEUE_DEVICE>()),
-          scene(programs.context(), programs.device(), all.scene) {}
+    const Scene& world = setup.scenes.front().second;
+    Programs programs{setup.context(), setup.device()};
+    DeviceScene scene{setup.context(), setup.device(), world};
 
     std::unique_ptr<Renderer> renderer(int positive, int negative, float threshold) {
         RendererOptions options;
-        options.picture.width = setup.width;
-        options.picture.height = setup.height;
+        options.picture.width = frame_width;
+        options.picture.height = frame_height;
         options.picture.build = setup.build;
         options.second_order.emitters.vpls = positive;
         options.second_order.negative_vpls = negative;
         options.second_order.discontinuity_threshold = threshold;
-        auto made = std::make_unique<Renderer>(programs, setup.queue, setup.scene, scene, options);
+        auto made = std::make_unique<Renderer>(programs, setup.queue, world, scene, options);
         made->build();
         return made;
     }
@@ -62,7 +57,7 @@ float threshold_for(Bench& bench, double share) {
     for (int i = 0; i < 24; ++i) {
         const float middle = std::sqrt(low * high);
         const auto renderer = bench.renderer(1, 0, middle);
-        renderer->render(bench.setup.scene.cameras.front());
+        renderer->render(bench.world.cameras.front());
         (renderer->second_order()->status().low_resolution_share > share ? high : low) = middle;
     }
     return low;  // the side with no more low-resolution pixels than wanted
@@ -70,12 +65,9 @@ float threshold_for(Bench& bench, double share) {
 
 std::vector<std::uint8_t> preview(const BenchSetup& setup, const Renderer& renderer,
                                   float exposure) {
-    const cl::Context context = setup.queue.getInfo<CL_QUEUE_CONTEXT>();
-    std::vector<std::uint8_t> rgba(static_cast<std::size_t>(setup.width) * setup.height * 4);
-    cl::Buffer buffer(context, CL_MEM_READ_WRITE, rgba.size());
-    const TonemapParams params{static_cast<std::uint32_t>(setup.width),
-                               static_cast<std::uint32_t>(setup.height), renderer.stride(),
-                               exposure};
+    std::vector<std::uint8_t> rgba(std::size_t{4} * frame_width * frame_height);
+    cl::Buffer buffer(setup.context(), CL_MEM_READ_WRITE, rgba.size());
+    const TonemapParams params{frame_width, frame_height, renderer.stride(), exposure};
     renderer.second_order()->image_passes().tonemap(setup.queue, params, renderer.radiance(),
                                                     buffer);
     setup.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, rgba.size(), rgba.data());
@@ -111,16 +103,21 @@ double gather_rate(const Renderer& renderer, double lights) {
     return 0.0;
 }
 
-BenchTable run(const BenchSetup& setup, const std::string& table, const std::vector<Row>& rows) {
-    Bench bench(setup);
-    const Camera& camera = setup.scene.cameras.front();
-    BenchTable out;
-    out.table = table;
-    out.device = describe(bench.programs.device());
-    out.scene = setup.scene.name;
+Json row_json(const Pictures& wanted, const Renderer& renderer, double fps) {
+    Json out = {{"name", wanted.name}, {"paper", wanted.paper_fps},
+                {"clgi", fps},         {"ratio", fps / wanted.paper_fps},
+                {"error", nullptr},    {"unit", "frames/s"}};
+    out["low_res_share"] = renderer.second_order()->status().low_resolution_share;
+    const float threshold = renderer.options().second_order.discontinuity_threshold;
+    if (std::isfinite(threshold)) out["threshold"] = threshold;
+    return out;
+}
 
+BenchTable run(const BenchSetup& setup, const std::vector<Pictures>& rows) {
+    Bench bench{setup};
+    const Camera& camera = bench.world.cameras.front();
     std::vector<std::unique_ptr<Renderer>> renderers;
-    for (const Row& row : rows)
+    for (const Pictures& row : rows)
         renderers.push_back(
             bench.renderer(row.positive, row.negative, threshold_for(bench, row.share)));
     PeakMeter meter(setup.queue);
@@ -129,14 +126,13 @@ BenchTable run(const BenchSetup& setup, const std::string& table, const std::vec
     std::vector<double> gathers;
     const std::size_t most =
         std::max_element(rows.begin(), rows.end(),
-                         [](const Row& a, const Row& b) {
+                         [](const Pictures& a, const Pictures& b) {
                              return a.positive + a.negative < b.positive + b.negative;
                          }) -
         rows.begin();
     constexpr int warm_up = 3;
     for (int repeat = -warm_up; repeat < setup.repeats; ++repeat) {
-        if (setup.progress && !setup.progress(double(repeat + warm_up) / (setup.repeats + warm_up)))
-            throw Error("bench: cancelled");
+        setup.report(double(repeat + warm_up) / (setup.repeats + warm_up));
         for (std::size_t i = 0; i < rows.size(); ++i) {
             // Every round starts with another row, so none always follows the same one.
             const std::size_t row = (i + repeat + warm_up) % rows.size();
@@ -158,52 +154,48 @@ BenchTable run(const BenchSetup& setup, const std::string& table, const std::vec
     plain->render(camera);
     const float exposure = grey_exposure(*plain);
     const std::vector<std::uint8_t> truth = preview(setup, *plain, exposure);
+    BenchTable out;
+    const double peak = spread(peaks).median, gather = spread(gathers).median;
+    out.json = {{"scene", bench.world.name},
+                {"peak_gflops", peak},
+                {"gather_gflops", gather},
+                {"gather_fraction", gather / peak}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        BenchRow row;
-        row.name = rows[i].name;
-        row.paper = rows[i].paper_fps;
-        row.clgi = 1000.0 / spread(times[i]).median;
-        row.ratio = row.clgi / row.paper;
-        row.unit = "frames/s";
-        row.low_res_share = renderers[i]->second_order()->status().low_resolution_share;
-        row.threshold = renderers[i]->options().second_order.discontinuity_threshold;
+        Json row = row_json(rows[i], *renderers[i], 1e3 / spread(times[i]).median);
         if (rows[i].paper_error) {
-            row.paper_error = rows[i].paper_error;
-            row.error = rms_percent(preview(setup, *renderers[i], exposure), truth);
+            row["paper_error"] = *rows[i].paper_error;
+            row["error"] = rms_percent(preview(setup, *renderers[i], exposure), truth);
         }
-        out.rows.push_back(row);
+        out.json["rows"].push_back(row);
     }
-    out.peak_gflops = spread(peaks).median;
-    out.gather_gflops = spread(gathers).median;
-    out.gather_fraction = out.gather_gflops / out.peak_gflops;
+    out.note =
+        "{scene}, peak {peak_gflops:.0f} GFLOP/s; gather {gather_gflops:.0f} GFLOP/s, "
+        "{gather_fraction:.2f} of it\n";
+    out.columns = {{"row", 12, "{name}"},
+                   {"paper fps", 12, "{paper:.1f}"},
+                   {"clgi fps", 12, "{clgi:.1f}"},
+                   {"ratio", 9, "{ratio:.2f}"},
+                   {"low-res", 10, "{low_res_share:.1f}%", 100.0},
+                   {"RMS %", 12, "{error:.4f}"},
+                   {"paper RMS %", 13, "{paper_error:.4f}"}};
     return out;
 }
 
 }  // namespace
 
-BenchTable bench_cochran1(const BenchSetup& setup) {
-    std::vector<Row> rows;
-    const struct {
-        int positive, negative;
-        double fps;
-    } table[] = {{100, 50, 26.5}, {150, 0, 32.6},   {200, 100, 15.6},
-                 {300, 0, 19.2},  {300, 150, 11.0}, {450, 0, 13.6}};
-    for (const auto& row : table)
-        rows.push_back({std::to_string(row.positive) + " + " + std::to_string(row.negative),
-                        row.positive,
-                        row.negative,
-                        row.fps,
-                        low_share_wanted,
-                        {}});
-    return run(setup, "cochran1", rows);
-}
-
-BenchTable bench_cochran2(const BenchSetup& setup) {
-    const std::vector<Row> rows = {{"100 %", 100, 50, 42.5, 1.0, 1.5082},
-                                   {"87.5 %", 100, 50, 26.5, 0.875, 0.1688},
-                                   {"50 %", 100, 50, 15.4, 0.5, 0.0885},
-                                   {"0 %", 100, 50, 12.6, 0.0, 0.0}};
-    return run(setup, "cochran2", rows);
+BenchTable bench_cochran(const BenchSetup& setup) {
+    if (setup.table ==
+        "cochran2")  // with the threshold of each share; the second row is of table 1
+        return run(setup, {{"100 %", 100, 50, 42.5, 1.0, 1.5082},
+                           {"87.5 %", 100, 50, 26.5, low_share_wanted, 0.1688},
+                           {"50 %", 100, 50, 15.4, 0.5, 0.0885},
+                           {"0 %", 100, 50, 12.6, 0.0, 0.0}});
+    return run(setup, {{"100 + 50", 100, 50, 26.5, low_share_wanted, {}},
+                       {"150 + 0", 150, 0, 32.6, low_share_wanted, {}},
+                       {"200 + 100", 200, 100, 15.6, low_share_wanted, {}},
+                       {"300 + 0", 300, 0, 19.2, low_share_wanted, {}},
+                       {"300 + 150", 300, 150, 11.0, low_share_wanted, {}},
+                       {"450 + 0", 450, 0, 13.6, low_share_wanted, {}}});
 }
 
 }  // namespace clgi::lab

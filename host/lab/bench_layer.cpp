@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "lab/bench_layer.hpp"
-
 #include <algorithm>
 #include <clgi/advanced/kernel_source.hpp>
 #include <clgi/device.hpp>
@@ -8,6 +6,7 @@
 #include <clgi/passes/gbuffer.hpp>
 #include <clgi/passes/image.hpp>
 
+#include "lab/bench.hpp"
 #include "lab/scenes/rooms.hpp"
 #include "lab/timing.hpp"
 
@@ -64,10 +63,12 @@ private:
 
 }  // namespace
 
-std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
-                                  const std::function<bool(double)>& progress) {
-    const cl::Context context = queue.getInfo<CL_QUEUE_CONTEXT>();
-    const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
+// A 640x480 view and 64 VPLs. In every round each row is measured both ways, one straight after
+// the other and in turns first, from the first call to the end on the device.
+BenchTable bench_layer(const BenchSetup& setup) {
+    const cl::CommandQueue& queue = setup.queue;
+    const cl::Context context = setup.context();
+    const cl::Device device = setup.device();
     const Scene world = box();
     const DeviceScene scene(context, device, world);
     const View view = make_view(world.cameras[0], scene.frame(), layer_width, layer_height);
@@ -124,9 +125,8 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
         std::vector<double> by_hand, library, ratio;
     };
     std::vector<Times> times(ways.size());
-    for (int round = -warm_up; round < repeats; ++round) {
-        if (progress && !progress(double(round + warm_up) / (repeats + warm_up)))
-            throw Error("bench: cancelled");
+    for (int round = -warm_up; round < setup.repeats; ++round) {
+        setup.report(double(round + warm_up) / (setup.repeats + warm_up));
         for (std::size_t i = 0; i < ways.size(); ++i) {
             const bool hand_first = round % 2 == 0;
             const double first = time_frame(queue, hand_first ? ways[i].by_hand : ways[i].library);
@@ -137,11 +137,18 @@ std::vector<LayerRow> bench_layer(const cl::CommandQueue& queue, int repeats,
             times[i].ratio.push_back(times[i].library.back() / times[i].by_hand.back());
         }
     }
-    std::vector<LayerRow> out;
+    Json rows;
     for (std::size_t i = 0; i < ways.size(); ++i)
-        out.push_back({ways[i].name, spread(times[i].by_hand).median,
-                       spread(times[i].library).median, spread(times[i].ratio).median});
-    return out;
+        rows.push_back({{"name", ways[i].name},
+                        {"by_hand_ms", spread(times[i].by_hand).median},
+                        {"library_ms", spread(times[i].library).median},
+                        {"ratio", spread(times[i].ratio).median}});  // of the two ways, by rounds
+    return {{{"rows", rows}},
+            {{"pass", 20, "{name}"},
+             {"by hand ms", 14, "{by_hand_ms:.4f}"},
+             {"library ms", 14, "{library_ms:.4f}"},
+             {"ratio", 9, "{ratio:.3f}"}},
+            ""};
 }
 
 }  // namespace clgi::lab

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "lab/bench_schaerfig.hpp"
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <clgi/light_atlas.hpp>
 
+#include "lab/bench.hpp"
 #include "lab/peak.hpp"
 #include "lab/timed_bake.hpp"
 #include "lab/timing.hpp"
@@ -13,23 +13,25 @@
 namespace clgi::lab {
 namespace {
 
+constexpr int atlas_size = 512;  // texels, side
 constexpr std::uint32_t counts[] = {100, 400, 1600, 6400, 25600};
 
 // Seconds on a GeForce GTX 680, five bounces; 0: the paper has none. [Schaerfig16, table 1]
 constexpr struct {
     const char* scene;
     double seconds[5];
-} paper[] = {{"corridor", {0.705, 1.546, 4.539, 16.986, 159.631}},
-             {"cornell", {0.495, 1.218, 4.571, 19.512, 128.697}},
-             {"sponza", {0.0, 0.0, 7.732, 29.159, 228.252}}};
+} schaerfig_table[] = {{"corridor", {0.705, 1.546, 4.539, 16.986, 159.631}},
+                       {"cornell", {0.495, 1.218, 4.571, 19.512, 128.697}},
+                       {"sponza", {0.0, 0.0, 7.732, 29.159, 228.252}}};
 
-std::optional<double> paper_seconds(const std::string& scene, std::size_t which) {
-    for (const auto& row : paper)
+Json paper_seconds(const std::string& scene, std::size_t which) {
+    for (const auto& row : schaerfig_table)
         if (scene == row.scene && row.seconds[which] > 0.0) return row.seconds[which];
-    return {};
+    return nullptr;
 }
 
-// The ways to fill an atlas that are measured.
+// One bake is from the scene's buffers to the filled atlas, the layout on the host included;
+// kernels are built before. The ways to fill an atlas that are measured:
 struct Filling {
     const char* name;
     std::uint32_t most_vpls;
@@ -61,18 +63,13 @@ int fitting_size(const Scene& scene, int size) {
 
 }  // namespace
 
-SchaerfigTable bench_schaerfig1(const SchaerfigSetup& setup,
-                                const std::vector<std::pair<std::string, Scene>>& scenes) {
-    const cl::Context context = setup.queue.getInfo<CL_QUEUE_CONTEXT>();
-    const cl::Device device = setup.queue.getInfo<CL_QUEUE_DEVICE>();
-    const Programs programs(context, device);
+BenchTable bench_schaerfig(const BenchSetup& setup) {
+    const Programs programs(setup.context(), setup.device());
     PeakMeter meter(setup.queue);
     std::vector<double> peaks;
-    SchaerfigTable out;
-    out.device = describe(device);
-
+    Json rows;
     double all = 0.0, done = 0.0;
-    for (const auto& [name, scene] : scenes)
+    for (const auto& [name, scene] : setup.scenes)
         for (const std::uint32_t count : counts)
             for (const Filling& filling : fillings)
                 if (count <= std::min(setup.most_vpls, filling.most_vpls))
@@ -92,9 +89,9 @@ SchaerfigTable bench_schaerfig1(const SchaerfigSetup& setup,
         return *made;
     };
 
-    for (const auto& [name, scene] : scenes) {
-        const DeviceScene on_device(context, device, scene);
-        const int size = fitting_size(scene, setup.atlas_size);
+    for (const auto& [name, scene] : setup.scenes) {
+        const DeviceScene on_device(setup.context(), setup.device(), scene);
+        const int size = fitting_size(scene, atlas_size);
         for (const Filling& filling : fillings) {
             bake(scene, on_device, size, counts[0], filling, 0.0);  // builds kernels
             for (std::size_t i = 0; i < std::size(counts); ++i) {
@@ -109,21 +106,30 @@ SchaerfigTable bench_schaerfig1(const SchaerfigSetup& setup,
                 } while (bakes.size() < 3 && bakes.back().seconds < 3.0);
                 done += work_of(scene, counts[i]);
                 peaks.push_back(meter.gflops());
-                SchaerfigRow row;
-                row.name = name + ", " + std::to_string(counts[i]) + " VPLs";
-                row.filling = filling.name;
-                row.paper = paper_seconds(name, i);
-                row.clgi = spread(seconds).median;
-                if (row.paper) row.ratio = *row.paper / row.clgi;
-                row.layout = spread(layouts).median;
-                row.vpls = counts[i];
-                row.texels = bakes.back().irradiance.size();
-                out.rows.push_back(row);
+                const Json of_paper = paper_seconds(name, i);
+                const double ours = spread(seconds).median;
+                rows.push_back(
+                    {{"name", fmt::format("{}, {} VPLs", name, counts[i])},
+                     {"paper", of_paper},
+                     {"clgi", ours},
+                     {"ratio", of_paper.is_null() ? Json() : Json(of_paper.get<double>() / ours)},
+                     {"error", nullptr},
+                     {"unit", "s"},
+                     {"filling", filling.name},
+                     {"vpls", counts[i]},
+                     {"texels", bakes.back().irradiance.size()},
+                     {"layout", spread(layouts).median}});
             }
         }
     }
-    out.peak_gflops = spread(peaks).median;
-    return out;
+    return {{{"peak_gflops", spread(peaks).median}, {"rows", rows}},
+            {{"row", 24, "{name}"},
+             {"filling", 10, "{filling}"},
+             {"paper s", 10, "{paper:.3f}"},
+             {"clgi s", 10, "{clgi:.3f}"},
+             {"ratio", 9, "{ratio:.2f}"},
+             {"of it host", 12, "{layout:.3f}"}},
+            "512x512 texels, five bounces, peak {peak_gflops:.0f} GFLOP/s\n"};
 }
 
 }  // namespace clgi::lab

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "lab/bench_views.hpp"
-
 #include <algorithm>
 #include <clgi/advanced/kit/draw.hpp>
-#include <clgi/error.hpp>
 
+#include "lab/bench.hpp"
 #include "lab/timing.hpp"
 
 namespace clgi::lab {
 namespace {
 
+constexpr std::uint32_t face_size = 256;  // pixels, side of a whole face
+constexpr std::uint32_t view_cubes = 32;  // drawn together, around centroids of triangles
+
+// A view a work-item ("views"), or triangles in parallel with lists of large ones ("lists"); depth
+// alone, or depth with triangle ("visibility").
 struct Form {
     const char* name;
-    bool whole;  // a view a work-item
+    bool whole;
     Pixels kind;
 };
 
@@ -40,9 +43,9 @@ std::vector<float> centroids(const DeviceScene& scene, const Scene& world, int c
     return planes;
 }
 
-double copy_bandwidth(const cl::CommandQueue& queue, int repeats) {
+// Gigabytes a second, read and written.
+double copy_bandwidth(const cl::CommandQueue& queue, const cl::Context& context, int repeats) {
     const std::size_t bytes = std::size_t{64} << 20;
-    const cl::Context context = queue.getInfo<CL_QUEUE_CONTEXT>();
     const cl::Buffer from(context, CL_MEM_READ_WRITE, bytes), to(context, CL_MEM_READ_WRITE, bytes);
     queue.enqueueFillBuffer(from, cl_uint{1}, 0, bytes);
     std::vector<double> times;
@@ -57,32 +60,32 @@ double copy_bandwidth(const cl::CommandQueue& queue, int repeats) {
 
 }  // namespace
 
-ViewsTable bench_views(const ViewsSetup& setup,
-                       const std::vector<std::pair<std::string, Scene>>& scenes) {
+BenchTable bench_views(const BenchSetup& setup) {
     const cl::CommandQueue& queue = setup.queue;
-    const cl::Context context = queue.getInfo<CL_QUEUE_CONTEXT>();
-    const cl::Device device = queue.getInfo<CL_QUEUE_DEVICE>();
+    const cl::Context context = setup.context();
+    const cl::Device device = setup.device();
     const auto room = [&](std::size_t bytes) {
         return cl::Buffer(context, CL_MEM_READ_WRITE, bytes);
     };
     const GBufferPasses gbuffer(context, device, setup.build);
-    const auto count = static_cast<std::uint32_t>(setup.hemicubes);
-    const auto size = static_cast<std::uint32_t>(setup.size);
-    ViewsTable table;
-    table.copy_gigabytes_per_second = copy_bandwidth(queue, setup.repeats);
+    const double copy = copy_bandwidth(queue, context, setup.repeats);
+    BenchTable table;
+    table.json = {{"copy_gigabytes_per_second", copy}};
     double done = 0.0;
-    for (const auto& [name, world] : scenes) {
+    for (const auto& [name, world] : setup.scenes) {
         const DeviceScene scene(context, device, world);
-        std::vector<float> planes = centroids(scene, world, setup.hemicubes);
-        std::vector<cl_uint> chosen(count);
-        for (cl_uint i = 0; i < count; ++i) chosen[i] = i;
+        std::vector<float> planes = centroids(scene, world, view_cubes);
+        std::vector<cl_uint> chosen(view_cubes);
+        for (cl_uint i = 0; i < view_cubes; ++i) chosen[i] = i;
         const cl::Buffer points(context, planes.begin(), planes.end(), true);
         const cl::Buffer which(context, chosen.begin(), chosen.end(), true);
-        const cl::Buffer views = room(5 * count * sizeof(View));
+        const cl::Buffer views = room(5 * view_cubes * sizeof(View));
         const float lift = 1e-4f * scene.frame().radius;
-        const CubeParams params{count, 5, size, 0, 0, count, lift, 0.5f * lift, 0, 0, 0, 0};
+        const CubeParams params{view_cubes, 5,           face_size, 0, 0, view_cubes,
+                                lift,       0.5f * lift, 0,         0, 0, 0};
         gbuffer.cubes(queue, params, points, which, views).wait();
-        const ViewSpan span{0, 5 * count, size, size, std::size_t{3} * count * size * size};
+        const ViewSpan span{0, 5 * view_cubes, face_size, face_size,
+                            std::size_t{3} * view_cubes * face_size * face_size};
         for (const Form& form : forms) {
             RasterBuffers buffers;
             buffers.kind = form.kind;
@@ -95,8 +98,7 @@ ViewsTable bench_views(const ViewsSetup& setup,
             }
             std::vector<double> times;
             for (int k = -2; k < setup.repeats; ++k) {
-                if (setup.progress && !setup.progress(done / (4.0 * scenes.size())))
-                    throw Error("bench: cancelled");
+                setup.report(done / (4.0 * setup.scenes.size()));
                 record.begin({});
                 if (form.whole)
                     record("gbuffer.raster_views", span.count, [&](const WaitList& wait) {
@@ -106,24 +108,36 @@ ViewsTable bench_views(const ViewsSetup& setup,
                 else
                     draw_by_lists(record, gbuffer, scene, span, views, buffers);
                 record.wait();
-                if (k >= 0) times.push_back(record.interval().milliseconds() / count);
+                if (k >= 0) times.push_back(record.interval().milliseconds() / view_cubes);
             }
             const SceneInfo& info = scene.info();
-            const double bytes = static_cast<double>(span.pixels / count * pixel_bytes(form.kind)) +
-                                 16.0 * (info.triangle_count + info.vertex_count);
-            ViewsRow row;
-            row.scene = name;
-            row.form = form.name;
-            row.triangles = info.triangle_count;
-            row.hemicube_ms = spread(times).median;
-            row.triangles_per_second = 1e3 * info.triangle_count / row.hemicube_ms;
-            row.gigabytes_per_second = 1e-6 * bytes / row.hemicube_ms;
-            row.roof_share = row.gigabytes_per_second / table.copy_gigabytes_per_second;
-            row.taken = form.whole == gbuffer.prefers_raster_views(span, scene);
-            table.rows.push_back(row);
+            // The least that must move: each face written once, each triangle and vertex read once
+            // a hemicube.
+            const double bytes =
+                static_cast<double>(span.pixels / view_cubes * pixel_bytes(form.kind)) +
+                16.0 * (info.triangle_count + info.vertex_count);
+            const double ms = spread(times).median, rate = 1e-6 * bytes / ms;
+            table.json["rows"].push_back(
+                {{"scene", name},
+                 {"form", form.name},
+                 {"triangles", info.triangle_count},
+                 {"hemicube_ms", ms},
+                 {"triangles_per_second", 1e3 * info.triangle_count / ms},
+                 {"gigabytes_per_second", rate},
+                 {"roof_share", rate / copy},
+                 {"taken", form.whole == gbuffer.prefers_raster_views(span, scene)}});
             done += 1.0;
         }
     }
+    table.note = "hemicubes of 256x256, copy {copy_gigabytes_per_second:.1f} GB/s\n";
+    table.columns = {{"scene", 20, "{scene}"},
+                     {"triangles", 10, "{triangles:.0f}"},
+                     {"form", 19, "{form}"},
+                     {"taken", 7, "{taken}"},
+                     {"ms", 8, "{hemicube_ms:.3f}"},
+                     {"Mtri/s", 12, "{triangles_per_second:.1f}", 1e-6},
+                     {"GB/s", 9, "{gigabytes_per_second:.2f}"},
+                     {"share", 9, "{roof_share:.1f}%", 100.0}};
     return table;
 }
 

@@ -13,18 +13,23 @@ namespace clgi::lab {
 namespace {
 
 // ACES in Narkowicz's fit, (a x^2 + b x) / (d x^2 + e x + f), x scaled by 0.6 as in the paper.
-constexpr double a = 0.6 * 0.6 * 2.51, b = 0.6 * 0.03;
-constexpr double d = 0.6 * 0.6 * 2.43, e = 0.6 * 0.59, f = 0.14;
+struct Aces {
+    static constexpr double a = 0.6 * 0.6 * 2.51, b = 0.6 * 0.03;
+    static constexpr double d = 0.6 * 0.6 * 2.43, e = 0.6 * 0.59, f = 0.14;
+};
 constexpr double shown_as = 0.85;  // t: what the brightest and the median pixel are tone mapped to
 
 // Steps of a stop would be endless between a sun and a starlit wall.
 constexpr int most_exposures = 32;
 
-double tone_mapped(double x) { return x * (a * x + b) / (x * (d * x + e) + f); }
+double tone_mapped(double x) {
+    return x * (Aces::a * x + Aces::b) / (x * (Aces::d * x + Aces::e) + Aces::f);
+}
 
 // Solves tone_mapped(x) = shown_as.
 double shown_radiance() {
-    const double p = a - shown_as * d, q = b - shown_as * e, r = -shown_as * f;
+    const double p = Aces::a - shown_as * Aces::d, q = Aces::b - shown_as * Aces::e,
+                 r = -shown_as * Aces::f;
     return (-q + std::sqrt(q * q - 4.0 * p * r)) / (2.0 * p);
 }
 
