@@ -11,13 +11,14 @@
 #include "lab/reference_atlas.hpp"
 #include "lab/reference_picture.hpp"
 #include "lab/sweep_run.hpp"
-#include "lab/sweep_turns.hpp"
 #include "lab/timed_bake.hpp"
 
 namespace clgi::lab {
 namespace {
 
 constexpr const char* baked_effects = "indirect";
+
+// ---- the sweep ----------------------------------------------------------------------------------
 
 class AtlasRun {
 public:
@@ -71,17 +72,15 @@ private:
 
     // Counted are texels that both the truth and the bakes have.
     void find_truth(const reference::PathTracer& tracer) {
-        SweepTruth truth{"full", baked_effects, {}, 0.0};
-        truth.picture =
+        add_truth(
+            out_, "full", baked_effects,
             !atlas_.reference.empty()
                 ? given_reference()
                 : cached_atlas(tracer, places_, tracing(baked_effects, setup_.reference_samples),
                                baked_effects, setup_.folder / "reference-atlas.exr",
                                scene_key(setup_.scene),
-                               [&](double done) { return progress_.goes_on(done); });
-        if (truth.picture.channels.empty()) throw_cancelled();
-        truth.noise = stated_error(truth.picture);
-        const auto& alpha = truth.picture.find("A")->values;
+                               [&](double done) { return progress_.goes_on(done); }));
+        const auto& alpha = out_.truths.front().picture.find("A")->values;
         counted_ = {out_.width, out_.height, std::vector<std::uint8_t>(alpha.size(), 0), 0};
         for (const std::uint32_t texel : places_.texels) {
             counted_.counts[texel] = alpha[texel] > 0.0f ? 1 : 0;
@@ -92,7 +91,6 @@ private:
                 "{}: has {} of the {} texels that the atlas of the scene has, at least nine in ten "
                 "needed",
                 atlas_.reference.string(), counted_.pixels, places_.texels.size()));
-        out_.truths.push_back(std::move(truth));
     }
 
     // What one bake costs, about: lookups of texels, drawing, and soft shadows of projections.
@@ -135,9 +133,7 @@ private:
             }
             return Measured{{1e3 * made.seconds}, {}, made.status.non_finite, made.seconds <= slow};
         };
-        for (SweepPoint& point :
-             measure_in_turn(names_of(settings), turns, progress_, out_.non_finite))
-            out_.points.push_back(std::move(point));
+        add_points(out_, settings, turns, progress_);
     }
 
     const SweepSetup& setup_;
@@ -149,7 +145,71 @@ private:
     Sweep out_;
 };
 
+// ---- settings -----------------------------------------------------------------------------------
+
+void name_setting(AtlasSettings& one) {
+    const LightAtlasOptions& bake = one.bake;
+    const bool project = bake.filling == Filling::project;
+    one.method = project ? atlas_project : atlas_gather;
+    one.knobs = {{"vpls", std::to_string(one.vpls.count)},
+                 {"bounces", bake.bounces == 0 ? "all" : std::to_string(bake.bounces)},
+                 {"samples-per-vpl", std::to_string(one.vpls.samples_per_vpl)},
+                 {"exchange-samples", std::to_string(bake.exchange_samples)},
+                 {"filling", project ? "project" : "gather"},
+                 {"hemicube-size", std::to_string(bake.hemicube_size)}};
+    if (project) {
+        one.knobs["mesh"] = std::to_string(bake.mesh);
+        one.knobs["kernel"] = std::to_string(bake.kernel);
+    }
+}
+
 }  // namespace
+
+std::vector<AtlasSettings> atlas_settings(bool quick, const BuildOptions& build) {
+    const auto vpls = [](AtlasSettings& to, int n) { to.vpls.count = n; };
+    const auto samples = [](AtlasSettings& to, int n) { to.vpls.samples_per_vpl = n; };
+    const auto bounces = [](AtlasSettings& to, int n) { to.bake.bounces = n; };
+    const auto exchange = [](AtlasSettings& to, int n) { to.bake.exchange_samples = n; };
+    const auto size = [](AtlasSettings& to, int n) { to.bake.hemicube_size = n; };
+    const auto mesh = [](AtlasSettings& to, int n) { to.bake.mesh = n; };
+    const auto kernel = [](AtlasSettings& to, int n) { to.bake.kernel = n; };
+    AtlasSettings gather;
+    gather.bake.bounces = 0;  // all, so that what is missing is the error of the other knobs
+    gather.bake.build = build;
+    vpls(gather, quick ? 400 : 1600);
+    AtlasSettings project = gather;
+    project.bake.filling = Filling::project;
+    vpls(project, quick ? 100 : 400);  // it takes many times as long
+    SettingList<AtlasSettings> list(quick, name_setting);
+    list.vary("vpls", gather, {50, 400}, {100, 400, 1600, 6400}, vpls);
+    list.vary("bounces", gather, {1, 2, 0}, {1, 2, 3, 5, 10, 0}, bounces);
+    list.vary("samples-per-vpl", gather, {10, 48}, {6, 12, 24, 48, 96}, samples);
+    list.vary("exchange-samples", gather, {2, 16}, {1, 2, 4, 8, 16, 48}, exchange);
+    list.vary("hemicube-size", gather, {64, 256}, {32, 64, 128, 256, 512}, size);
+    list.vary("vpls, project", project, {50, 100}, {100, 400, 1600}, vpls);
+    list.vary("hemicube-size, project", project, {64, 256}, {64, 128, 256, 512}, size);
+    list.vary("mesh", project, {128, 512}, {32, 128, 512, 2048, 8192, 32768}, mesh);
+    list.vary("kernel", project, {0, 5}, {0, 1, 2, 5, 10}, kernel);
+    if (quick) return list.settings;
+    for (const int n : {100, 400, 1600, 6400})
+        for (const int pixels : {128, 256})
+            for (const int m : {24, 48}) {
+                AtlasSettings one = gather;
+                vpls(one, n);
+                size(one, pixels);
+                samples(one, m);
+                list.add("grid", std::move(one));
+            }
+    for (const int n : {100, 400, 1600})
+        for (const int m : {512, 2048, 8192}) {
+            AtlasSettings one = project;
+            vpls(one, n);
+            mesh(one, m);
+            kernel(one, 0);
+            list.add("grid", std::move(one));
+        }
+    return list.settings;
+}
 
 Sweep sweep_atlas(const SweepSetup& setup, const AtlasSweep& atlas) {
     return AtlasRun(setup, atlas)();

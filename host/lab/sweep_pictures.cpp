@@ -4,17 +4,78 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <clgi/reference.hpp>
 #include <iterator>
 #include <set>
 
+#include "lab/preview.hpp"
 #include "lab/reference_picture.hpp"
-#include "lab/sweep_run.hpp"
+#include "lab/relative_error.hpp"
+#include "lab/timing.hpp"
 
 namespace clgi::lab {
 namespace {
+
+// ---- a frame ------------------------------------------------------------------------------------
+
+void prepare(Renderer& renderer, const Progress& part) {
+    if (!renderer.prepare(part) && !renderer.status().given_up) throw_cancelled();
+}
+
+// Milliseconds before all frames: layout and bake, links, or transfer vectors. prepared: of the
+// first prepare().
+std::optional<double> once(const PictureTask& task, const Renderer& renderer, double prepared) {
+    if (const auto bake = renderer.bake()) return bake->layout_ms + prepared;
+    if (const AntiradianceSolver* solver = renderer.antiradiance())
+        return 1e3 * solver->linking_seconds();
+    if (DynamicTransferSolver* solver = renderer.dynamic_transfer())
+        return time_frame(task.setup.queue, [&] { solver->transfer(); });
+    return std::nullopt;
+}
+
+// The truths that have a picture of their own: all light, and what arrives over links and from the
+// sky alone.
+std::vector<std::string> answered(const PictureTask& task, Method method) {
+    std::vector<std::string> out = {full_truth};
+    for (const SweepTruth& truth : task.truths)
+        if (method == Method::antiradiance && truth.name == indirect_truth)
+            out.push_back(truth.name);
+    return out;
+}
+
+// One for each truth that is answered, from the renderer's last picture on.
+std::vector<io::Image> pictures(const PictureTask& task, Renderer& renderer) {
+    std::vector<io::Image> out;
+    PictureOptions picture = renderer.options().picture;
+    for (const std::string& truth : answered(task, renderer.options().method)) {
+        if (truth == indirect_truth) {
+            picture.direct = false;
+            renderer.reconfigure(picture);
+            renderer.render(task.camera);
+        }
+        out.push_back(radiance_picture(renderer));
+    }
+    return out;
+}
+
+void judge_all(const PictureTask& task, const std::vector<std::string>& answers,
+               const std::vector<io::Image>& found, SweepPoint& result) {
+    result.picture = found.front();
+    judge(result, task.truths);
+    for (std::size_t k = 0; k < answers.size(); ++k)
+        for (std::size_t t = 0; t < task.truths.size(); ++t)
+            if (task.truths[t].name == answers[k])
+                result.error[t] = relative_error(found[k], task.truths[t].picture);
+}
+
+// ---- the sweep ----------------------------------------------------------------------------------
+
+bool admits(const Scene& scene, const std::string& method) {
+    if (method == second_order_method) return true;
+    return !scene.triangles.empty() &&
+           (method != dynamic_transfer_method || scene.environment.has_value());
+}
 
 struct Truth {
     const char *name, *effects;
@@ -41,9 +102,10 @@ public:
     PicturesRun(const SweepSetup& setup, const PictureSweep& pictures)
         : setup_(setup),
           camera_(setup.scene.cameras.at(static_cast<std::size_t>(pictures.camera))),
-          progress_(setup.progress) {
-        options_.width = pictures.width;
-        options_.height = pictures.height;
+          progress_(setup.progress),
+          out_(sweep_of(SweepOf::pictures, setup)) {
+        out_.width = options_.width = pictures.width;
+        out_.height = options_.height = pictures.height;
         for (const std::string& name : pictures.methods)
             if (admits(setup.scene, name)) out_.methods.push_back(name);
         if (out_.methods.empty()) throw InputError("sweep: the scene has no surfaces to light");
@@ -51,15 +113,9 @@ public:
     }
 
     Sweep operator()() {
-        out_.of = SweepOf::pictures;
-        out_.scene = setup_.scene.name;
-        out_.device = describe(setup_.queue.getInfo<CL_QUEUE_DEVICE>());
-        out_.triangles = setup_.scene.triangles.size();
-        out_.width = options_.width;
-        out_.height = options_.height;
         const reference::PathTracer tracer(setup_.scene);
         progress_.part(0.0, 0.4);
-        for (std::size_t t = 0; t < truths_.size(); ++t) find_truth(tracer, t);
+        for (const Truth& truth : truths_) find_truth(tracer, truth);
         progress_.part(0.4, 0.15);
         if (setup_.path_tracer) trace(tracer);
         progress_.part(0.55, 0.45);
@@ -70,21 +126,18 @@ public:
     }
 
 private:
-    void find_truth(const reference::PathTracer& tracer, std::size_t t) {
+    void find_truth(const reference::PathTracer& tracer, const Truth& truth) {
         reference::Options options = options_;
-        options.effects = reference::parse_effects(truths_[t].effects);
+        options.effects = reference::parse_effects(truth.effects);
         options.samples = setup_.reference_samples;
-        SweepTruth truth{truths_[t].name, truths_[t].effects, {}, 0.0};
-        truth.picture =
-            cached_reference(tracer, camera_, options, truth.effects,
-                             setup_.folder / fmt::format("reference-{}.exr", truth.name),
-                             scene_key(setup_.scene), [&](double done) {
-                                 return progress_.goes_on((static_cast<double>(t) + done) /
-                                                          static_cast<double>(truths_.size()));
-                             });
-        if (truth.picture.channels.empty()) throw_cancelled();
-        truth.noise = stated_error(truth.picture);
-        out_.truths.push_back(std::move(truth));
+        const auto count = static_cast<double>(truths_.size()),
+                   before = static_cast<double>(out_.truths.size());
+        add_truth(out_, truth.name, truth.effects,
+                  cached_reference(tracer, camera_, options, truth.effects,
+                                   setup_.folder / fmt::format("reference-{}.exr", truth.name),
+                                   scene_key(setup_.scene), [&](double done) {
+                                       return progress_.goes_on((before + done) / count);
+                                   }));
     }
 
     void trace(const reference::PathTracer& tracer) {
@@ -94,20 +147,14 @@ private:
         for (const Truth& truth : truths_) {
             reference::Options options = options_;
             options.effects = reference::parse_effects(truth.effects);
-            options.seed = 77;  // not the truth's
+            options.seed = baseline_seed;
             for (int samples = 1; samples <= most; samples *= setup_.quick ? 4 : 2) {
                 options.samples = samples;
                 const reference::Picture picture = tracer.render(
                     camera_, options, [&](double) { return progress_.goes_on(done / runs); });
                 if (picture.cancelled) throw_cancelled();
-                SweepPoint point;
-                point.method = path_tracer_name;
-                point.series = truth.name;
-                point.knobs = {{"spp", std::to_string(samples)}};
-                point.milliseconds = 1e3 * picture.seconds;
-                point.picture = reference_image(picture, truth.effects);
-                judge(point, out_.truths);
-                out_.points.push_back(std::move(point));
+                add_traced(out_, truth.name, samples, picture.seconds,
+                           reference_image(picture, truth.effects));
                 progress_.report(++done / runs);
             }
         }
@@ -146,9 +193,7 @@ private:
                    settings[a].method == settings[b].method &&
                    settings[a].knobs == settings[b].knobs;
         };
-        for (SweepPoint& point :
-             measure_in_turn(names_of(settings), turns, progress_, out_.non_finite))
-            out_.points.push_back(std::move(point));
+        add_points(out_, settings, turns, progress_);
     }
 
     const SweepSetup& setup_;
@@ -161,10 +206,79 @@ private:
 
 }  // namespace
 
-bool admits(const Scene& scene, const std::string& method) {
-    if (method == second_order_method) return true;
-    return !scene.triangles.empty() &&
-           (method != dynamic_transfer_method || scene.environment.has_value());
+PictureMethod picture_method(const std::string& name, const PictureTask& task) {
+    const SweepSetup& setup = task.setup;
+    PictureMethod out;
+    if (name == second_order_method)
+        out = {
+            {"vpls", "negative-vpls", "low-res", "shadow-size", "area-samples", "math", "storage"},
+            second_order_settings(setup.quick, setup.build,
+                                  &second_order_front(main_light(task.scene)))};
+    else if (name == antiradiance_method)
+        out = {{"bins", "elements", "iteration", "steps", "spread", "bin-share", "storage"},
+               antiradiance_settings(setup.quick, setup.build, task.alone)};
+    else if (name == light_atlas_method)
+        out = {{"vpls", "atlas-size"}, light_atlas_settings(setup.scene, setup.quick)};
+    else
+        out = {{"mask", "interreflections"}, dynamic_transfer_settings(setup.quick)};
+    for (PictureSetting& one : out.settings) {
+        PictureOptions& picture = one.options.picture;
+        picture.width = task.width;
+        picture.height = task.height;
+        if (name != second_order_method) picture.emitters.shadow_size = task.shadow_size;
+        if (name == light_atlas_method || name == dynamic_transfer_method)
+            picture.build = setup.build;  // others vary it
+    }
+    return out;
+}
+
+Measured measure_picture(const PictureTask& task, const PictureSetting& setting, bool first,
+                         SweepPoint* result, const Progress& part) {
+    const cl::CommandQueue& queue = task.setup.queue;
+    const Method method = setting.options.method;
+    const bool second_order = method == Method::second_order;
+    const double slow = second_order ? 150.0 : 1000.0;  // milliseconds
+    const auto half = [&](double done) { return part(0.5 * done); };
+    const auto make = [&](const RendererOptions& options) {
+        return std::make_unique<Renderer>(task.programs, queue, task.setup.scene, task.scene,
+                                          options);
+    };
+    Measured out;
+    std::vector<io::Image> found;
+    {
+        // A bake is timed without the building of its kernels.
+        if (first && method == Method::light_atlas) prepare(*make(setting.options), half);
+        const auto renderer = make(setting.options);
+        renderer->build();
+        const double prepared = time_frame(queue, [&] { prepare(*renderer, half); });
+        renderer->render(task.camera).wait();  // warms up
+        out.once = once(task, *renderer, prepared);
+        for (int k = 0; k < 2 && out.again; ++k) {
+            out.milliseconds.push_back(time_frame(queue, [&] {
+                if (!second_order) renderer->lights_changed();
+                renderer->render(task.camera);
+            }));
+            out.again = out.milliseconds.back() <= slow;
+        }
+        const RendererStatus status = renderer->status();
+        out.non_finite = status.non_finite;
+        if (!result) return out;
+        result->given_up = status.given_up;
+        found = pictures(task, *renderer);
+    }
+    const std::vector<std::string> answers = answered(task, method);
+    judge_all(task, answers, found, *result);
+    if (!setting.estimate || !task.alone || result->given_up) return out;
+    RendererOptions twice = setting.options;
+    twice.antiradiance.bins *= 2;
+    const auto finer = make(twice);
+    prepare(*finer, [&](double done) { return part(0.5 + 0.5 * done); });
+    if (finer->status().given_up) return out;
+    finer->render(task.camera);
+    const std::vector<io::Image> better = pictures(task, *finer);
+    for (std::size_t k = 0; k < answers.size(); ++k)
+        result->estimated_error[answers[k]] = relative_error(found[k], better[k]);
+    return out;
 }
 
 Sweep sweep_pictures(const SweepSetup& setup, const PictureSweep& pictures) {

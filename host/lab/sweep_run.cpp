@@ -6,9 +6,31 @@
 #include <clgi/error.hpp>
 
 #include "lab/pareto.hpp"
+#include "lab/reference_picture.hpp"
 #include "lab/relative_error.hpp"
+#include "lab/timing.hpp"
 
 namespace clgi::lab {
+namespace {
+
+// For each setting the first that is the same.
+std::vector<std::size_t> first_of_each(const std::vector<SweepSetting>& settings,
+                                       const Turns& turns) {
+    const auto same = [&](std::size_t a, std::size_t b) {
+        return turns.same ? turns.same(a, b)
+                          : settings[a].method == settings[b].method &&
+                                settings[a].knobs == settings[b].knobs;
+    };
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        std::size_t k = 0;
+        while (k < i && !(out[k] == k && same(k, i))) ++k;
+        out.push_back(k);
+    }
+    return out;
+}
+
+}  // namespace
 
 void SweepProgress::part(double from, double span) {
     from_ = from;
@@ -25,6 +47,53 @@ void SweepProgress::report(double share) const {
 }
 
 void throw_cancelled() { throw Error("sweep: cancelled"); }
+
+std::vector<SweepPoint> measure_in_turn(const std::vector<SweepSetting>& settings,
+                                        const Turns& turns, const SweepProgress& progress,
+                                        std::size_t& non_finite) {
+    const std::vector<std::size_t> first = first_of_each(settings, turns);
+    const auto work = [&](std::size_t i) { return turns.work ? turns.work(i) : 1.0; };
+    double all = 0.0, done = 0.0;
+    for (std::size_t i = 0; i < settings.size(); ++i)
+        if (first[i] == i) all += turns.rounds * work(i);
+    std::vector<SweepPoint> results(settings.size());
+    std::vector<std::vector<double>> times(settings.size()), once(settings.size());
+    std::vector<std::uint8_t> again(settings.size(), 1);
+    for (int round = 0; round < turns.rounds; ++round)
+        for (std::size_t i = 0; i < settings.size(); ++i) {
+            if (first[i] != i) continue;
+            const double share = work(i) / all;
+            progress.report(done);
+            if (again[i]) {
+                const Measured found = turns.measure(
+                    i, round == 0 ? &results[i] : nullptr,
+                    [&](double part) { return progress.goes_on(done + share * part); });
+                progress.report(done);
+                times[i].insert(times[i].end(), found.milliseconds.begin(),
+                                found.milliseconds.end());
+                if (found.once) once[i].push_back(*found.once);
+                again[i] = found.again ? 1 : 0;
+                if (round == 0) non_finite += found.non_finite;
+            }
+            done += share;
+        }
+    std::vector<SweepPoint> out;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        SweepPoint point = results[first[i]];
+        static_cast<SweepSetting&>(point) = settings[i];
+        point.milliseconds = spread(times[first[i]]).median;
+        if (!once[first[i]].empty()) point.once_milliseconds = spread(once[first[i]]).median;
+        out.push_back(std::move(point));
+    }
+    return out;
+}
+
+void add_truth(Sweep& sweep, const std::string& name, const std::string& effects,
+               io::Image picture) {
+    if (picture.channels.empty()) throw_cancelled();
+    const double noise = stated_error(picture);
+    sweep.truths.push_back({name, effects, std::move(picture), noise});
+}
 
 void judge(SweepPoint& point, const std::vector<SweepTruth>& truths, const Mask* mask) {
     point.error.clear();
@@ -51,6 +120,18 @@ reference::Options tracing(const std::string& effects, int samples, std::uint64_
     return out;
 }
 
+void add_traced(Sweep& sweep, const std::string& truth, int samples, double seconds,
+                io::Image picture, const Mask* mask) {
+    SweepPoint point;
+    point.method = path_tracer_name;
+    point.series = truth;
+    point.knobs = {{"spp", std::to_string(samples)}};
+    point.milliseconds = 1e3 * seconds;
+    point.picture = std::move(picture);
+    judge(point, sweep.truths, mask);
+    sweep.points.push_back(std::move(point));
+}
+
 void trace_irradiance(Sweep& sweep, const SweepSetup& setup, const SweepTruth& truth,
                       const reference::PathTracer& tracer,
                       const std::vector<reference::Place>& places,
@@ -61,18 +142,11 @@ void trace_irradiance(Sweep& sweep, const SweepSetup& setup, const SweepTruth& t
     for (int samples = 1; samples <= most; samples *= 4) {
         const double share = 0.75 * samples / most;  // of a sum of powers of four
         const reference::Irradiance found =
-            tracer.irradiance(places, tracing(truth.effects, samples, 77),  // not the truth's seed
+            tracer.irradiance(places, tracing(truth.effects, samples, baseline_seed),
                               [&](double part) { return progress.goes_on(done + share * part); });
         if (found.cancelled) throw_cancelled();
         done += share;
-        SweepPoint point;
-        point.method = path_tracer_name;
-        point.series = truth.name;
-        point.knobs = {{"spp", std::to_string(samples)}};
-        point.milliseconds = 1e3 * found.seconds;
-        point.picture = image_of(found);
-        judge(point, sweep.truths, &counted);
-        sweep.points.push_back(std::move(point));
+        add_traced(sweep, truth.name, samples, found.seconds, image_of(found), &counted);
     }
 }
 

@@ -39,11 +39,6 @@ void add_series(const Sweep& sweep, const std::string& series,
                 const std::vector<std::size_t>& truths, const std::string& once,
                 std::vector<std::string>& out);
 
-// A sentence for every truth that has one: of all, or of those that the method is an answer to.
-void add_speedups(const Sweep& sweep, const std::string& method, std::vector<std::string>& out);
-void add_speedups(const Sweep& sweep, const std::string& method,
-                  const std::vector<std::size_t>& truths, std::vector<std::string>& out);
-
 // What a way of building the kernels gains and costs: the points of the series "math".
 struct MathMode {
     std::string math;     // "strict", "fast"
@@ -67,11 +62,13 @@ struct AtEqualError {
 std::vector<AtEqualError> at_equal_error(const Sweep& sweep, const std::string& slow,
                                          const std::string& quick, std::size_t truth);
 
+// How the estimated errors of antiradiance with different numbers of bins compare with the true
+// ones: the least and the greatest ratio of estimated to true error. Zeros where there are none.
+struct EstimateQuality {
+    double least = 0.0, most = 0.0;
+};
+EstimateQuality estimate_quality(const Sweep& sweep, std::size_t truth);
+
 std::vector<std::string> summary(const Sweep& sweep);
-// What is particular to a kind of sweep; summary() has it.
-std::vector<std::string> pictures_summary(const Sweep& sweep);
-std::vector<std::string> atlas_summary(const Sweep& sweep);
-std::vector<std::string> transfer_summary(const Sweep& sweep);
-std::vector<std::string> antiradiance_summary(const Sweep& sweep);
 
 }  // namespace clgi::lab

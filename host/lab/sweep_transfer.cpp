@@ -5,6 +5,7 @@
 
 #include <clgi/error.hpp>
 #include <clgi/reference.hpp>
+#include <clgi/scene_mover.hpp>
 #include <optional>
 
 #include "lab/coarse_mesh.hpp"
@@ -12,7 +13,6 @@
 #include "lab/reference_picture.hpp"
 #include "lab/relative_error.hpp"
 #include "lab/sweep_run.hpp"
-#include "lab/sweep_turns.hpp"
 #include "lab/timing.hpp"
 #include "lab/transfer_vectors.hpp"
 
@@ -35,6 +35,45 @@ Scene without_lamps(const Scene& scene) {
     }
     return out;
 }
+
+// ---- visible sets -------------------------------------------------------------------------------
+
+struct TransferLooks {
+    VisibleSets sets;           // for DynamicTransferSolver::restrict, of this scene and options
+    double milliseconds = 0.0;  // of looking, warm, and of making lists; without posing
+};
+
+// Potentially visible sets of frames spread evenly over the clip, from its beginning on; without
+// motion of the scene as it is, however many frames. scene: in the pose that is measured. step:
+// called before each frame.                                          [Kautz04, section 3.2]
+// In a scene of its own on the device: the other stays in the pose that is measured. Both have the
+// same order of triangles, as they are made of the same pose.
+TransferLooks look_at_frames(const cl::CommandQueue& queue, const Programs& programs,
+                             const Scene& scene, const TransferSweep& motion,
+                             const DynamicTransferOptions& options, int frames,
+                             const std::function<void()>& step) {
+    DeviceScene device(queue.getInfo<CL_QUEUE_CONTEXT>(), queue.getInfo<CL_QUEUE_DEVICE>(), scene);
+    DynamicTransferSolver solver(programs, queue, scene, device, options);
+    solver.look().wait();  // builds the kernel
+    solver.sets();
+    std::optional<SceneMover> mover;
+    if (motion.animated) mover.emplace(queue, device, options.build);
+    TransferLooks out;
+    for (int frame = 0; frame < frames; ++frame) {
+        step();
+        if (mover) {
+            const Animation& animation = *motion.animated->animation;
+            const double seconds = animation.clips.at(motion.clip).duration * frame / frames;
+            const Scene now = posed(*motion.animated, pose_at(animation, motion.clip, seconds));
+            mover->move(0, now.positions, now.normals).wait();
+        }
+        out.milliseconds += time_frame(queue, [&] { solver.look(); });
+    }
+    out.milliseconds += time_frame(queue, [&] { out.sets = solver.sets(); });
+    return out;
+}
+
+// ---- the sweep ----------------------------------------------------------------------------------
 
 class TransferRun {
 public:
@@ -122,18 +161,14 @@ private:
         progress_.part(from, 0.2);
         Hash hash;
         hash.add(tracer_version, setup_.reference_samples);
-        SweepTruth truth{name, traced_effects, {}, 0.0};
-        truth.picture =
-            kept_image(setup_.folder / ("reference-" + name + ".exr"),
-                       "vertices " + hash.text() + " " + scene_key(scene), [&] {
-                           const reference::Irradiance found = tracer.irradiance(
-                               places_, tracing(traced_effects, setup_.reference_samples),
-                               [&](double done) { return progress_.goes_on(done); });
-                           return found.cancelled ? io::Image() : image_of(found);
-                       });
-        if (truth.picture.channels.empty()) throw_cancelled();
-        truth.noise = stated_error(truth.picture);
-        out_.truths.push_back(std::move(truth));
+        add_truth(out_, name, traced_effects,
+                  kept_image(setup_.folder / ("reference-" + name + ".exr"),
+                             "vertices " + hash.text() + " " + scene_key(scene), [&] {
+                                 const reference::Irradiance found = tracer.irradiance(
+                                     places_, tracing(traced_effects, setup_.reference_samples),
+                                     [&](double done) { return progress_.goes_on(done); });
+                                 return found.cancelled ? io::Image() : image_of(found);
+                             }));
     }
 
     void leave_out_what_is_inside() {
@@ -225,9 +260,7 @@ private:
         turns.measure = [&](std::size_t i, SweepPoint* result, const Progress& part) {
             return measure(settings[i], result, part);
         };
-        for (SweepPoint& point :
-             measure_in_turn(names_of(settings), turns, progress_, out_.non_finite))
-            out_.points.push_back(std::move(point));
+        add_points(out_, settings, turns, progress_);
     }
 
     const SweepSetup& setup_;

@@ -45,18 +45,6 @@ struct TransferSettings : SweepSetting {
 std::vector<TransferSettings> transfer_settings(bool quick, std::size_t triangles, bool levels,
                                                 bool moves, const BuildOptions& build = {});
 
-// Potentially visible sets of frames spread evenly over the clip, from its beginning on; without
-// motion of the scene as it is, however many frames.
-struct TransferLooks {
-    VisibleSets sets;           // for DynamicTransferSolver::restrict, of this scene and options
-    double milliseconds = 0.0;  // of looking, warm, and of making lists; without posing
-};
-// scene: in the pose that is measured. step: called before each frame.
-TransferLooks look_at_frames(const cl::CommandQueue& queue, const Programs& programs,
-                             const Scene& scene, const TransferSweep& motion,
-                             const DynamicTransferOptions& options, int frames,
-                             const std::function<void()>& step);
-
 // Radiance in the first bands of an environment's coefficients, smoothed by smoothing_window until
 // it is nowhere below 0 in any channel, and the picture of it.
 std::vector<glm::dvec3> smoothed_light(std::vector<glm::dvec3> coefficients);

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "lab/sweep_antiradiance.hpp"
+#include "lab/sweep_pictures.hpp"
 
 namespace clgi::program {
 namespace {

@@ -106,13 +106,4 @@ void add_environment(const EnvironmentFlags& flags, Scene& scene, bool quiet) {
     scene.environment = std::move(environment);
 }
 
-std::string text_of(const EnvironmentFlags& flags) {
-    if (flags.source.empty()) return "";
-    const std::string name = std::filesystem::path(flags.source).filename().string();
-    return " --environment " + name +
-           (flags.rotation != 0.0 ? fmt::format(" --environment-rotation {}", flags.rotation)
-                                  : "") +
-           (flags.scale != 1.0 ? fmt::format(" --environment-scale {}", flags.scale) : "");
-}
-
 }  // namespace clgi::program

@@ -19,7 +19,4 @@ void add_environment_flags(CLI::App& command, EnvironmentFlags& flags);
 // unless quiet. Throws InputError for a file that is no such picture, Error for a colour below 0.
 void add_environment(const EnvironmentFlags& flags, Scene& scene, bool quiet);
 
-// The flags as given, with a space before each.
-std::string text_of(const EnvironmentFlags& flags);
-
 }  // namespace clgi::program

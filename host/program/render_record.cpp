@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "lab/sweep_antiradiance.hpp"
+#include "lab/sweep_pictures.hpp"
 #include "program/effects.hpp"
 #include "program/stats.hpp"
 

@@ -77,11 +77,6 @@ BuildOptions build_of(const DeviceFlags& flags) {
     return out;
 }
 
-std::string build_flags(const DeviceFlags& flags) {
-    return (flags.math == "strict" ? "" : " --math " + flags.math) +
-           (flags.storage == "full" ? "" : " --storage " + flags.storage);
-}
-
 void check_camera(const std::string& command, int camera, const Scene& scene) {
     if (camera >= static_cast<int>(scene.cameras.size()))
         throw Error(fmt::format("{}: --camera is {}, the scene has {}", command, camera,

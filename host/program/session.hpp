@@ -46,9 +46,6 @@ Session open_session(const DeviceFlags& flags, const ContextProperties& properti
 // The build options that the flags select.
 BuildOptions build_of(const DeviceFlags& flags);
 
-// The flags that are not at their default, with a space before each.
-std::string build_flags(const DeviceFlags& flags);
-
 // Throws Error that begins with the command's name for a camera that the scene has not.
 void check_camera(const std::string& command, int camera, const Scene& scene);
 

@@ -1,4 +1,4 @@
-// clgi sweep SCENE -o folder/: what accuracy costs in time.
+// clgi sweep SCENE -o folder/: what accuracy costs in time, or how antiradiance converges.
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lab/contact_sheet.hpp"
+#include "lab/convergence.hpp"
 #include "lab/sweep_atlas.hpp"
 #include "lab/sweep_files.hpp"
 #include "lab/sweep_pictures.hpp"
@@ -20,13 +21,40 @@
 #include "program/animation.hpp"
 #include "program/commands.hpp"
 #include "program/duration.hpp"
+#include "program/environment.hpp"
 #include "program/picture.hpp"
 #include "program/session.hpp"
-#include "program/sweep_flags.hpp"
 #include "program/version.hpp"
 
 namespace clgi::program {
 namespace {
+
+// What clgi sweep was asked for.
+struct SweepFlags {
+    DeviceFlags device;
+    EnvironmentFlags environment;
+    AnimationFlags animation;
+    std::string scene;
+    std::string output;
+    std::string method = "all";
+    std::string size;
+    std::string reference;
+    std::string sheet_time = "100ms";
+    int atlas_size = 0;
+    int scene_index = -1;
+    int camera = 0;
+    int samples = 0;
+    int rounds = 0;
+    bool quick = false;
+    // Steps of the iterations of antiradiance instead of accuracy against time; 0: the default.
+    bool convergence = false;
+    int bins = 0;
+    int elements = 0;
+    int steps = 0;
+    std::string command;
+    // Flags given that go with one kind of sweep alone, and those that go with all but convergence.
+    std::vector<std::string> pictures_only, atlas_only, all_only, convergence_only, not_convergence;
+};
 
 bool of_atlas(const SweepFlags& flags) { return flags.method == "atlas"; }
 bool of_transfer(const SweepFlags& flags) { return flags.method == "transfer"; }
@@ -58,6 +86,46 @@ int samples_of(const SweepFlags& flags) {
     if (of_atlas(flags)) return flags.quick ? 100 : 400;
     if (of_transfer(flags)) return flags.quick ? 256 : 1024;
     return flags.quick ? 64 : 192;
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) throw InputError(fmt::format("{}: {}", folder, failed.message()));
+}
+
+// Shows how far it is; Ctrl-C ends it.
+std::function<bool(double)> sweep_progress(const SweepFlags& flags) {
+    catch_interrupts();
+    return [bar = progress_bar("sweep", flags.device.quiet)](double done) {
+        if (!bar(done)) throw Interrupted();
+        return true;
+    };
+}
+
+// How the iterations of antiradiance come to rest.
+void run_convergence(const SweepFlags& flags) {
+    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
+    pose_scene("sweep", flags.animation, scene);
+    const Session session = open_session(flags.device);
+    make_folder(flags.output);
+    lab::ConvergenceSetup setup{session.queue, scene};
+    setup.options.bins = flags.bins > 0 ? flags.bins : flags.quick ? 64 : 128;
+    setup.options.elements.requested = static_cast<std::size_t>(flags.elements > 0 ? flags.elements
+                                                                : flags.quick      ? 2000
+                                                                                   : 8192);
+    setup.options.build = build_of(flags.device);
+    setup.steps = flags.steps > 0 ? flags.steps : flags.quick ? 40 : 100;
+    setup.progress = sweep_progress(flags);
+    const lab::Convergence found = lab::measure_convergence(setup);
+    setup.progress(1.0);
+    const std::string why =
+        lab::save_convergence(found, {flags.command, CLGI_VERSION}, flags.output);
+    if (!why.empty()) notice(flags.device.quiet, "no plot: " + why);
+    if (flags.device.quiet) return;
+    for (const std::string& line : lab::summary(found)) fmt::print("{}\n", line);
+    fmt::print("{}: convergence.csv, convergence.json{}\n", flags.output,
+               why.empty() ? ", convergence.svg" : "");
 }
 
 void run_sweep(const SweepFlags& flags) {
@@ -96,18 +164,11 @@ void run_sweep(const SweepFlags& flags) {
     setup.build = build_of(flags.device);
     setup.folder = flags.output;
     make_folder(flags.output);
-    catch_interrupts();
-    setup.progress = progress_bar("sweep", flags.device.quiet);
-    lab::Sweep result;
-    try {
-        result = of_atlas(flags)      ? lab::sweep_atlas(setup, atlas_of(flags))
-                 : of_transfer(flags) ? lab::sweep_transfer(setup, motion)
-                                      : lab::sweep_pictures(setup, pictures);
-    } catch (const Error&) {
-        if (interrupted()) throw Interrupted();
-        throw;
-    }
-    if (setup.progress) setup.progress(1.0);
+    setup.progress = sweep_progress(flags);
+    const lab::Sweep result = of_atlas(flags)      ? lab::sweep_atlas(setup, atlas_of(flags))
+                              : of_transfer(flags) ? lab::sweep_transfer(setup, motion)
+                                                   : lab::sweep_pictures(setup, pictures);
+    setup.progress(1.0);
     const std::string why = lab::save_sweep(result, {flags.command, CLGI_VERSION}, setup.folder);
     if (!why.empty()) notice(flags.device.quiet, "no plots: " + why);
     if (of_all(flags)) {
@@ -123,19 +184,24 @@ void run_sweep(const SweepFlags& flags) {
                of_all(flags) ? ", methods.png" : "", why.empty() ? ", error-*.svg" : "");
 }
 
+// The command with what was given, without the folders of files.
+std::string command_of(const CLI::App& command, const SweepFlags& flags) {
+    const auto file = [](const std::string& path) {
+        return std::filesystem::path(path).filename().string();
+    };
+    std::string out = fmt::format("clgi sweep {} -o {}", file(flags.scene), file(flags.output));
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || option->get_positional() || name == "--output" ||
+            name == "--quiet")
+            continue;
+        out += " " + name;
+        if (option->get_expected_max() > 0) out += " " + file(option->as<std::string>());
+    }
+    return out;
+}
+
 }  // namespace
-
-Scene open_sweep_scene(const SweepFlags& flags) {
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
-    pose_scene("sweep", flags.animation, scene);
-    return scene;
-}
-
-void make_folder(const std::string& folder) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed) throw InputError(fmt::format("{}: {}", folder, failed.message()));
-}
 
 void add_sweep(CLI::App& app) {
     CLI::App* command = app.add_subcommand("sweep", "Measure accuracy against time");
@@ -152,6 +218,23 @@ void add_sweep(CLI::App& app) {
         ->type_name("METHOD")
         ->check(CLI::IsMember(
             {"second-order", "reference", "all", "atlas", "transfer", "antiradiance"}));
+    command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
+    command->add_flag("--convergence", flags->convergence,
+                      "Instead: how the iterations of antiradiance converge, step by step");
+    command->add_option("--bins", flags->bins, "convergence: Bins of directions, a multiple of 4")
+        ->type_name("N")
+        ->default_str("128; with --quick 64")
+        ->check(CLI::Range(32, 4096));
+    command
+        ->add_option("--elements", flags->elements,
+                     "convergence: Parts that surfaces are cut to, about")
+        ->type_name("N")
+        ->default_str("8192; with --quick 2000")
+        ->check(CLI::Range(1, 1 << 24));
+    command->add_option("--iterations", flags->steps, "convergence: Steps of each iteration")
+        ->type_name("N")
+        ->default_str("100; with --quick 40")
+        ->check(CLI::Range(1, 10000));
     command->add_option("--size", flags->size, "Pixels across and down")
         ->type_name("WxH")
         ->default_str("320x240; with --quick 160x120");
@@ -178,23 +261,6 @@ void add_sweep(CLI::App& app) {
         ->add_option("--sheet-time", flags->sheet_time,
                      "all: Time of a frame that pictures of methods.png may take")
         ->type_name("TIME");
-    command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
-    command->add_flag("--convergence", flags->convergence,
-                      "Instead: how the iterations of antiradiance converge, step by step");
-    command->add_option("--bins", flags->bins, "convergence: Bins of directions, a multiple of 4")
-        ->type_name("N")
-        ->default_str("128; with --quick 64")
-        ->check(CLI::Range(32, 4096));
-    command
-        ->add_option("--elements", flags->elements,
-                     "convergence: Parts that surfaces are cut to, about")
-        ->type_name("N")
-        ->default_str("8192; with --quick 2000")
-        ->check(CLI::Range(1, 1 << 24));
-    command->add_option("--iterations", flags->steps, "convergence: Steps of each iteration")
-        ->type_name("N")
-        ->default_str("100; with --quick 40")
-        ->check(CLI::Range(1, 10000));
     add_place_options(*command, flags->scene_index, flags->camera);
     add_animation_flags(*command, flags->animation);
     add_environment_flags(*command, flags->environment);
@@ -207,31 +273,7 @@ void add_sweep(CLI::App& app) {
         flags->not_convergence =
             given(*command, {"--method", "--size", "--camera", "--spp", "--rounds", "--atlas-size",
                              "--reference", "--sheet-time"});
-        flags->command = fmt::format(
-            "clgi sweep {} -o {}{}{}", std::filesystem::path(flags->scene).filename().string(),
-            std::filesystem::path(flags->output).filename().string(),
-            flags->method == "all" ? "" : " --method " + flags->method,
-            (flags->quick ? " --quick" : "") +
-                std::string(flags->convergence ? " --convergence" : "") +
-                (flags->bins > 0 ? fmt::format(" --bins {}", flags->bins) : "") +
-                (flags->elements > 0 ? fmt::format(" --elements {}", flags->elements) : "") +
-                (flags->steps > 0 ? fmt::format(" --iterations {}", flags->steps) : "") +
-                (flags->size.empty() ? std::string() : " --size " + flags->size) +
-                (flags->atlas_size > 0 ? fmt::format(" --atlas-size {}", flags->atlas_size) : "") +
-                (flags->reference.empty()
-                     ? std::string()
-                     : " --reference " +
-                           std::filesystem::path(flags->reference).filename().string()) +
-                (flags->samples > 0 ? fmt::format(" --spp {}", flags->samples) : "") +
-                (flags->rounds > 0 ? fmt::format(" --rounds {}", flags->rounds) : "") +
-                (flags->all_only.empty() ? std::string() : " --sheet-time " + flags->sheet_time) +
-                (flags->scene_index >= 0 ? fmt::format(" --scene {}", flags->scene_index) : "") +
-                (flags->camera > 0 ? fmt::format(" --camera {}", flags->camera) : "") +
-                (flags->animation.time ? fmt::format(" --time {}", *flags->animation.time) : "") +
-                (flags->animation.clip.empty() ? "" : " --animation " + flags->animation.clip) +
-                text_of(flags->environment) +
-                (flags->device.device.empty() ? "" : " --device " + flags->device.device) +
-                build_flags(flags->device));
+        flags->command = command_of(*command, *flags);
         run_sweep(*flags);
     });
 }

@@ -16,8 +16,6 @@
 #include "gltf_draft.hpp"
 #include "lab/contact_sheet.hpp"
 #include "lab/luminance.hpp"
-#include "lab/picture_methods.hpp"
-#include "lab/sweep_antiradiance.hpp"
 #include "lab/sweep_files.hpp"
 #include "lab/sweep_pictures.hpp"
 #include "lab/sweep_summary.hpp"

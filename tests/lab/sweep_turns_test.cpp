@@ -5,7 +5,7 @@
 #include <clgi/error.hpp>
 #include <string>
 
-#include "lab/sweep_turns.hpp"
+#include "lab/sweep_run.hpp"
 
 namespace clgi::lab {
 namespace {
