@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lab/baked_atlas.hpp"
 
+#include <clgi/advanced/bake_layout.hpp>
+
 #include "lab/reference_picture.hpp"
+#include "lab/timing.hpp"
 
 namespace clgi::lab {
 
@@ -20,6 +23,20 @@ io::Image baked_image(const AtlasLayout& atlas, const std::vector<glm::vec3>& ir
     if (dilate)
         for (const AtlasDilated& empty : atlas.dilated)
             put(empty.texel, irradiance[empty.source], 0.0f);
+    return out;
+}
+
+std::optional<TimedBake> timed_bake(const BakeJob& job, const Progress& progress) {
+    TimedBake out;
+    const auto start = Clock::now();
+    const BakeLayout layout = make_bake_layout(job.scene, job.vpls, job.atlas);
+    out.layout_seconds = 1e-3 * milliseconds(Clock::now() - start);
+    LightAtlasSolver solver(job.programs, job.queue, job.on_device, layout.vpls, layout.atlas,
+                            job.options);
+    if (!solver.run(progress)) return std::nullopt;
+    out.seconds = 1e-3 * milliseconds(Clock::now() - start);
+    out.irradiance = solver.irradiance();
+    out.status = solver.status();
     return out;
 }
 

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "lab/bench.hpp"
-#include "lab/peak.hpp"
+#include "lab/metrics.hpp"
+#include "lab/preview.hpp"
 #include "lab/timing.hpp"
 
 namespace clgi::lab {
@@ -63,8 +65,8 @@ float threshold_for(Bench& bench, double share) {
     return low;  // the side with no more low-resolution pixels than wanted
 }
 
-std::vector<std::uint8_t> preview(const BenchSetup& setup, const Renderer& renderer,
-                                  float exposure) {
+std::vector<std::uint8_t> tone_mapped(const BenchSetup& setup, const Renderer& renderer,
+                                      float exposure) {
     std::vector<std::uint8_t> rgba(std::size_t{4} * frame_width * frame_height);
     cl::Buffer buffer(setup.context(), CL_MEM_READ_WRITE, rgba.size());
     const TonemapParams params{frame_width, frame_height, renderer.stride(), exposure};
@@ -76,12 +78,9 @@ std::vector<std::uint8_t> preview(const BenchSetup& setup, const Renderer& rende
 
 // Brings the mean luminance of the picture to a mid grey of 0.18.
 float grey_exposure(const Renderer& renderer) {
-    const auto radiance = renderer.read_radiance();
-    double sum = 0.0;
-    const std::size_t pixels = radiance[0].size();
-    for (std::size_t i = 0; i < pixels; ++i)
-        sum += 0.2126 * radiance[0][i] + 0.7152 * radiance[1][i] + 0.0722 * radiance[2][i];
-    return static_cast<float>(0.18 / std::max(sum / static_cast<double>(pixels), 1e-30));
+    const std::vector<double> luminance = luminance_of(radiance_picture(renderer));
+    const double sum = std::accumulate(luminance.begin(), luminance.end(), 0.0);
+    return static_cast<float>(0.18 / std::max(sum / static_cast<double>(luminance.size()), 1e-30));
 }
 
 // Root mean square difference of 8-bit pictures, per cent of full scale.
@@ -153,7 +152,7 @@ BenchTable run(const BenchSetup& setup, const std::vector<Pictures>& rows) {
     const auto plain = bench.renderer(rows[0].positive, rows[0].negative, 0.0f);
     plain->render(camera);
     const float exposure = grey_exposure(*plain);
-    const std::vector<std::uint8_t> truth = preview(setup, *plain, exposure);
+    const std::vector<std::uint8_t> truth = tone_mapped(setup, *plain, exposure);
     BenchTable out;
     const double peak = spread(peaks).median, gather = spread(gathers).median;
     out.json = {{"scene", bench.world.name},
@@ -164,7 +163,7 @@ BenchTable run(const BenchSetup& setup, const std::vector<Pictures>& rows) {
         Json row = row_json(rows[i], *renderers[i], 1e3 / spread(times[i]).median);
         if (rows[i].paper_error) {
             row["paper_error"] = *rows[i].paper_error;
-            row["error"] = rms_percent(preview(setup, *renderers[i], exposure), truth);
+            row["error"] = rms_percent(tone_mapped(setup, *renderers[i], exposure), truth);
         }
         out.json["rows"].push_back(row);
     }

@@ -14,9 +14,9 @@
 #include <optional>
 
 #include "lab/bench.hpp"
+#include "lab/metrics.hpp"
 #include "lab/preview.hpp"
 #include "lab/reference_picture.hpp"
-#include "lab/relative_error.hpp"
 #include "lab/scenes/interiors.hpp"
 #include "lab/timing.hpp"
 

@@ -333,9 +333,7 @@ BenchTable bench_kautz1(const BenchSetup& setup) {
         const Scene scene = scene_of(rows[i]);
         const std::vector<KautzSettings> all = kautz_settings(rows[i]);
         std::optional<TransferTruth> truth;
-        TruthOptions options;
-        options.vertices = setup.vertices;
-        if (setup.vertices > 0) truth = transfer_truth(scene, options);
+        if (setup.vertices > 0) truth = transfer_truth(scene, setup.vertices);
         for (std::size_t k = 0; k < all.size(); ++k) {
             const double part = static_cast<double>(k + 1) / static_cast<double>(all.size() + 1);
             setup.report((static_cast<double>(i) + part) / static_cast<double>(rows.size()));

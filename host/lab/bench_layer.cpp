@@ -13,8 +13,8 @@
 namespace clgi::lab {
 namespace {
 
-constexpr std::uint32_t layer_width = 640, layer_height = 480, pixels = layer_width * layer_height,
-                        stride = pixels;
+constexpr std::uint32_t layer_width = 640, layer_height = 480,
+                        layer_pixels = layer_width * layer_height, layer_stride = layer_pixels;
 constexpr std::uint32_t low_stride = layer_width / 4 * layer_height / 4;
 constexpr std::uint32_t vpl_count = 64;
 constexpr std::size_t group = 64;  // what passes take when nothing else is asked for
@@ -78,22 +78,22 @@ BenchTable bench_layer(const BenchSetup& setup) {
     const auto room = [&](std::size_t bytes) {
         return cl::Buffer(context, CL_MEM_READ_WRITE, bytes);
     };
-    std::vector<float> planes(POINT_PLANES * std::size_t{stride});
+    std::vector<float> planes(POINT_PLANES * std::size_t{layer_stride});
     for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = float(i % 977) / 977.0f - 0.5f;
     const Vpl light{{0.1f, 0.9f, 0.2f, 0.01f}, {0, -1, 0, 1e-4f}, {1, 1, 1, 1}};
     const cl::Buffer points = upload(planes);
     const cl::Buffer lights = upload(std::vector<Vpl>(vpl_count, light));
-    const cl::Buffer count = upload(std::vector<cl_uint>{pixels});
-    const cl::Buffer irradiance = room(IRRADIANCE_PLANES * sizeof(float) * stride);
-    const cl::Buffer preview = room(pixels * sizeof(cl_uint));
+    const cl::Buffer count = upload(std::vector<cl_uint>{layer_pixels});
+    const cl::Buffer irradiance = room(IRRADIANCE_PLANES * sizeof(float) * layer_stride);
+    const cl::Buffer preview = room(layer_pixels * sizeof(cl_uint));
     const cl::Buffer views = upload(std::vector<View>{view});
     const ViewSpan span = span_of({view}, 0, 1);
-    const RasterBuffers raster{room(pixels * sizeof(cl_ulong)), {}, {}, {}, room(16)};
+    const RasterBuffers raster{room(layer_pixels * sizeof(cl_ulong)), {}, {}, {}, room(16)};
     const cl::Buffer low = room(POINT_PLANES * sizeof(float) * low_stride);
-    const DownsampleParams down{layer_width, layer_height, stride, low_stride, 4, 0, 0, 0};
+    const DownsampleParams down{layer_width, layer_height, layer_stride, low_stride, 4, 0, 0, 0};
     const RasterParams none{};
-    const GatherParams gather{stride, vpl_count, 0, 0};
-    const TonemapParams tonemap{layer_width, layer_height, stride, 1.0f};
+    const GatherParams gather{layer_stride, vpl_count, 0, 0};
+    const TonemapParams tonemap{layer_width, layer_height, layer_stride, 1.0f};
 
     const GBufferPasses gbuffer(context, device);
     const ImagePasses image(context, device);
@@ -101,15 +101,18 @@ BenchTable bench_layer(const BenchSetup& setup) {
     const Hand lit(queue, "image", "gather"), toned(queue, "image", "tonemap");
     const std::size_t packet = static_cast<std::size_t>(packet_width(device));
     std::vector<Way> ways = {
-        {"gbuffer.clear", [&] { clear(pixels / 16, none, views, raster.pixels, raster.counts); },
+        {"gbuffer.clear",
+         [&] { clear(layer_pixels / 16, none, views, raster.pixels, raster.counts); },
          [&] { gbuffer.clear(queue, span, views, raster); }},
         {"gbuffer.downsample",
          [&] { downsample(layer_width / 4 / packet * layer_height / 4, down, points, low); },
          [&] { gbuffer.downsample(queue, down, points, low); }},
         {"image.gather",
-         [&] { lit(pixels / packet, gather, count, points, lights, lights, irradiance); },
-         [&] { image.gather(queue, gather, pixels, count, points, lights, lights, irradiance); }},
-        {"image.tonemap", [&] { toned(pixels, tonemap, irradiance, preview); },
+         [&] { lit(layer_pixels / packet, gather, count, points, lights, lights, irradiance); },
+         [&] {
+             image.gather(queue, gather, layer_pixels, count, points, lights, lights, irradiance);
+         }},
+        {"image.tonemap", [&] { toned(layer_pixels, tonemap, irradiance, preview); },
          [&] { image.tonemap(queue, tonemap, irradiance, preview); }}};
     Way all{"all in a row",
             [&] {

@@ -5,16 +5,15 @@
 #include <clgi/error.hpp>
 #include <clgi/light_atlas.hpp>
 
+#include "lab/baked_atlas.hpp"
 #include "lab/bench.hpp"
-#include "lab/peak.hpp"
-#include "lab/timed_bake.hpp"
 #include "lab/timing.hpp"
 
 namespace clgi::lab {
 namespace {
 
 constexpr int atlas_size = 512;  // texels, side
-constexpr std::uint32_t counts[] = {100, 400, 1600, 6400, 25600};
+constexpr std::uint32_t vpl_counts[] = {100, 400, 1600, 6400, 25600};
 
 // Seconds on a GeForce GTX 680, five bounces; 0: the paper has none. [Schaerfig16, table 1]
 constexpr struct {
@@ -32,12 +31,12 @@ Json paper_seconds(const std::string& scene, std::size_t which) {
 
 // One bake is from the scene's buffers to the filled atlas, the layout on the host included;
 // kernels are built before. The ways to fill an atlas that are measured:
-struct Filling {
+struct FillingWay {
     const char* name;
     std::uint32_t most_vpls;
     void (*choose)(LightAtlasOptions&);
 };
-constexpr Filling fillings[] = {
+constexpr FillingWay fillings[] = {
     {"gather", 25600, [](LightAtlasOptions&) {}},
     {"project", 1600, [](LightAtlasOptions& o) { o.filling = clgi::Filling::project; }}};
 
@@ -70,12 +69,12 @@ BenchTable bench_schaerfig(const BenchSetup& setup) {
     Json rows;
     double all = 0.0, done = 0.0;
     for (const auto& [name, scene] : setup.scenes)
-        for (const std::uint32_t count : counts)
-            for (const Filling& filling : fillings)
+        for (const std::uint32_t count : vpl_counts)
+            for (const FillingWay& filling : fillings)
                 if (count <= std::min(setup.most_vpls, filling.most_vpls))
                     all += work_of(scene, count);
     const auto bake = [&](const Scene& scene, const DeviceScene& on_device, int size,
-                          std::uint32_t count, const Filling& filling, double share) {
+                          std::uint32_t count, const FillingWay& filling, double share) {
         BakeJob job{programs, setup.queue, scene, on_device, {}, {}, {}};
         job.vpls.count = count;
         job.atlas.size = size;
@@ -92,31 +91,31 @@ BenchTable bench_schaerfig(const BenchSetup& setup) {
     for (const auto& [name, scene] : setup.scenes) {
         const DeviceScene on_device(setup.context(), setup.device(), scene);
         const int size = fitting_size(scene, atlas_size);
-        for (const Filling& filling : fillings) {
-            bake(scene, on_device, size, counts[0], filling, 0.0);  // builds kernels
-            for (std::size_t i = 0; i < std::size(counts); ++i) {
-                if (counts[i] > std::min(setup.most_vpls, filling.most_vpls)) continue;
+        for (const FillingWay& filling : fillings) {
+            bake(scene, on_device, size, vpl_counts[0], filling, 0.0);  // builds kernels
+            for (std::size_t i = 0; i < std::size(vpl_counts); ++i) {
+                if (vpl_counts[i] > std::min(setup.most_vpls, filling.most_vpls)) continue;
                 std::vector<TimedBake> bakes;
                 std::vector<double> seconds, layouts;
                 do {  // short ones are repeated: other load on the machine shows in them most
-                    bakes.push_back(bake(scene, on_device, size, counts[i], filling,
-                                         bakes.empty() ? work_of(scene, counts[i]) : 0.0));
+                    bakes.push_back(bake(scene, on_device, size, vpl_counts[i], filling,
+                                         bakes.empty() ? work_of(scene, vpl_counts[i]) : 0.0));
                     seconds.push_back(bakes.back().seconds);
                     layouts.push_back(bakes.back().layout_seconds);
                 } while (bakes.size() < 3 && bakes.back().seconds < 3.0);
-                done += work_of(scene, counts[i]);
+                done += work_of(scene, vpl_counts[i]);
                 peaks.push_back(meter.gflops());
                 const Json of_paper = paper_seconds(name, i);
                 const double ours = spread(seconds).median;
                 rows.push_back(
-                    {{"name", fmt::format("{}, {} VPLs", name, counts[i])},
+                    {{"name", fmt::format("{}, {} VPLs", name, vpl_counts[i])},
                      {"paper", of_paper},
                      {"clgi", ours},
                      {"ratio", of_paper.is_null() ? Json() : Json(of_paper.get<double>() / ours)},
                      {"error", nullptr},
                      {"unit", "s"},
                      {"filling", filling.name},
-                     {"vpls", counts[i]},
+                     {"vpls", vpl_counts[i]},
                      {"texels", bakes.back().irradiance.size()},
                      {"layout", spread(layouts).median}});
             }

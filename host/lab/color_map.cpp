@@ -15,11 +15,12 @@ struct Polar {
 };
 
 constexpr Polar neutral{0.97, 0.0, 0.0};
-constexpr Polar red{0.45, 0.17, 0.49};  // as much chroma as sRGB has of both hues at that lightness
-constexpr Polar blue{0.45, 0.17, 4.60};
+constexpr Polar red_end{0.45, 0.17,
+                        0.49};  // as much chroma as sRGB has of both hues at that lightness
+constexpr Polar blue_end{0.45, 0.17, 4.60};
 
-constexpr Polar least{0.22, 0.095, 5.41};
-constexpr Polar most{0.93, 0.095, 1.75};
+constexpr Polar darkest{0.22, 0.095, 5.41};
+constexpr Polar lightest{0.93, 0.095, 1.75};
 
 double between(double from, double to, double share) { return from + (to - from) * share; }
 
@@ -44,15 +45,16 @@ Color to_srgb(const Polar& color) {
 
 Color diverging_color(double value) {
     const double size = std::min(std::abs(value), 1.0);
-    const Polar& end = value < 0.0 ? blue : red;
+    const Polar& end = value < 0.0 ? blue_end : red_end;
     return to_srgb({between(neutral.lightness, end.lightness, size),
                     between(neutral.chroma, end.chroma, size), end.hue});
 }
 
 Color sequential_color(double value) {
     const double size = std::clamp(value, 0.0, 1.0);
-    return to_srgb({between(least.lightness, most.lightness, size),
-                    between(least.chroma, most.chroma, size), between(least.hue, most.hue, size)});
+    return to_srgb({between(darkest.lightness, lightest.lightness, size),
+                    between(darkest.chroma, lightest.chroma, size),
+                    between(darkest.hue, lightest.hue, size)});
 }
 
 }  // namespace clgi::lab

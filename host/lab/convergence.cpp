@@ -6,15 +6,35 @@
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <clgi/programs.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "lab/leaf_difference.hpp"
+#include "lab/drawing.hpp"
 #include "lab/sweep_run.hpp"
+#include "scene/luminance.hpp"
 
 namespace clgi::lab {
 namespace {
 
+// Of each leaf: what arrives over links and from the sky, exposed lux, in rgb; and m^2.
+std::vector<glm::vec4> leaf_irradiances(const cl::CommandQueue& queue,
+                                        const AntiradianceSolver& solver) {
+    std::vector<glm::vec4> out(solver.leaf_elements().size());
+    queue.enqueueReadBuffer(solver.leaves().irradiances, CL_TRUE, 0, out.size() * sizeof(out[0]),
+                            out.data());
+    return out;
+}
+
+std::vector<double> leaf_areas(const AntiradianceSolver& solver) {
+    std::vector<double> out;
+    for (const std::uint32_t element : solver.leaf_elements())
+        out.push_back(solver.elements().areas[element]);
+    return out;
+}
+
 constexpr double least_residual = 1e-6;  // what floats still tell
 constexpr int solution_steps = 2000;
+constexpr int paper_through_steps = 4;  // for each reflection, of the asymmetric iteration
 
 class ConvergenceRun {
 public:
@@ -36,8 +56,8 @@ public:
         progress_.part(0.25, 0.25);
         trace("symmetric", Iteration::symmetric, 0);
         progress_.part(0.5, 0.25);
-        trace(fmt::format("asymmetric, {} to 1", setup_.through_steps), Iteration::asymmetric,
-              setup_.through_steps);
+        trace(fmt::format("asymmetric, {} to 1", paper_through_steps), Iteration::asymmetric,
+              paper_through_steps);
         progress_.part(0.75, 0.25);
         trace("asymmetric, as many as it takes", Iteration::asymmetric, 0);
         return std::move(out_);
@@ -112,6 +132,23 @@ std::string first_below(const std::vector<double>& values, double bound) {
 
 }  // namespace
 
+double leaf_difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b,
+                       const std::vector<double>& areas) {
+    if (a.size() != areas.size() || b.size() != areas.size())
+        throw Error("leaf_difference: " + std::to_string(a.size()) + " and " +
+                    std::to_string(b.size()) + " leaves, " + std::to_string(areas.size()) +
+                    " areas; as many of each needed");
+    double square = 0.0, mean = 0.0, area = 0.0;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        const double wanted = luminance(glm::dvec3(b[i]));
+        const double difference = luminance(glm::dvec3(a[i])) - wanted;
+        square += areas[i] * difference * difference;
+        mean += areas[i] * wanted;
+        area += areas[i];
+    }
+    return mean == 0.0 ? 0.0 : std::sqrt(square * area) / mean;
+}
+
 Convergence measure_convergence(const ConvergenceSetup& setup) { return ConvergenceRun(setup)(); }
 
 std::vector<std::string> summary(const Convergence& convergence) {
@@ -132,6 +169,52 @@ std::vector<std::string> summary(const Convergence& convergence) {
         convergence.leaves, convergence.links, convergence.bins, convergence.solution_steps,
         convergence.solution_residual));
     return out;
+}
+
+std::string convergence_csv(const Convergence& convergence) {
+    std::string out = "iteration,step,residual,error,diverged\n";
+    for (const ConvergenceCurve& curve : convergence.curves)
+        for (std::size_t step = 0; step < curve.residuals.size(); ++step)
+            out += fmt::format("\"{}\",{},{:.6g},{:.6g},{}\n", curve.name, step + 1,
+                               curve.residuals[step], curve.errors.at(step),
+                               curve.diverged && step + 1 == curve.residuals.size() ? 1 : 0);
+    return out;
+}
+
+std::string convergence_json(const Convergence& convergence, const SweepNote& note) {
+    nlohmann::ordered_json out = {
+        {"clgi", note.version},
+        {"command", note.command},
+        {"device", convergence.device},
+        {"scene", {{"name", convergence.scene}, {"triangles", convergence.triangles}}},
+        {"elements", convergence.elements},
+        {"leaves", convergence.leaves},
+        {"links", convergence.links},
+        {"bins", convergence.bins},
+        {"solution",
+         {{"steps", convergence.solution_steps}, {"residual", convergence.solution_residual}}},
+        {"summary", summary(convergence)},
+        {"curves", nlohmann::ordered_json::array()}};
+    for (const ConvergenceCurve& curve : convergence.curves)
+        out["curves"].push_back(
+            {{"name", curve.name},
+             {"iteration", curve.iteration == Iteration::symmetric ? "symmetric" : "asymmetric"},
+             {"through_steps", curve.through_steps},
+             {"diverged", curve.diverged},
+             {"residuals", curve.residuals},
+             {"errors", curve.errors}});
+    return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+std::string save_convergence(const Convergence& convergence, const SweepNote& note,
+                             const std::filesystem::path& folder) {
+    const std::string json = convergence_json(convergence, note);
+    save_text(folder / "convergence.csv", convergence_csv(convergence));
+    save_text(folder / "convergence.json", json);
+    const Drawing drawing;
+    const std::string why = drawing.draw("convergence", nlohmann::ordered_json::parse(json));
+    if (why.empty()) save_text(folder / "convergence.svg", drawing.text("convergence.svg"));
+    return why;
 }
 
 }  // namespace clgi::lab

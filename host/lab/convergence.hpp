@@ -5,6 +5,7 @@
 
 #include <clgi/antiradiance.hpp>
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,6 @@ struct ConvergenceSetup {
     const Scene& scene;
     AntiradianceOptions options;  // iteration, steps, through_steps and residual are not used
     int steps = 100;              // of each curve, at most
-    int through_steps = 4;        // for each reflection, of the paper's asymmetric iteration
     Progress progress;            // false cancels
 };
 
@@ -40,6 +40,11 @@ struct Convergence {
     double solution_residual = 0.0;
     std::vector<ConvergenceCurve> curves;
 };
+
+// Root mean square of the difference of luminance over the mean luminance of the second, both
+// weighted by area. Not a number where a value is none; 0 where the second is black.
+double leaf_difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b,
+                       const std::vector<double>& areas);
 
 // Throws what AntiradianceSolver throws, and Error when cancelled or where no light arrives.
 Convergence measure_convergence(const ConvergenceSetup& setup);

@@ -10,7 +10,7 @@
 
 #include "io/image_formats.hpp"
 #include "lab/hdr_flip.hpp"
-#include "lab/rgb_planes.hpp"
+#include "lab/metrics.hpp"
 
 namespace clgi::lab {
 namespace {

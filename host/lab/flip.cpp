@@ -5,12 +5,120 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
-
-#include "lab/cie.hpp"
-#include "lab/flip_filters.hpp"
+#include <numbers>
 
 namespace clgi::lab {
 namespace {
+
+// ---- filters: Andersson et al. 2020, spatial filtering and feature detection
+// ---------------------
+
+using std::numbers::pi;
+
+// a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees; the paper's constants.
+struct Gaussian {
+    double a = 0.0;
+    double b = 0.0;
+};
+constexpr Gaussian achromatic{1.0, 0.0047};
+constexpr Gaussian red_green{1.0, 0.0053};
+constexpr Gaussian blue_yellow[2] = {{34.1, 0.04}, {13.5, 0.025}};
+constexpr double feature_width = 0.082;  // degrees, w
+
+// The weights before they are made to sum to 1.
+Kernel bell(int radius, double sharpness) {
+    Kernel kernel{radius, {}};
+    for (int x = -radius; x <= radius; ++x) kernel.weights.push_back(std::exp(-sharpness * x * x));
+    return kernel;
+}
+
+// Returns the sum that was there.
+double normalize(Kernel& kernel) {
+    double sum = 0.0;
+    for (const double weight : kernel.weights) sum += weight;
+    for (double& weight : kernel.weights) weight /= sum;
+    return sum;
+}
+
+// Positive weights sum to 1, negative ones to -1: flat pictures have no features, and the largest
+// possible edge has size 1.
+void normalize_signs(Kernel& kernel) {
+    double positive = 0.0, negative = 0.0;
+    for (const double weight : kernel.weights) (weight > 0.0 ? positive : negative) += weight;
+    for (double& weight : kernel.weights) weight /= weight > 0.0 ? positive : -negative;
+}
+
+}  // namespace
+
+FlipFilters flip_filters(double pixels_per_degree) {
+    FlipFilters filters;
+    // Three standard deviations of the widest Gaussian.
+    const int radius = static_cast<int>(
+        std::ceil(3.0 * std::sqrt(blue_yellow[0].b / (2.0 * pi * pi)) * pixels_per_degree));
+    const auto sharpness = [&](const Gaussian& g) {
+        return pi * pi / (g.b * pixels_per_degree * pixels_per_degree);
+    };
+    filters.achromatic = bell(radius, sharpness(achromatic));
+    filters.red_green = bell(radius, sharpness(red_green));
+    normalize(filters.achromatic);
+    normalize(filters.red_green);
+    double total = 0.0;
+    for (int i = 0; i < 2; ++i) {
+        const Gaussian& g = blue_yellow[i];
+        filters.blue_yellow[i] = bell(radius, sharpness(g));
+        const double sum = normalize(filters.blue_yellow[i]);
+        filters.blue_yellow_share[i] = g.a * std::sqrt(pi / g.b) * sum * sum;
+        total += filters.blue_yellow_share[i];
+    }
+    for (double& share : filters.blue_yellow_share) share /= total;
+
+    const double deviation = 0.5 * feature_width * pixels_per_degree;
+    const int reach = static_cast<int>(std::ceil(3.0 * deviation));
+    filters.smooth = bell(reach, 0.5 / (deviation * deviation));
+    filters.edge = filters.point = filters.smooth;
+    for (int x = -reach; x <= reach; ++x) {
+        const int i = x + reach;
+        filters.edge.weights[static_cast<std::size_t>(i)] *= -x;
+        filters.point.weights[static_cast<std::size_t>(i)] *= x * x / (deviation * deviation) - 1.0;
+    }
+    normalize(filters.smooth);
+    normalize_signs(filters.edge);
+    normalize_signs(filters.point);
+    filters.radius = std::max(radius, reach);
+    return filters;
+}
+
+void filter(const Kernel& kernel, const double* in, int stride, double* out, int count) {
+    std::fill(out, out + count, 0.0);
+    for (int k = -kernel.radius; k <= kernel.radius; ++k) {
+        const int i = kernel.radius + k;
+        const double weight = kernel.weights[static_cast<std::size_t>(i)];
+        const double* shifted = in + static_cast<std::ptrdiff_t>(k) * stride;
+        for (int x = 0; x < count; ++x) out[x] += weight * shifted[x];
+    }
+}
+
+namespace {
+
+// ---- colours ------------------------------------------------------------------------------------
+
+// X/Xn, Y/Yn and Z/Zn of linear sRGB: white is (1, 1, 1). The primaries' chromaticities of
+// IEC 61966-2-1 as exact fractions, every row over its own sum.
+const glm::dmat3 relative_xyz_from_rgb =
+    glm::transpose(glm::dmat3(glm::dvec3(10135552.0, 8788810.0, 4435075.0) / 23359437.0,
+                              glm::dvec3(2613072.0, 8788810.0, 887015.0) / 12288897.0,
+                              glm::dvec3(1425312.0, 8788810.0, 70074185.0) / 80288307.0));
+const glm::dmat3 rgb_from_relative_xyz = glm::inverse(relative_xyz_from_rgb);
+
+// CIE 15: L* 0 to 100, a* and b*.
+glm::dvec3 lab(const glm::dvec3& relative_xyz) {
+    constexpr double delta = 6.0 / 29.0;
+    const auto f = [](double t) {
+        return t > delta * delta * delta ? std::cbrt(t) : t / (3.0 * delta * delta) + 4.0 / 29.0;
+    };
+    const double x = f(relative_xyz.x), y = f(relative_xyz.y), z = f(relative_xyz.z);
+    return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
 
 constexpr int band_rows = 64;
 constexpr double color_exponent = 0.7;    // q_c

@@ -21,4 +21,35 @@ struct Display {
 // edges the outermost pixels repeat. [height][width]
 std::vector<float> flip(const Display& a, const Display& b);
 
+// ---- filters: what the eye resolves at a distance, and what it takes for edges and dots
+// ----------
+
+// A screen 0.7 m wide with 3840 pixels, seen from 0.7 m.
+constexpr double flip_pixels_per_degree = 3840.0 * 3.14159265358979323846 / 180.0;
+
+// weights[radius] is the middle.
+struct Kernel {
+    int radius = 0;
+    std::vector<double> weights;  // [2 radius + 1]
+};
+
+// Applied along rows, then along columns. The two Gaussians of blue-yellow are separable one by
+// one, their sum is not.
+struct FlipFilters {
+    int radius = 0;  // the largest of all
+    Kernel achromatic;
+    Kernel red_green;
+    Kernel blue_yellow[2];
+    double blue_yellow_share[2] = {};  // sum 1
+    Kernel smooth;                     // sum 1
+    Kernel edge;                       // first derivative: sums 1 and -1 by sign
+    Kernel point;                      // second derivative: likewise
+};
+
+FlipFilters flip_filters(double pixels_per_degree = flip_pixels_per_degree);
+
+// out[x] = sum over k of weights[radius + k] in[x + k stride]. in: readable radius steps beyond
+// both ends. out: [count], no part of in
+void filter(const Kernel& kernel, const double* in, int stride, double* out, int count);
+
 }  // namespace clgi::lab

@@ -6,8 +6,7 @@
 
 #include "io/image_formats.hpp"
 #include "lab/flip.hpp"
-#include "lab/rgb_planes.hpp"
-#include "lab/sum.hpp"
+#include "lab/metrics.hpp"
 
 namespace clgi::lab {
 namespace {
@@ -36,13 +35,13 @@ double shown_radiance() {
 double not_negative(float sample) { return std::max(io::finite(sample), 0.0f); }
 
 // Of the pixels that are finite and not black, whose exposure would be infinite.
-std::vector<double> luminances(const RgbPlanes& planes) {
+std::vector<double> lit_luminances(const RgbPlanes& planes) {
     std::vector<double> result;
     for (std::size_t i = 0; i < planes[0]->size(); ++i) {
-        const float red = (*planes[0])[i], green = (*planes[1])[i], blue = (*planes[2])[i];
-        if (!std::isfinite(red) || !std::isfinite(green) || !std::isfinite(blue)) continue;
+        const float r = (*planes[0])[i], g = (*planes[1])[i], b = (*planes[2])[i];
+        if (!std::isfinite(r) || !std::isfinite(g) || !std::isfinite(b)) continue;
         const double y =
-            0.2126 * not_negative(red) + 0.7152 * not_negative(green) + 0.0722 * not_negative(blue);
+            0.2126 * not_negative(r) + 0.7152 * not_negative(g) + 0.0722 * not_negative(b);
         if (y > 0.0) result.push_back(y);
     }
     return result;
@@ -56,7 +55,7 @@ double median(std::vector<double>& values) {
 }
 
 Exposures exposures(const RgbPlanes& planes) {
-    std::vector<double> values = luminances(planes);
+    std::vector<double> values = lit_luminances(planes);
     if (values.empty()) return {};
     const double brightest = *std::max_element(values.begin(), values.end());
     const double middle = median(values), shown = shown_radiance();
@@ -105,14 +104,6 @@ std::vector<float> hdr_flip(const io::Image& test, const io::Image& reference) {
                        [](float so_far, float here) { return std::max(so_far, here); });
     }
     return map;
-}
-
-double mean(const std::vector<float>& map, const Mask& mask) {
-    Sum sum;
-    for (std::size_t i = 0; i < map.size(); ++i) {
-        if (mask[i]) sum.add(map[i]);
-    }
-    return sum.total() / static_cast<double>(mask.pixels);
 }
 
 }  // namespace clgi::lab

@@ -8,8 +8,6 @@
 #include <clgi/io/image.hpp>
 #include <vector>
 
-#include "lab/mask.hpp"
-
 namespace clgi::lab {
 
 // Factors from the one that shows the brightest pixel to the one that shows a median pixel, in
@@ -26,8 +24,5 @@ Exposures exposures(const io::Image& picture);
 // Per pixel 0, alike, to 1. Non-finite samples are replaced as load_image does, negative ones
 // count as 0. Throws InputError as compare does. [height][width]
 std::vector<float> hdr_flip(const io::Image& a, const io::Image& b);
-
-// Over the pixels that count.
-double mean(const std::vector<float>& map, const Mask& mask);
 
 }  // namespace clgi::lab

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <clgi/io/image.hpp>
 #include <cstddef>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "lab/mask.hpp"
 
@@ -41,5 +44,29 @@ struct CompareOptions {
 // A quotient by zero is 0 where the numerator is 0 too (energy_ratio: 1), else infinite.
 // Throws InputError when the sizes differ, a picture lacks R, G or B, or no pixel counts.
 Comparison compare(const io::Image& a, const io::Image& b, const CompareOptions& options = {});
+
+// ---- luminance ----------------------------------------------------------------------------------
+
+// Of every pixel. Channels are found by name: files keep them in an order of their own.
+std::vector<double> luminance_of(const io::Image& picture);
+
+// sqrt(mean (Y_a - Y_b)^2 - mean e_b^2) / mean Y_b, Y the luminance and e_b the standard error
+// that picture B states in its plane error.Y, if it has one. 0 where noise explains all.
+// mask: the pixels that count; null: all. Throws InputError when sizes differ, R, G or B is missing
+// or no pixel counts.
+double relative_error(const io::Image& a, const io::Image& b, const Mask* mask = nullptr);
+
+// Mean luminance of a over that of b, over the same pixels.
+double luminance_ratio(const io::Image& a, const io::Image& b, const Mask* mask = nullptr);
+
+// ---- parts of comparisons -----------------------------------------------------------------------
+
+using RgbPlanes = std::array<const std::vector<float>*, 3>;
+
+// Throws InputError when the sizes differ, a picture is empty or lacks one of the three.
+std::pair<RgbPlanes, RgbPlanes> rgb_planes(const io::Image& a, const io::Image& b);
+
+// Of a value for each pixel, over the pixels that count.
+double mean(const std::vector<float>& map, const Mask& mask);
 
 }  // namespace clgi::lab

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/luminance.hpp"
+#include "lab/metrics.hpp"
 
 namespace clgi::lab {
 namespace {

@@ -5,11 +5,41 @@
 
 #include <clgi/error.hpp>
 #include <cstdlib>
+#include <type_traits>
 
-#include "lab/hash.hpp"
+#include "scene/lightmap_uvs.hpp"
 
 namespace clgi::lab {
 namespace {
+
+// A hash of any data, to tell inputs apart: FNV-1a, 64 bits.
+class Hash {
+public:
+    // Numbers and what is made of them alone, texts, and vectors with their length.
+    template <typename... T>
+    void add(const T&... values) {
+        (put(values), ...);
+    }
+    std::string text() const { return fmt::format("{:016x}", state_); }
+
+private:
+    template <typename T>
+    void put(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        bytes(&value, sizeof value);
+    }
+    template <typename T>
+    void put(const std::vector<T>& values) {
+        put(values.size());
+        for (const T& value : values) put(value);
+    }
+    void put(const std::string& text) { bytes(text.data(), text.size()); }
+    void bytes(const void* data, std::size_t size) {
+        const auto* byte = static_cast<const unsigned char*>(data);
+        for (std::size_t i = 0; i < size; ++i) state_ = (state_ ^ byte[i]) * 0x100000001b3u;
+    }
+    std::uint64_t state_ = 0xcbf29ce484222325u;
+};
 
 std::string picture_key(const std::string& scene, const Camera& camera,
                         const reference::Options& options) {
@@ -25,6 +55,12 @@ std::map<std::string, std::string> traced_attributes(const std::string& effects,
     return {{"clgi:effects", effects.empty() ? "all" : effects},
             {"clgi:samples", std::to_string(samples)},
             {"clgi:relative_error", fmt::format("{:.6g}", relative_error)}};
+}
+
+void add_place(AtlasPlaces& atlas, const Scene& scene, const UvTexel& texel) {
+    const UvPlace place = place_at(scene, texel);
+    atlas.texels.push_back(texel.texel);
+    atlas.places.push_back({place.position, glm::vec3(place.normal), glm::vec3(place.geometric)});
 }
 
 }  // namespace
@@ -125,6 +161,55 @@ io::Image cached_reference(const reference::PathTracer& tracer, const Camera& ca
     return kept_image(file, key, [&] {
         const reference::Picture picture = tracer.render(camera, options, progress);
         return picture.cancelled ? io::Image() : reference_image(picture, effects);
+    });
+}
+
+AtlasPlaces atlas_places(const Scene& scene, int size, int uv_set) {
+    const std::vector<int> sets = uv_set < 0 ? std::vector<int>{1, 0} : std::vector<int>{uv_set};
+    const LightmapUvs lightmap = lightmap_uvs(scene, size, sets);
+    if (lightmap.uv_set < 0) throw InputError("atlas: there is no lightmap: " + lightmap.faults);
+    AtlasPlaces out;
+    out.size = size;
+    out.uv_set = lightmap.uv_set;
+    out.warnings = lightmap.warnings;
+    for (const UvTexel& texel : lightmap.found.texels) add_place(out, scene, texel);
+    return out;
+}
+
+AtlasPlaces atlas_places(const Scene& scene, const AtlasLayout& layout) {
+    AtlasPlaces out;
+    out.size = layout.size;
+    out.pages = layout.pages;
+    out.uv_set = layout.uv_set;
+    for (const AtlasTexel& texel : layout.texels)
+        if (texel.centre)
+            add_place(out, scene,
+                      {texel.texel, texel.triangle, double{texel.b1}, double{texel.b2}});
+    return out;
+}
+
+io::Image atlas_image(const AtlasPlaces& atlas, const reference::Irradiance& irradiance,
+                      const std::string& effects) {
+    io::Image out = irradiance_image(
+        blank_irradiance(atlas.size, atlas.size * atlas.pages, {"R", "G", "B", "A", "error.Y"}),
+        atlas.texels, irradiance, effects);
+    out.attributes["clgi:uv_set"] = std::to_string(atlas.uv_set);
+    for (const std::uint32_t texel : atlas.texels) out.channels[3].values[texel] = 1.0f;
+    return out;
+}
+
+io::Image cached_atlas(const reference::PathTracer& tracer, const AtlasPlaces& atlas,
+                       const reference::Options& options, const std::string& effects,
+                       const std::filesystem::path& file, const std::string& scene,
+                       const Progress& progress) {
+    Hash hash;
+    hash.add(tracer_version, scene, effects, atlas.size, atlas.pages, atlas.texels);
+    for (const reference::Place& place : atlas.places)
+        hash.add(place.position, place.normal, place.geometric);
+    hash.add(options.samples, options.target, options.seed, options.roulette_depth);
+    return kept_image(file, "atlas " + hash.text(), [&] {
+        const reference::Irradiance found = tracer.irradiance(atlas.places, options, progress);
+        return found.cancelled ? io::Image() : atlas_image(atlas, found, effects);
     });
 }
 

@@ -4,7 +4,7 @@
 #include <clgi/error.hpp>
 #include <cmath>
 
-#include "lab/luminance.hpp"
+#include "lab/metrics.hpp"
 #include "lab/preview.hpp"
 #include "plan/picture_luminance.hpp"
 #include "plan/replicate_mean.hpp"

@@ -8,10 +8,8 @@
 #include <iterator>
 
 #include "lab/baked_atlas.hpp"
-#include "lab/reference_atlas.hpp"
 #include "lab/reference_picture.hpp"
 #include "lab/sweep_run.hpp"
-#include "lab/timed_bake.hpp"
 
 namespace clgi::lab {
 namespace {

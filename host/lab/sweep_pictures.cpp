@@ -9,9 +9,9 @@
 #include <iterator>
 #include <set>
 
+#include "lab/metrics.hpp"
 #include "lab/preview.hpp"
 #include "lab/reference_picture.hpp"
-#include "lab/relative_error.hpp"
 #include "lab/timing.hpp"
 
 namespace clgi::lab {

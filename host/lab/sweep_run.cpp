@@ -5,9 +5,9 @@
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
 
+#include "lab/metrics.hpp"
 #include "lab/pareto.hpp"
 #include "lab/reference_picture.hpp"
-#include "lab/relative_error.hpp"
 #include "lab/timing.hpp"
 
 namespace clgi::lab {

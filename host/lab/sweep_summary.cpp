@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "lab/metrics.hpp"
 #include "lab/pareto.hpp"
-#include "lab/relative_error.hpp"
 #include "lab/sweep_atlas.hpp"
 #include "lab/sweep_pictures.hpp"
 #include "lab/sweep_transfer.hpp"

@@ -9,9 +9,8 @@
 #include <optional>
 
 #include "lab/coarse_mesh.hpp"
-#include "lab/hash.hpp"
+#include "lab/metrics.hpp"
 #include "lab/reference_picture.hpp"
-#include "lab/relative_error.hpp"
 #include "lab/sweep_run.hpp"
 #include "lab/timing.hpp"
 #include "lab/transfer_vectors.hpp"
@@ -159,11 +158,11 @@ private:
     void find_truth(const std::string& name, const reference::PathTracer& tracer,
                     const Scene& scene, double from) {
         progress_.part(from, 0.2);
-        Hash hash;
-        hash.add(tracer_version, setup_.reference_samples);
         add_truth(out_, name, traced_effects,
                   kept_image(setup_.folder / ("reference-" + name + ".exr"),
-                             "vertices " + hash.text() + " " + scene_key(scene), [&] {
+                             fmt::format("vertices {} {} {}", tracer_version,
+                                         setup_.reference_samples, scene_key(scene)),
+                             [&] {
                                  const reference::Irradiance found = tracer.irradiance(
                                      places_, tracing(traced_effects, setup_.reference_samples),
                                      [&](double done) { return progress_.goes_on(done); });

@@ -36,24 +36,24 @@ double square_between(const double* a, const double* b, std::size_t terms) {
 
 }  // namespace
 
-TransferTruth transfer_truth(const Scene& scene, const TruthOptions& options) {
+TransferTruth transfer_truth(const Scene& scene, std::size_t vertices) {
+    constexpr int frames = 8, strata = 64, bands = 5;  // strata: a side
     if (!scene.animation || scene.animation->clips.empty())
         throw Error("transfer_truth: the scene has no animation");
     TransferTruth out;
-    out.vertices = some_vertices(scene, options.vertices);
-    for (int frame = 0; frame < options.frames; ++frame) {
-        const double time = scene.animation->clips[0].duration * (frame + 0.5) / options.frames;
+    out.vertices = some_vertices(scene, vertices);
+    for (int frame = 0; frame < frames; ++frame) {
+        const double time = scene.animation->clips[0].duration * (frame + 0.5) / frames;
         const Scene still = posed(scene, pose_at(*scene.animation, 0, time));
         const reference::PathTracer tracer(still);
         std::vector<reference::Place> places;
         for (const std::uint32_t v : out.vertices)
             places.push_back({still.positions[v], still.normals[v]});
         out.seconds.push_back(time);
-        out.vectors.push_back(tracer.transfer(places, options.bands, options.strata, 1));
+        out.vectors.push_back(tracer.transfer(places, bands, strata, 1));
         if (frame > 0) continue;
         TransferErrors between;
-        between.add(tracer.transfer(places, options.bands, options.strata, 2), out.vectors[0],
-                    options.bands);
+        between.add(tracer.transfer(places, bands, strata, 2), out.vectors[0], bands);
         out.noise = between.error().mean / std::sqrt(2.0);  // both have it
     }
     return out;

@@ -17,15 +17,9 @@ struct TransferTruth {
     double noise = 0.0;  // mean relative L2 error of the vectors of the first frame, estimated
 };
 
-struct TruthOptions {
-    std::size_t vertices = 1000;  // drawn at random where there are more
-    int frames = 8;               // in the middle of as many equal parts of the clip
-    int strata = 64;              // a side: 4,096 rays a vertex
-    int bands = 5;
-};
-
-// Throws Error for a scene without animation.
-TransferTruth transfer_truth(const Scene& scene, const TruthOptions& options);
+// vertices: at most so many, drawn at random. 4,096 rays each, five bands, in the middle of eight
+// equal parts of the clip. Throws Error for a scene without animation.
+TransferTruth transfer_truth(const Scene& scene, std::size_t vertices);
 
 // The mean over vertices and frames of |V - truth| / |truth|. Left out are vertices that receive
 // almost nothing: |truth| is below a thousandth of what it is where nothing blocks.

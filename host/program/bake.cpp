@@ -10,7 +10,6 @@
 
 #include "lab/bake_state.hpp"
 #include "lab/baked_atlas.hpp"
-#include "lab/reference_atlas.hpp"
 #include "lab/reference_picture.hpp"
 #include "program/animation.hpp"
 #include "program/bake_gltf.hpp"

@@ -14,7 +14,6 @@
 #include "lab/hdr_flip.hpp"
 #include "lab/mask.hpp"
 #include "lab/metrics.hpp"
-#include "lab/relative_error.hpp"
 #include "program/commands.hpp"
 
 namespace clgi::program {

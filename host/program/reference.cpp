@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.hpp"
-#include "lab/reference_atlas.hpp"
 #include "lab/reference_picture.hpp"
 #include "program/animation.hpp"
 #include "program/commands.hpp"

@@ -12,7 +12,6 @@
 #include "device.hpp"
 #include "gltf_draft.hpp"
 #include "lab/convergence.hpp"
-#include "lab/leaf_difference.hpp"
 #include "rooms.hpp"
 
 namespace clgi::lab {

@@ -15,7 +15,7 @@
 #include "device.hpp"
 #include "gltf_draft.hpp"
 #include "lab/contact_sheet.hpp"
-#include "lab/luminance.hpp"
+#include "lab/metrics.hpp"
 #include "lab/sweep_files.hpp"
 #include "lab/sweep_pictures.hpp"
 #include "lab/sweep_summary.hpp"

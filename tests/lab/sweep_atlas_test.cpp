@@ -16,7 +16,7 @@
 #include "device.hpp"
 #include "gltf_draft.hpp"
 #include "lab/baked_atlas.hpp"
-#include "lab/relative_error.hpp"
+#include "lab/metrics.hpp"
 #include "lab/sweep_atlas.hpp"
 #include "lab/sweep_files.hpp"
 #include "lab/sweep_summary.hpp"
@@ -200,8 +200,7 @@ TEST(SweepOfTheCornellBox, MeasuresBothFillingsAndThePathTracer) {
         EXPECT_GT(point.milliseconds, 0.0);
         if (point.method == path_tracer_name) traced.push_back(point.error[0]);
         if (point.method != path_tracer_name && point.knobs.at("bounces") == "all") {
-            EXPECT_LT(point.error[0], point.knobs.at("vpls") == "50" ? 0.3 : 0.2)
-                << point.series;
+            EXPECT_LT(point.error[0], point.knobs.at("vpls") == "50" ? 0.3 : 0.2) << point.series;
         }
     }
     EXPECT_GE(count[atlas_gather], 10);

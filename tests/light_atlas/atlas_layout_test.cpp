@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "atlas_checks.hpp"
-#include "lab/reference_atlas.hpp"
+#include "lab/reference_picture.hpp"
 
 namespace clgi {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lab/reference_atlas.hpp"
+#include "lab/reference_picture.hpp"
 #include "scene/uv_texels.hpp"
 #include "scenes.hpp"
 #include "skies.hpp"
