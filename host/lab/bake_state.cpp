@@ -44,47 +44,6 @@ void each(State& state, const Count& count, const List& list) {
         list(*values);
 }
 
-// Never reads past the end, whatever lengths the file states.
-class Reader {
-public:
-    Reader(const std::filesystem::path& file, const std::string& bytes)
-        : file_(file), bytes_(bytes) {}
-
-    [[noreturn]] void fail(const std::string& what) const {
-        throw InputError(file_.string() + ": " + what);
-    }
-
-    std::string text(std::uint64_t count) {
-        if (count > bytes_.size() - at_) fail("is damaged: it ends too early");
-        at_ += count;
-        return bytes_.substr(at_ - count, count);
-    }
-
-    template <typename T>
-    T value() {
-        T out;
-        std::memcpy(&out, text(sizeof out).data(), sizeof out);
-        return out;
-    }
-
-    template <typename T>
-    void list(std::vector<T>& out) {
-        const auto count = value<std::uint64_t>();
-        if (count > bytes_.size() / sizeof(T)) fail("is damaged: it ends too early");
-        const std::string raw = text(count * sizeof(T));
-        out.resize(count);
-        if (count > 0) std::memcpy(out.data(), raw.data(), raw.size());
-    }
-
-    std::size_t at() const { return at_; }
-    bool ended() const { return at_ == bytes_.size(); }
-
-private:
-    const std::filesystem::path& file_;
-    const std::string& bytes_;
-    std::size_t at_ = 0;
-};
-
 std::string bytes_of(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::string out{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -111,23 +70,39 @@ void save_bake_state(const LightAtlasState& state, const std::string& key,
 
 LightAtlasState load_bake_state(const std::filesystem::path& file, const std::string& key) {
     const std::string bytes = bytes_of(file);
-    Reader in(file, bytes);
-    if (bytes.size() < sizeof magic - 1 || in.text(sizeof magic - 1) != magic)
-        in.fail("is no state of a bake");
-    const auto found = in.value<std::uint32_t>();
+    const auto fail = [&](const std::string& what) {
+        throw InputError(file.string() + ": " + what);
+    };
+    std::size_t at = sizeof magic - 1;
+    if (bytes.compare(0, at, magic) != 0) fail("is no state of a bake");
+    // Never reads past the end, whatever lengths the file states.
+    const auto get = [&](void* out, std::uint64_t count) {
+        if (count > bytes.size() - at) fail("is damaged: it ends too early");
+        if (count > 0) std::memcpy(out, bytes.data() + at, count);
+        at += count;
+    };
+    const auto get_list = [&](auto& out) {
+        std::uint64_t count = 0;
+        get(&count, sizeof count);
+        if (count > bytes.size() / sizeof out[0]) fail("is damaged: it ends too early");
+        out.resize(count);
+        get(out.data(), count * sizeof out[0]);
+    };
+    std::uint32_t found = 0;
+    get(&found, sizeof found);
     if (found != version)
-        in.fail("is of version " + std::to_string(found) + ", " + std::to_string(version) +
-                " needed");
-    const std::string found_key = in.text(in.value<std::uint64_t>());
+        fail("is of version " + std::to_string(found) + ", " + std::to_string(version) + " needed");
+    std::string found_key;
+    get_list(found_key);
     LightAtlasState out;
     each(
-        out, [&](std::uint32_t& count) { count = in.value<std::uint32_t>(); },
-        [&](auto& values) { in.list(values); });
-    const std::size_t end = in.at();
-    if (in.value<std::uint64_t>() != checksum(bytes.data(), end) || !in.ended())
-        in.fail("is damaged: its checksum is another");
+        out, [&](std::uint32_t& count) { get(&count, sizeof count); }, get_list);
+    const std::uint64_t wanted = checksum(bytes.data(), at);
+    std::uint64_t stated = 0;
+    get(&stated, sizeof stated);
+    if (stated != wanted || at != bytes.size()) fail("is damaged: its checksum is another");
     if (found_key != key)
-        in.fail("belongs to a bake of another scene, with other options or on another device");
+        fail("belongs to a bake of another scene, with other options or on another device");
     return out;
 }
 

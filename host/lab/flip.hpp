@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <clgi/io/image.hpp>
 #include <vector>
 
 namespace clgi::lab {
@@ -51,5 +52,26 @@ FlipFilters flip_filters(double pixels_per_degree = flip_pixels_per_degree);
 // out[x] = sum over k of weights[radius + k] in[x + k stride]. in: readable radius steps beyond
 // both ends. out: [count], no part of in
 void filter(const Kernel& kernel, const double* in, int stride, double* out, int count);
+
+// ---- pictures without an upper limit: the largest FLIP over a range of exposures
+// -----------------
+
+// Andersson, Nilsson, Shirley, Akenine-Moller: Visualizing Errors in Rendered High Dynamic Range
+// Images, Eurographics 2021.
+
+// Factors from the one that shows the brightest pixel to the one that shows a median pixel, in
+// steps of about one stop.
+struct Exposures {
+    double first = 1.0;
+    double last = 1.0;
+    int count = 0;  // 0: there is no light in the picture
+
+    double at(int i) const;
+};
+Exposures exposures(const io::Image& picture);
+
+// Per pixel 0, alike, to 1. Non-finite samples are replaced as load_image does, negative ones
+// count as 0. Throws InputError as compare does. [height][width]
+std::vector<float> hdr_flip(const io::Image& a, const io::Image& b);
 
 }  // namespace clgi::lab

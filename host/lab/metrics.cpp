@@ -9,7 +9,7 @@
 #include <string>
 
 #include "io/image_formats.hpp"
-#include "lab/hdr_flip.hpp"
+#include "lab/flip.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi::lab {

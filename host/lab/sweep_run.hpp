@@ -143,6 +143,22 @@ void trace_irradiance(Sweep& sweep, const SweepSetup& setup, const SweepTruth& t
                       const std::function<io::Image(const reference::Irradiance&)>& image_of,
                       const Mask& counted, const SweepProgress& progress);
 
+// ---- fronts of error against milliseconds: what is worth its time
+// --------------------------------
+
+struct Cost {
+    double milliseconds;
+    double error;
+};
+
+// Indices of the points that no other beats in both, by time. Points of equal cost: the first.
+std::vector<std::size_t> pareto_front(const std::vector<Cost>& points);
+
+// The time at which a curve reaches an error: along straight lines in log-log, beyond its last
+// point by the root of time, as unbiased noise falls. Nothing for an empty curve.
+// curve: by time, errors above 0.
+std::optional<double> time_to_reach(const std::vector<Cost>& curve, double error);
+
 // Marks the points on the Pareto front of each method, against each truth; none that were given up.
 // A point of the path tracer belongs to the truth that it is named after.
 void mark_fronts(Sweep& sweep);

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "lab/metrics.hpp"
-#include "lab/pareto.hpp"
 #include "lab/sweep_atlas.hpp"
 #include "lab/sweep_pictures.hpp"
 #include "lab/sweep_transfer.hpp"

@@ -11,7 +11,7 @@
 
 #include "io/image_formats.hpp"
 #include "lab/difference.hpp"
-#include "lab/hdr_flip.hpp"
+#include "lab/flip.hpp"
 #include "lab/mask.hpp"
 #include "lab/metrics.hpp"
 #include "program/commands.hpp"

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "lab/contact_sheet.hpp"
 #include "lab/convergence.hpp"
 #include "lab/sweep_atlas.hpp"
 #include "lab/sweep_files.hpp"

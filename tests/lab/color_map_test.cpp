@@ -1,6 +1,6 @@
 // The colour maps against their own colour space.
 // SPDX-License-Identifier: MIT
-#include "lab/color_map.hpp"
+#include "lab/difference.hpp"
 
 #include <gtest/gtest.h>
 

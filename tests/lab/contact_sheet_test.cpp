@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lab/contact_sheet.hpp"
 #include "lab/preview.hpp"
+#include "lab/sweep_files.hpp"
 
 namespace clgi::lab {
 namespace {

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "gltf_draft.hpp"
-#include "lab/contact_sheet.hpp"
 #include "lab/difference.hpp"
 #include "lab/preview.hpp"
+#include "lab/sweep_files.hpp"
 #include "rgb_pictures.hpp"
 
 namespace clgi::lab {

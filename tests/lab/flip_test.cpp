@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "lab/flip.hpp"
-#include "lab/hdr_flip.hpp"
 #include "lab/metrics.hpp"
 #include "rgb_pictures.hpp"
 

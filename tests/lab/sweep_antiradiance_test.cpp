@@ -14,7 +14,6 @@
 
 #include "device.hpp"
 #include "gltf_draft.hpp"
-#include "lab/contact_sheet.hpp"
 #include "lab/metrics.hpp"
 #include "lab/sweep_files.hpp"
 #include "lab/sweep_pictures.hpp"

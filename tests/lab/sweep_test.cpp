@@ -14,7 +14,6 @@
 #include "device.hpp"
 #include "gltf_draft.hpp"
 #include "lab/metrics.hpp"
-#include "lab/pareto.hpp"
 #include "lab/reference_picture.hpp"
 #include "lab/sweep_files.hpp"
 #include "lab/sweep_pictures.hpp"
