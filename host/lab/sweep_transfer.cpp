@@ -35,44 +35,10 @@ Scene without_lamps(const Scene& scene) {
     return out;
 }
 
-// ---- visible sets -------------------------------------------------------------------------------
-
 struct TransferLooks {
     VisibleSets sets;           // for DynamicTransferSolver::restrict, of this scene and options
     double milliseconds = 0.0;  // of looking, warm, and of making lists; without posing
 };
-
-// Potentially visible sets of frames spread evenly over the clip, from its beginning on; without
-// motion of the scene as it is, however many frames. scene: in the pose that is measured. step:
-// called before each frame.                                          [Kautz04, section 3.2]
-// In a scene of its own on the device: the other stays in the pose that is measured. Both have the
-// same order of triangles, as they are made of the same pose.
-TransferLooks look_at_frames(const cl::CommandQueue& queue, const Programs& programs,
-                             const Scene& scene, const TransferSweep& motion,
-                             const DynamicTransferOptions& options, int frames,
-                             const std::function<void()>& step) {
-    DeviceScene device(queue.getInfo<CL_QUEUE_CONTEXT>(), queue.getInfo<CL_QUEUE_DEVICE>(), scene);
-    DynamicTransferSolver solver(programs, queue, scene, device, options);
-    solver.look().wait();  // builds the kernel
-    solver.sets();
-    std::optional<SceneMover> mover;
-    if (motion.animated) mover.emplace(queue, device, options.build);
-    TransferLooks out;
-    for (int frame = 0; frame < frames; ++frame) {
-        step();
-        if (mover) {
-            const Animation& animation = *motion.animated->animation;
-            const double seconds = animation.clips.at(motion.clip).duration * frame / frames;
-            const Scene now = posed(*motion.animated, pose_at(animation, motion.clip, seconds));
-            mover->move(0, now.positions, now.normals).wait();
-        }
-        out.milliseconds += time_frame(queue, [&] { solver.look(); });
-    }
-    out.milliseconds += time_frame(queue, [&] { out.sets = solver.sets(); });
-    return out;
-}
-
-// ---- the sweep ----------------------------------------------------------------------------------
 
 class TransferRun {
 public:
@@ -216,6 +182,35 @@ private:
         return out;
     }
 
+    // Potentially visible sets of frames spread evenly over the clip, from its beginning on;
+    // without motion of the scene as it is, however many frames. In a scene of its own on the
+    // device: the other stays in the pose that is measured. Both have the same order of triangles,
+    // as they are made of the same pose.                                             [Kautz04,
+    // section 3.2]
+    TransferLooks look_at_frames(const DynamicTransferOptions& options, int frames,
+                                 const Progress& part) {
+        DeviceScene device(programs_.context(), programs_.device(), scene_);
+        DynamicTransferSolver solver(programs_, setup_.queue, scene_, device, options);
+        solver.look().wait();  // builds the kernel
+        solver.sets();
+        std::optional<SceneMover> mover;
+        if (motion_.animated) mover.emplace(setup_.queue, device, options.build);
+        TransferLooks out;
+        for (int frame = 0; frame < frames; ++frame) {
+            if (!part(0.0)) throw_cancelled();
+            if (mover) {
+                const Animation& animation = *motion_.animated->animation;
+                const double seconds = animation.clips.at(motion_.clip).duration * frame / frames;
+                const Scene now =
+                    posed(*motion_.animated, pose_at(animation, motion_.clip, seconds));
+                mover->move(0, now.positions, now.normals).wait();
+            }
+            out.milliseconds += time_frame(setup_.queue, [&] { solver.look(); });
+        }
+        out.milliseconds += time_frame(setup_.queue, [&] { out.sets = solver.sets(); });
+        return out;
+    }
+
     // Times of masks and vectors, warm.
     Measured measure(const TransferSettings& one, SweepPoint* result, const Progress& part) {
         DynamicTransferOptions options = one.options;
@@ -224,11 +219,7 @@ private:
         Measured out;
         if (one.looks > 0) {
             TransferLooks& looks = looks_[one.knobs];
-            if (result)
-                looks = look_at_frames(setup_.queue, programs_, scene_, motion_, options, one.looks,
-                                       [&] {
-                                           if (!part(0.0)) throw_cancelled();
-                                       });
+            if (result) looks = look_at_frames(options, one.looks, part);
             solver.restrict(looks.sets);
             out.once = looks.milliseconds;
         }

@@ -12,6 +12,7 @@
 #include "lab/bench.hpp"
 #include "lab/scenes/rooms.hpp"
 #include "program/commands.hpp"
+#include "program/count_flag.hpp"
 #include "program/session.hpp"
 
 namespace clgi::program {
@@ -97,11 +98,8 @@ void add_bench(CLI::App& app) {
                      "schaerfig1, views, animation: one more scene; may be repeated")
         ->type_name("FILE")
         ->default_str("none");
-    command
-        ->add_option("--most-vpls", flags->setup.most_vpls,
-                     "schaerfig1: the rows of at most so many VPLs, of 100 to 25600")
-        ->type_name("N")
-        ->check(CLI::Range(100, 25600));
+    add_count(*command, "--most-vpls", flags->setup.most_vpls,
+              "schaerfig1: the rows of at most so many VPLs, of 100 to 25600", 100, 25600);
     command
         ->add_option("--only", flags->setup.only,
                      "kautz1, kautz2: this scene, of cloth, fight, chess and hand; dachsbacher1, "
@@ -111,21 +109,16 @@ void add_bench(CLI::App& app) {
         ->default_str("all")
         ->check(CLI::IsMember({"cloth", "fight", "chess", "hand", "office", "character", "oriental",
                                "glossy-box", "glossy-bust"}));
-    command
-        ->add_option("--spp", flags->setup.samples,
-                     "dachsbacher1: samples per pixel of what errors are measured against; 0: no "
-                     "errors")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1 << 24));
-    command
-        ->add_option("--vertices", flags->setup.vertices,
-                     "kautz1: at most so many vertices of a scene are compared with cast rays; "
-                     "0: none")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1000000));
-    command->add_option("--repeats", flags->setup.repeats, "Frames measured for each row")
-        ->type_name("N")
-        ->check(CLI::Range(1, 10000));
+    add_count(*command, "--spp", flags->setup.samples,
+              "dachsbacher1: samples per pixel of what errors are measured against; 0: no "
+              "errors",
+              0, 1 << 24);
+    add_count(*command, "--vertices", flags->setup.vertices,
+              "kautz1: at most so many vertices of a scene are compared with cast rays; "
+              "0: none",
+              0, 1000000);
+    add_count(*command, "--repeats", flags->setup.repeats, "Frames measured for each row", 1,
+              10000);
     command->add_flag("--json", flags->json, "Print JSON");
     add_device_flags(*command, flags->device);
     command->callback([flags] { run_bench(*flags); });

@@ -1,4 +1,4 @@
-// What commands that bake or count have in common.
+// Options that count.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -19,6 +19,7 @@
 #include "lab/sweep_transfer.hpp"
 #include "program/animation.hpp"
 #include "program/commands.hpp"
+#include "program/count_flag.hpp"
 #include "program/duration.hpp"
 #include "program/environment.hpp"
 #include "program/picture.hpp"
@@ -220,42 +221,30 @@ void add_sweep(CLI::App& app) {
     command->add_flag("--quick", flags->quick, "Fewer settings, smaller pictures, under a minute");
     command->add_flag("--convergence", flags->convergence,
                       "Instead: how the iterations of antiradiance converge, step by step");
-    command->add_option("--bins", flags->bins, "convergence: Bins of directions, a multiple of 4")
-        ->type_name("N")
-        ->default_str("128; with --quick 64")
-        ->check(CLI::Range(32, 4096));
-    command
-        ->add_option("--elements", flags->elements,
-                     "convergence: Parts that surfaces are cut to, about")
-        ->type_name("N")
-        ->default_str("8192; with --quick 2000")
-        ->check(CLI::Range(1, 1 << 24));
-    command->add_option("--iterations", flags->steps, "convergence: Steps of each iteration")
-        ->type_name("N")
-        ->default_str("100; with --quick 40")
-        ->check(CLI::Range(1, 10000));
+    add_count(*command, "--bins", flags->bins, "convergence: Bins of directions, a multiple of 4",
+              32, 4096)
+        ->default_str("128; with --quick 64");
+    add_count(*command, "--elements", flags->elements,
+              "convergence: Parts that surfaces are cut to, about", 1, 1 << 24)
+        ->default_str("8192; with --quick 2000");
+    add_count(*command, "--iterations", flags->steps, "convergence: Steps of each iteration", 1,
+              10000)
+        ->default_str("100; with --quick 40");
     command->add_option("--size", flags->size, "Pixels across and down")
         ->type_name("WxH")
         ->default_str("320x240; with --quick 160x120");
-    command->add_option("--atlas-size", flags->atlas_size, "atlas: texels, side of a page")
-        ->type_name("N")
-        ->default_str("256; with --quick 64")
-        ->check(CLI::Range(1, 8192));
+    add_count(*command, "--atlas-size", flags->atlas_size, "atlas: texels, side of a page", 1, 8192)
+        ->default_str("256; with --quick 64");
     command
         ->add_option("--reference", flags->reference,
                      "atlas: EXR of the irradiance that bakes are compared with")
         ->type_name("FILE")
         ->default_str("made with --spp");
-    command
-        ->add_option("--spp", flags->samples,
-                     "Samples per pixel, texel or vertex of the references")
-        ->type_name("N")
-        ->default_str("192, atlas 400, transfer 1024; with --quick 64, 100, 256")
-        ->check(CLI::Range(2, 1 << 20));
-    command->add_option("--rounds", flags->rounds, "Times that every setting is measured")
-        ->type_name("N")
-        ->default_str("3; with --quick 2")
-        ->check(CLI::Range(1, 1000));
+    add_count(*command, "--spp", flags->samples,
+              "Samples per pixel, texel or vertex of the references", 2, 1 << 20)
+        ->default_str("192, atlas 400, transfer 1024; with --quick 64, 100, 256");
+    add_count(*command, "--rounds", flags->rounds, "Times that every setting is measured", 1, 1000)
+        ->default_str("3; with --quick 2");
     command
         ->add_option("--sheet-time", flags->sheet_time,
                      "all: Time of a frame that pictures of methods.png may take")
