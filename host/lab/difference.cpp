@@ -71,8 +71,7 @@ Scale scale_of(Shown shown, double size) {
     return {0.0, size, sequential_color, captions.at(shown)};
 }
 
-// ---- colour maps
-// ---------------------------------------------------------------------------------
+// ---- colour maps --------------------------------------------------------------------------------
 
 // A colour in OKLCh: hue in radians.
 struct Polar {

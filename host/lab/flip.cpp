@@ -13,8 +13,7 @@
 namespace clgi::lab {
 namespace {
 
-// ---- filters: Andersson et al. 2020, spatial filtering and feature detection
-// ---------------------
+// ---- filters: Andersson et al. 2020, spatial filtering and feature detection --------------------
 
 using std::numbers::pi;
 
@@ -265,8 +264,7 @@ std::vector<float> flip(const Display& a, const Display& b) {
     return map;
 }
 
-// ---- pictures without an upper limit
-// -------------------------------------------------------------
+// ---- pictures without an upper limit ------------------------------------------------------------
 
 namespace {
 

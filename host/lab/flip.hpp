@@ -22,8 +22,7 @@ struct Display {
 // edges the outermost pixels repeat. [height][width]
 std::vector<float> flip(const Display& a, const Display& b);
 
-// ---- filters: what the eye resolves at a distance, and what it takes for edges and dots
-// ----------
+// ---- filters: what the eye resolves at a distance, and what it takes for edges and dots ---------
 
 // A screen 0.7 m wide with 3840 pixels, seen from 0.7 m.
 constexpr double flip_pixels_per_degree = 3840.0 * 3.14159265358979323846 / 180.0;
@@ -53,8 +52,7 @@ FlipFilters flip_filters(double pixels_per_degree = flip_pixels_per_degree);
 // both ends. out: [count], no part of in
 void filter(const Kernel& kernel, const double* in, int stride, double* out, int count);
 
-// ---- pictures without an upper limit: the largest FLIP over a range of exposures
-// -----------------
+// ---- pictures without an upper limit: the largest FLIP over a range of exposures ----------------
 
 // Andersson, Nilsson, Shirley, Akenine-Moller: Visualizing Errors in Rendered High Dynamic Range
 // Images, Eurographics 2021.

@@ -201,8 +201,7 @@ std::string save_sweep(const Sweep& sweep, const SweepNote& note,
     return why;
 }
 
-// ---- the sheet of pictures
-// -----------------------------------------------------------------------
+// ---- the sheet of pictures ----------------------------------------------------------------------
 
 namespace {
 

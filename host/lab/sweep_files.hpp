@@ -29,8 +29,7 @@ std::string sweep_json(const Sweep& sweep, const SweepNote& note);
 std::string save_sweep(const Sweep& sweep, const SweepNote& note,
                        const std::filesystem::path& folder);
 
-// ---- the sheet of pictures
-// -----------------------------------------------------------------------
+// ---- the sheet of pictures ----------------------------------------------------------------------
 
 // Of a method's points, the one with the least error against the first truth whose time is at most
 // `milliseconds`; if none is so fast, the fastest. Of the path tracer, those with all of that

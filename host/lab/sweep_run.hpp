@@ -143,8 +143,7 @@ void trace_irradiance(Sweep& sweep, const SweepSetup& setup, const SweepTruth& t
                       const std::function<io::Image(const reference::Irradiance&)>& image_of,
                       const Mask& counted, const SweepProgress& progress);
 
-// ---- fronts of error against milliseconds: what is worth its time
-// --------------------------------
+// ---- fronts of error against milliseconds: what is worth its time -------------------------------
 
 struct Cost {
     double milliseconds;
