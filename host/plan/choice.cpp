@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plan/openness.hpp"
 #include "plan/provider.hpp"
 #include "plan/sky.hpp"
 #include "plan/static_part.hpp"
@@ -10,7 +11,6 @@
 namespace clgi {
 namespace {
 
-constexpr double mostly = 0.5;       // of directions in which nothing is seen
 constexpr double noticeable = 0.02;  // of the light that surfaces reflect, as gloss
 constexpr double few_backs = 0.05;   // of the area, double-sided
 // Beyond so many triangles, links for all poses take minutes.
@@ -31,7 +31,7 @@ bool bakes_the_rest(const Plan& plan) {
 Choice candidates_for(const Plan& plan) {
     const SceneAnalysis& analysis = plan.analysis;
     const bool sky = has_sky(plan);
-    const bool sky_alone = sky && !analysis.lights.any_direct() && analysis.openness > mostly;
+    const bool sky_alone = sky && !analysis.lights.any_direct() && analysis.openness > mostly_open;
     if (analysis.surfaces.triangles <= analysis.surfaces.degenerate)
         return {{Method::direct}, "there are no surfaces"};
     if (!plan.on(Effect::first_bounce)) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <numbers>
 
 #include "plan/parts.hpp"
 #include "scene/emission.hpp"
@@ -10,8 +9,6 @@
 
 namespace clgi {
 namespace {
-
-using std::numbers::pi;
 
 bool has_power(const Light& light) { return luminance(light.intensity) > 0.0f; }
 
@@ -68,18 +65,13 @@ LightsFound light_analysis(const Scene& scene) {
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         const SceneTriangle& triangle = scene.triangles[t];
         const double radiance = luminance(emission(triangle));
-        const double area = triangle_area(scene, triangle);
-        if (!(radiance > 0.0) || !(area > 0.0)) continue;
-        const double sides = scene.materials[triangle.material].double_sided ? 2.0 : 1.0;
+        if (!(radiance > 0.0) || !(triangle_area(scene, triangle) > 0.0)) continue;
         out.emissive.push_back(t);
-        ++analysis.emissive_triangles;
-        analysis.emissive_area += area;
-        analysis.emissive_power += pi * radiance * area * sides;
+        out.radiance.push_back(radiance);
     }
-    if (scene.environment) {
-        analysis.environment_mean = luminance(environment_fluence(*scene.environment)) / (4.0 * pi);
-        analysis.environment = analysis.environment_mean > 0.0;
-    }
+    analysis.emissive_triangles = out.emissive.size();
+    analysis.environment =
+        scene.environment && luminance(environment_fluence(*scene.environment)) > 0.0;
     return out;
 }
 

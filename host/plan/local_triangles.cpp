@@ -2,13 +2,11 @@
 #include "plan/local_triangles.hpp"
 
 #include <algorithm>
-
-#include "scene/local_frame.hpp"
+#include <cmath>
 
 namespace clgi {
 
-std::vector<LocalTriangle> local_triangles(const Scene& scene) {
-    const SceneFrame frame = local_frame(bounds(scene));
+std::vector<LocalTriangle> local_triangles(const Scene& scene, const SceneFrame& frame) {
     std::vector<LocalTriangle> out;
     out.reserve(scene.triangles.size());
     for (const SceneTriangle& triangle : scene.triangles) {
@@ -19,8 +17,8 @@ std::vector<LocalTriangle> local_triangles(const Scene& scene) {
         const auto& [a, b, c] = local.corners;
         const glm::dvec3 across = glm::cross(b - a, c - a);
         const double twice_area = glm::length(across);
-        const double longest =
-            std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+        const auto square = [](const glm::dvec3& side) { return glm::dot(side, side); };
+        const double longest = std::sqrt(std::max({square(a - b), square(b - c), square(c - a)}));
         local.area = 0.5 * twice_area;
         local.height = longest > 0.0 ? twice_area / longest : 0.0;
         if (!local.is_line()) local.normal = across / twice_area;

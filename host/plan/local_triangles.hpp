@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <clgi/device_scene.hpp>
 #include <clgi/scene.hpp>
 #include <glm/glm.hpp>
 #include <vector>
@@ -26,8 +27,7 @@ struct LocalTriangle {
     bool is_line() const { return height <= same_place; }  // or a point, to within rounding
 };
 
-// [triangles of the scene] Corners are rounded as DeviceScene rounds them, in the frame of a scene
-// that stands still.
-std::vector<LocalTriangle> local_triangles(const Scene& scene);
+// [triangles of the scene] Corners are rounded as DeviceScene rounds them.
+std::vector<LocalTriangle> local_triangles(const Scene& scene, const SceneFrame& frame);
 
 }  // namespace clgi

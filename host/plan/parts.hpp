@@ -11,24 +11,18 @@
 
 namespace clgi {
 
-// What each triangle reflects of what meets it, per channel.
-struct TriangleAlbedo {
-    glm::dvec3 all = glm::dvec3(0.0);    // diffuse and gloss
-    glm::dvec3 gloss = glm::dvec3(0.0);  // of lobe and coat alone
-    glm::dvec3 least = glm::dvec3(0.0);  // no point of it reflects less
-    glm::dvec3 most = glm::dvec3(0.0);   // nor more
+struct SurfacesFound {
+    SurfaceAnalysis analysis;
+    std::vector<double> reflects;  // [triangles] albedo, of the channel that has most
 };
-std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene);
-
-// [triangles of the scene] triangles and albedos.
-SurfaceAnalysis surface_analysis(const Scene& scene, const std::vector<LocalTriangle>& triangles,
-                                 const std::vector<TriangleAlbedo>& albedos);
+SurfacesFound surface_analysis(const Scene& scene, const std::vector<LocalTriangle>& triangles);
 
 double triangle_area(const Scene& scene, const SceneTriangle& triangle);  // m^2, one side
 
 struct LightsFound {
     LightAnalysis analysis;
-    std::vector<std::uint32_t> emissive;  // triangles
+    std::vector<std::uint32_t> emissive;  // triangles with area
+    std::vector<double> radiance;         // of each of them, luminance, cd/m^2
 };
 LightsFound light_analysis(const Scene& scene);
 

@@ -93,7 +93,8 @@ void price(const cl::Device& device, Plan& plan) {
     }
 }
 
-Plan planned(const cl::Device& device, const SceneAnalysis& analysis, const PlanRequest& request,
+// Effects alone.
+Plan decided(const SceneAnalysis& analysis, const PlanRequest& request,
              const std::optional<Reach>& reach, const std::optional<ProbeResult>& probed) {
     Plan plan;
     plan.request = request;
@@ -104,6 +105,11 @@ Plan planned(const cl::Device& device, const SceneAnalysis& analysis, const Plan
     overrule(plan.effects, choose_effects(analysis, request.tolerance, probed), plan.analysis,
              request);
     plan.bound = largest_bound(plan.effects);
+    return plan;
+}
+
+// And the method, with its settings and cost.
+Plan completed(const cl::Device& device, Plan plan) {
     choose_method(device, plan);
     price(device, plan);
     return plan;
@@ -114,28 +120,30 @@ Plan planned(const cl::Device& device, const SceneAnalysis& analysis, const Plan
 Plan make_plan(const cl::Device& device, const SceneAnalysis& analysis,
                const PlanRequest& request) {
     check(request);
-    return planned(device, analysis, request, std::nullopt, std::nullopt);
+    return completed(device, decided(analysis, request, std::nullopt, std::nullopt));
 }
 
 Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
                const Camera& camera, const PlanRequest& request) {
     check(request);
     const auto device = queue.getInfo<CL_QUEUE_DEVICE>();
-    const SceneAnalysis analysis = scene_analysis(scene);
+    const LocalScene local(scene);
+    const SceneAnalysis analysis = scene_analysis(scene, local);
     const bool one_picture = !request.animated && !request.lights_change && !request.camera_moves;
     std::optional<Reach> reach;
-    if (one_picture) reach = reach_of(scene, camera, request.width, request.height);
-    const Plan unprobed = planned(device, analysis, request, reach, std::nullopt);
+    if (one_picture) reach = reach_of(scene, local, camera, request.width, request.height);
+    const Plan unprobed = decided(analysis, request, reach, std::nullopt);
     const bool open = unprobed.on(Effect::first_bounce) || unprobed.on(Effect::direct_shadows);
-    if (!one_picture || !open) return unprobed;
+    const auto with = [&](const ProbeResult& probed) {
+        return completed(device, decided(analysis, request, reach, probed));
+    };
+    if (!one_picture || !open) return completed(device, unprobed);
     // What reflects nothing looks the same however it is lit.
-    if (!(unprobed.analysis.surfaces.largest_albedo > 0.0))
-        return planned(device, analysis, request, reach, ProbeResult{});
-    if (sees_little(unprobed)) return unprobed;
+    if (!(unprobed.analysis.surfaces.largest_albedo > 0.0)) return with(ProbeResult{});
+    if (sees_little(unprobed)) return completed(device, unprobed);
     const DeviceScene uploaded(queue.getInfo<CL_QUEUE_CONTEXT>(), device,
                                planned_scene(scene, unprobed));
-    return planned(device, analysis, request, reach,
-                   probe(queue, programs, uploaded, camera, unprobed));
+    return with(probe(queue, programs, uploaded, camera, unprobed));
 }
 
 }  // namespace clgi

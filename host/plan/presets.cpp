@@ -3,11 +3,12 @@
 
 #include <algorithm>
 
+#include "plan/openness.hpp"
+
 namespace clgi {
 namespace {
 
 constexpr std::size_t many_triangles = 20000;
-constexpr double much_leaves = 0.3;
 // A probe has one bounce; with the others, indirect light was so many times as much. Of what
 // nothing shadows in the probe, no more is there.
 constexpr double all_bounces = 1.5, most_share = 2.0;
@@ -22,7 +23,7 @@ SceneKind kind_of(const Plan& plan) {
     const SceneAnalysis& analysis = plan.analysis;
     if (!plan.on(Effect::indirect_occlusion)) return SceneKind::convex;
     if (plan.probe && indirect_share(plan) > 1.0) return SceneKind::indirect;
-    if (analysis.openness > much_leaves) return SceneKind::open;
+    if (analysis.openness > much_open) return SceneKind::open;
     if (analysis.surfaces.triangles > many_triangles) return SceneKind::fine;
     return SceneKind::furnished;
 }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "plan/supporting.hpp"
 #include "scene/local_frame.hpp"
@@ -68,15 +69,11 @@ bool shaded_flat(const Scene& scene, const std::vector<LocalTriangle>& triangles
 class Prover {
 public:
     Prover(const Scene& scene, const std::vector<LocalTriangle>& triangles)
-        : sources_(sources_of(scene)),
+        : scene_(scene),
+          sources_(sources_of(scene)),
           triangles_(triangles),
           planes_(triangles),
-          shaded_flat_(shaded_flat(scene, triangles)) {
-        const std::size_t step = std::max<std::size_t>(triangles.size() / samples, 1);
-        for (std::size_t t = 0; t < triangles.size(); t += step)
-            if (!triangles[t].is_line() && planes_.crossed(t))
-                crossed_.push_back(static_cast<std::uint32_t>(t));
-    }
+          step_(std::max<std::size_t>(triangles.size() / samples, 1)) {}
 
     OpennessProof prove(const std::vector<std::uint32_t>& emissive) {
         OpennessProof out;
@@ -85,7 +82,7 @@ public:
             out.surfaces_open && std::all_of(order().begin(), order().end(), [&](std::uint32_t t) {
                 return triangles_[t].is_line() || sees_nothing(t);
             });
-        out.environment_open = out.surfaces_apart && shaded_flat_;
+        out.environment_open = out.surfaces_apart && shaded_flat(scene_, triangles_);
         out.lights_open = lights_open(out.surfaces_open, emissive);
         return out;
     }
@@ -102,8 +99,21 @@ private:
         return order_;
     }
 
+    // Whether one of the samples that are wanted stands in the room. Found once for each.
+    template <typename Wanted>
+    bool any_crossed(const Wanted& wanted) {
+        crossed_.resize(triangles_.size() / step_ + 1);
+        for (std::size_t t = 0; t < triangles_.size(); t += step_) {
+            if (triangles_[t].is_line() || !wanted(t)) continue;
+            std::optional<bool>& crossed = crossed_[t / step_];
+            if (!crossed) crossed = planes_.crossed(t);
+            if (*crossed) return true;
+        }
+        return false;
+    }
+
     bool surfaces_open() {
-        if (!crossed_.empty()) return false;
+        if (any_crossed([](std::size_t) { return true; })) return false;
         for (const std::uint32_t t : order())
             if (!triangles_[t].is_line() && !planes_.place(t)) return false;
         // Lines have no plane, but must not stand in the room.
@@ -138,17 +148,18 @@ private:
     }
 
     bool before_all(const Source& source) {
-        const auto lit_sides = [&](std::uint32_t t) {  // front, back
+        const auto lit_sides = [&](std::size_t t) {  // front, back
             const LocalTriangle& triangle = triangles_[t];
             const Plane plane{triangle.normal, glm::dot(triangle.normal, triangle.corners[0])};
             const double before = source.before(plane);
             return std::pair(before >= -source.rounding,
                              triangle.double_sided && before <= source.rounding);
         };
-        for (const std::uint32_t t : crossed_) {
+        const auto lit_at_all = [&](std::size_t t) {
             const auto [lit, lit_behind] = lit_sides(t);
-            if (lit || lit_behind) return false;
-        }
+            return lit || lit_behind;
+        };
+        if (any_crossed(lit_at_all)) return false;
         for (const std::uint32_t t : order()) {
             if (triangles_[t].is_line()) continue;
             const auto [lit, lit_behind] = lit_sides(t);
@@ -159,11 +170,12 @@ private:
         return true;
     }
 
+    const Scene& scene_;
     std::vector<Source> sources_;
     const std::vector<LocalTriangle>& triangles_;
     SupportingPlanes planes_;
-    bool shaded_flat_;
-    std::vector<std::uint32_t> crossed_;  // of some triangles those that stand in the room
+    std::size_t step_;                          // between samples
+    std::vector<std::optional<bool>> crossed_;  // [samples] whether they stand in the room
     std::vector<std::uint32_t> order_;
 };
 

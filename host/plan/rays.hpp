@@ -1,5 +1,5 @@
-// Many rays against all triangles of a scene, on the host and without a tree: for the few thousand
-// rays of an analysis.
+// Many rays against all triangles of a scene, on the host and with boxes but no tree: for the few
+// thousand rays of an analysis.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,6 +9,26 @@
 #include "plan/local_triangles.hpp"
 
 namespace clgi {
+
+// Triangles in boxes, and these boxes in larger ones, as they follow each other in a scene.
+class Blockers {
+public:
+    // triangles: must outlive it.
+    explicit Blockers(const std::vector<LocalTriangle>& triangles);
+
+    static constexpr std::size_t block = 32;  // triangles of a box, and boxes of a larger one
+
+    struct Box {
+        glm::dvec3 low, high;
+    };
+    const std::vector<LocalTriangle>& triangles() const { return triangles_; }
+    const std::vector<Box>& boxes() const { return boxes_; }
+    const std::vector<Box>& larger() const { return larger_; }
+
+private:
+    const std::vector<LocalTriangle>& triangles_;
+    std::vector<Box> boxes_, larger_;
+};
 
 class Rays {
 public:
@@ -20,27 +40,23 @@ public:
              Search search = nearest);
 
     // A ray does not meet what lies in the place of its start, such as its own triangle.
-    void trace(const std::vector<LocalTriangle>& triangles);
+    void trace(const Blockers& blockers);
 
-    std::size_t count() const { return nearest_.size(); }
-    bool met(std::size_t i) const { return met_[i] != nothing; }
-    // Of the nearest triangle.
-    bool met_back(std::size_t i) const { return met_[i] == back; }
+    bool met(std::size_t i) const { return met_[i] != 0; }
+    // Of the nearest triangle, if that was looked for.
     double distance(std::size_t i) const { return nearest_[i]; }
     std::uint32_t triangle(std::size_t i) const { return triangle_[i]; }
 
 private:
-    enum : std::uint8_t { nothing, front, back };
-
-    void choose(const LocalTriangle* first, const LocalTriangle* last);
-    void meet(const LocalTriangle& triangle, std::uint32_t index);
+    using Chosen = std::vector<std::uint32_t>;
+    void choose(const Blockers::Box& box, const Chosen& of, Chosen& out) const;
+    void meet(const LocalTriangle& triangle, std::uint32_t index, const Chosen& rays);
 
     // Planes of rays, so that one triangle is compared with many.
     std::vector<double> from_[3], along_[3], per_along_[3];
     std::vector<double> nearest_;
     std::vector<std::uint8_t> met_, search_;
     std::vector<std::uint32_t> triangle_;
-    std::vector<std::size_t> chosen_;  // that pass through a box before what they have met
 };
 
 }  // namespace clgi

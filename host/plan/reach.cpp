@@ -10,11 +10,7 @@
 
 #include "core/opencl/timing.hpp"
 #include "plan/about.hpp"
-#include "plan/local_triangles.hpp"
-#include "plan/rays.hpp"
 #include "plan/surface_points.hpp"
-#include "scene/emission.hpp"
-#include "scene/local_frame.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
@@ -34,15 +30,14 @@ struct Place {
 
 // Where rays end; those that leave the scene do not.
 std::vector<Place> ends(Rays& rays, const std::vector<Place>& from,
-                        const std::vector<glm::dvec3>& along,
-                        const std::vector<LocalTriangle>& triangles) {
+                        const std::vector<glm::dvec3>& along, const LocalScene& local) {
     for (std::size_t i = 0; i < from.size(); ++i)
         rays.add(from[i].position, along[i], std::numeric_limits<double>::infinity());
-    rays.trace(triangles);
+    rays.trace(local.blockers);
     std::vector<Place> out;
     for (std::size_t i = 0; i < from.size(); ++i) {
         if (!rays.met(i)) continue;
-        const glm::dvec3 normal = triangles[rays.triangle(i)].normal;
+        const glm::dvec3 normal = local.triangles[rays.triangle(i)].normal;
         out.push_back({from[i].position + rays.distance(i) * along[i],
                        glm::dot(normal, along[i]) > 0.0 ? -normal : normal});
     }
@@ -54,10 +49,10 @@ double at(std::size_t i, std::uint32_t base) {
 }
 
 // All places that paths meet, local.
-std::vector<glm::dvec3> met(const std::vector<LocalTriangle>& triangles, const SceneFrame& frame,
-                            const Camera& camera, int width, int height) {
-    const double wished =
-        wished_tests / static_cast<double>(std::max<std::size_t>(surfaces * triangles.size(), 1));
+std::vector<glm::dvec3> met(const LocalScene& local, const Camera& camera, int width, int height) {
+    const SceneFrame& frame = local.frame;
+    const double wished = wished_tests / static_cast<double>(std::max<std::size_t>(
+                                             surfaces * local.triangles.size(), 1));
     const auto paths = static_cast<std::size_t>(std::clamp(wished, fewest_paths, most_paths));
     const View view = make_view(camera, frame, width, height);
     std::vector<Place> places;
@@ -74,7 +69,7 @@ std::vector<glm::dvec3> met(const std::vector<LocalTriangle>& triangles, const S
     }
     for (std::size_t depth = 0; depth < surfaces && !places.empty(); ++depth) {
         Rays rays;
-        places = ends(rays, places, along, triangles);
+        places = ends(rays, places, along, local);
         along.clear();
         for (std::size_t i = 0; i < places.size(); ++i) {
             out.push_back(places[i].position);
@@ -113,10 +108,10 @@ struct Lamps {
     double area = 0.0;                 // local, of these
 };
 
-Lamps lamps_of(const Scene& scene, const SceneFrame& frame,
-               const std::vector<LocalTriangle>& triangles, const glm::dvec3& centre,
+Lamps lamps_of(const Scene& scene, const LocalScene& local, const glm::dvec3& centre,
                double radius) {
     Lamps out;
+    const SceneFrame& frame = local.frame;
     const auto add = [&](double power, const glm::dvec3& place) {
         const bool inside = glm::distance(place, centre) <= radius;
         out.power += power;
@@ -127,13 +122,13 @@ Lamps lamps_of(const Scene& scene, const SceneFrame& frame,
         if (light.kind != Light::Kind::directional)
             add(4.0 * std::numbers::pi * luminance(light.intensity),
                 (light.position - frame.origin) * frame.scale);
-    const EmissionMeans emission(scene);
     const double square = frame.scale * frame.scale;
-    out.emits.assign(triangles.size(), 0.0);
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const LocalTriangle& one = triangles[t];
-        const double radiance = luminance(emission(scene.triangles[t]));
-        if (!(radiance > 0.0) || one.is_line()) continue;
+    out.emits.assign(local.triangles.size(), 0.0);
+    for (std::size_t i = 0; i < local.lights.emissive.size(); ++i) {
+        const std::uint32_t t = local.lights.emissive[i];
+        const LocalTriangle& one = local.triangles[t];
+        if (one.is_line()) continue;
+        const double radiance = local.lights.radiance[i];
         if (!add(std::numbers::pi * radiance * one.area / square,
                  (one.corners[0] + one.corners[1] + one.corners[2]) / 3.0))
             continue;
@@ -144,9 +139,11 @@ Lamps lamps_of(const Scene& scene, const SceneFrame& frame,
 }
 
 // Points on lamps that none of the places sees, by power.
-double hidden_share(const std::vector<LocalTriangle>& triangles, const Lamps& lamps,
+double hidden_share(const LocalScene& local, const Lamps& lamps,
                     const std::vector<glm::dvec3>& places) {
-    const std::vector<SurfacePoint> points = surface_points(triangles, lamps.emits, lamp_points);
+    if (!(lamps.area > 0.0)) return 0.0;
+    const std::vector<SurfacePoint> points =
+        surface_points(local.triangles, lamps.emits, lamp_points);
     Rays rays;
     std::vector<std::size_t> owner;
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -159,7 +156,7 @@ double hidden_share(const std::vector<LocalTriangle>& triangles, const Lamps& la
             rays.add(points[i].position, along, distance - 2.0 * same_place, Rays::any);
             owner.push_back(i);
         }
-    rays.trace(triangles);
+    rays.trace(local.blockers);
     std::vector<bool> seen(points.size(), false);
     for (std::size_t r = 0; r < owner.size(); ++r)
         if (!rays.met(r)) seen[owner[r]] = true;
@@ -174,12 +171,12 @@ double hidden_share(const std::vector<LocalTriangle>& triangles, const Lamps& la
 
 }  // namespace
 
-Reach reach_of(const Scene& scene, const Camera& camera, int width, int height) {
+Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera, int width,
+               int height) {
     const auto start = timing::Clock::now();
     Reach out;
-    const SceneFrame frame = local_frame(bounds(scene));
-    const std::vector<LocalTriangle> triangles = local_triangles(scene);
-    const std::vector<glm::dvec3> places = met(triangles, frame, camera, width, height);
+    const SceneFrame& frame = local.frame;
+    const std::vector<glm::dvec3> places = met(local, camera, width, height);
     out.points = places.size();
     out.sphere = {frame.origin, frame.radius / frame.scale};
     if (places.empty()) return out;
@@ -198,11 +195,11 @@ Reach reach_of(const Scene& scene, const Camera& camera, int width, int height) 
     const double radius = std::max(radius_of_share(places, centre, held), 2.0 * same_place);
     out.sphere = {frame.origin + centre / frame.scale, radius / frame.scale};
     out.size = radius / double{frame.radius};
-    out.area = share_of_area(triangles, centre, beyond * radius);
-    const Lamps lamps = lamps_of(scene, frame, triangles, centre, beyond * radius);
+    out.area = share_of_area(local.triangles, centre, beyond * radius);
+    const Lamps lamps = lamps_of(scene, local, centre, beyond * radius);
     out.power = share(lamps.inside, lamps.power);
     out.emissive_area = lamps.area / (frame.scale * frame.scale);
-    out.hidden = hidden_share(triangles, lamps, places);
+    out.hidden = hidden_share(local, lamps, places);
     out.milliseconds = timing::milliseconds(timing::Clock::now() - start);
     return out;
 }

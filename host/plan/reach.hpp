@@ -6,10 +6,13 @@
 #include <clgi/advanced/reach.hpp>
 #include <clgi/scene.hpp>
 
+#include "plan/local_scene.hpp"
+
 namespace clgi {
 
 // Paths of three surfaces through some hundred pixels, or fewer where there are many triangles.
-// Camera and scene have passed validate().
-Reach reach_of(const Scene& scene, const Camera& camera, int width, int height);
+// The camera has passed validate().
+Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera, int width,
+               int height);
 
 }  // namespace clgi

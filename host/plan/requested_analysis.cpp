@@ -24,11 +24,9 @@ SceneAnalysis requested_analysis(SceneAnalysis analysis, const PlanRequest& requ
             case Effect::area_light:
                 lights.emission = false;
                 lights.emissive_triangles = 0;
-                lights.emissive_area = lights.emissive_power = 0.0;
                 break;
             case Effect::environment_light:
                 lights.environment = false;
-                lights.environment_mean = 0.0;
                 break;
             case Effect::gloss:
                 analysis.surfaces.gloss = analysis.surfaces.glossy_area = 0.0;

@@ -69,8 +69,9 @@ bool SupportingPlanes::crossed(std::size_t triangle) const {
         const double slack = 4.0 * same_place * (1.0 + glm::distance(p, corner) / of.height);
         above = above || distance > slack;
         below = below || distance < -slack;
+        if (above && below) return true;
     }
-    return above && below;
+    return false;
 }
 
 bool SupportingPlanes::spend(std::size_t tests) {

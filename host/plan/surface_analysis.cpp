@@ -3,7 +3,6 @@
 #include <array>
 #include <clgi/device_scene.hpp>
 #include <cmath>
-#include <limits>
 
 #include "plan/one_colour.hpp"
 #include "plan/parts.hpp"
@@ -15,8 +14,11 @@ namespace clgi {
 namespace {
 
 constexpr double least_gloss = 1e-4;  // as DeviceScene::has_lobes has it
-// Up to so many triangles are looked at in nine points each, more in one: there are enough of them.
+// Up to so many triangles are looked at in nine points each. Of more, each counts with a mean of
+// its whole texture.
 constexpr std::size_t few_triangles = 30000;
+constexpr int points_along = 3;
+constexpr int most_along = 64;  // texels of a mean, along a side
 
 double double_of(std::uint8_t byte) { return byte / 255.0; }
 
@@ -60,14 +62,6 @@ bool has_holes(const Scene& scene, const Material& material, const MaterialUse& 
     return !(least >= double{material.alpha_cutoff});
 }
 
-double longest_edge(const Scene& scene, const SceneTriangle& triangle) {
-    double out = 0.0;
-    for (int k = 0; k < 3; ++k)
-        out = std::max(out, glm::distance(scene.positions[triangle.vertex[k]],
-                                          scene.positions[triangle.vertex[(k + 1) % 3]]));
-    return out;
-}
-
 // [materials]
 std::vector<Reflectance> reflectances_of(const Scene& scene) {
     std::vector<Reflectance> out;
@@ -76,91 +70,132 @@ std::vector<Reflectance> reflectances_of(const Scene& scene) {
     return out;
 }
 
-// Areas and what they reflect, as sums; then as means and shares.
-void add_areas(const Scene& scene, const std::vector<TriangleAlbedo>& albedos,
-               SurfaceAnalysis& out) {
-    const std::vector<Reflectance> reflectances = reflectances_of(scene);
-    double gloss = 0.0, least = std::numeric_limits<double>::infinity();
-    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
-        const double area = triangle_area(scene, scene.triangles[t]);
-        const TriangleAlbedo& albedo = albedos[t];
-        const Material& material = scene.materials[scene.triangles[t].material];
-        const Reflectance& shares = reflectances[scene.triangles[t].material];
-        out.area += area;
-        out.mean_albedo += area * albedo.all;
-        gloss += area * luminance(albedo.gloss);
-        if (double{shares.coat} + double{shares.lobe} > least_gloss) out.glossy_area += area;
-        if (material.double_sided) out.double_sided_area += area;
-        if (!(area > 0.0)) continue;
-        for (int c = 0; c < 3; ++c) {
-            least = std::min(least, albedo.least[c]);
-            out.largest_albedo = std::max(out.largest_albedo, albedo.most[c]);
-        }
-    }
-    if (!(out.area > 0.0)) return;
-    out.smallest_albedo = least;
-    const double reflected = luminance(out.mean_albedo);
-    if (reflected > 0.0) out.gloss = gloss / reflected;
-    out.mean_albedo /= out.area;
-    out.glossy_area /= out.area;
-    out.double_sided_area /= out.area;
-}
-
 // Per channel, linear.
-struct Texels {
-    glm::dvec3 darkest = glm::dvec3(1.0), brightest = glm::dvec3(1.0);
-};
-
-Texels texels_of(const Texture& texture, const std::vector<float>& srgb) {
+glm::dvec3 brightest_texel(const Texture& texture, const std::vector<float>& srgb) {
     // Of 16 texels next to each other: vectors of bytes.
-    std::array<std::uint8_t, 64> least, most;
-    least.fill(255);
+    std::array<std::uint8_t, 64> most;
     most.fill(0);
-    const auto take = [&](std::size_t c, std::uint8_t low, std::uint8_t high) {
-        least[c] = std::min(least[c], low);
-        most[c] = std::max(most[c], high);
-    };
+    const auto take = [&](std::size_t c, std::uint8_t byte) { most[c] = std::max(most[c], byte); };
     const std::vector<std::uint8_t>& bytes = texture.rgba;
     std::size_t i = 0;
     for (; i + most.size() <= bytes.size(); i += most.size())
-        for (std::size_t c = 0; c < most.size(); ++c) take(c, bytes[i + c], bytes[i + c]);
-    for (; i < bytes.size(); ++i) take(i % 4, bytes[i], bytes[i]);
-    for (std::size_t c = 4; c < most.size(); ++c) take(c % 4, least[c], most[c]);
+        for (std::size_t c = 0; c < most.size(); ++c) take(c, bytes[i + c]);
+    for (; i < bytes.size(); ++i) take(i % 4, bytes[i]);
+    for (std::size_t c = 4; c < most.size(); ++c) take(c % 4, most[c]);
     const auto linear = [&](std::uint8_t byte) {
         return texture.srgb ? double{srgb[byte]} : double_of(byte);
     };
-    return {{linear(least[0]), linear(least[1]), linear(least[2])},
-            {linear(most[0]), linear(most[1]), linear(most[2])}};
+    return {linear(most[0]), linear(most[1]), linear(most[2])};
+}
+
+// Linear, of texels that are spread evenly.
+glm::dvec3 mean_of_some(const Texture& texture) {
+    const TextureMean texels(texture, false);
+    const int side = std::min(most_along, std::max(texture.width, texture.height));
+    glm::dvec3 sum(0.0);
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column)
+            sum += texels.at((glm::dvec2(column, row) + 0.5) / static_cast<double>(side));
+    return sum / (static_cast<double>(side) * side);
 }
 
 // [textures] 1 where no base colour reads them.
-std::vector<Texels> darkest_and_brightest(const Scene& scene) {
+std::vector<glm::dvec3> brightest_texels(const Scene& scene) {
     const std::vector<float> srgb = srgb_decode_table();
     std::vector<bool> read(scene.textures.size());
     for (const Material& material : scene.materials)
         if (material.base_texture.texture >= 0)
             read[static_cast<std::size_t>(material.base_texture.texture)] = true;
-    std::vector<Texels> out(scene.textures.size());
+    std::vector<glm::dvec3> out(scene.textures.size(), glm::dvec3(1.0));
     for (std::size_t index = 0; index < out.size(); ++index)
-        if (read[index]) out[index] = texels_of(scene.textures[index], srgb);
+        if (read[index]) out[index] = brightest_texel(scene.textures[index], srgb);
     return out;
 }
 
 // What the colours at its corners make of a triangle's base colour.
 struct VertexColours {
-    glm::dvec3 mean = glm::dvec3(1.0), least = glm::dvec3(1.0), most = glm::dvec3(1.0);
+    glm::dvec3 mean = glm::dvec3(1.0), most = glm::dvec3(1.0);
 };
 VertexColours vertex_colours(const Scene& scene, const SceneTriangle& triangle) {
     if (scene.colors.empty()) return {};
-    VertexColours out{glm::dvec3(0.0), glm::dvec3(std::numeric_limits<double>::infinity()),
-                      glm::dvec3(0.0)};
+    VertexColours out{glm::dvec3(0.0), glm::dvec3(0.0)};
     for (const std::uint32_t vertex : triangle.vertex) {
         const glm::dvec3 color(scene.colors[vertex]);
         out.mean += color / 3.0;
-        out.least = glm::min(out.least, color);
         out.most = glm::max(out.most, color);
     }
     return out;
+}
+
+// What a triangle reflects of what meets it, per channel.
+struct TriangleAlbedo {
+    glm::dvec3 all;    // diffuse and gloss
+    glm::dvec3 gloss;  // of lobe and coat alone
+    glm::dvec3 most;   // no point of it reflects more
+};
+
+class TriangleAlbedos {
+public:
+    explicit TriangleAlbedos(const Scene& scene)
+        : scene_(scene),
+          base_colors_(scene, false),
+          brightest_(brightest_texels(scene)),
+          reflectances_(reflectances_of(scene)) {
+        if (scene.triangles.size() <= few_triangles) return;
+        for (const Texture& texture : scene.textures) means_.push_back(mean_of_some(texture));
+    }
+
+    TriangleAlbedo operator()(const SceneTriangle& triangle) const {
+        const Material& material = scene_.materials[triangle.material];
+        const Reflectance& shares = reflectances_[triangle.material];
+        const VertexColours colours = vertex_colours(scene_, triangle);
+        const glm::dvec3 color(material.base_color);
+        glm::dvec3 base = color * colours.mean, most = color * colours.most;
+        if (material.base_texture.texture >= 0) {
+            const auto texture = static_cast<std::size_t>(material.base_texture.texture);
+            base = means_.empty() ? base_colors_.estimate(triangle, points_along) * colours.mean
+                                  : base * means_[texture];
+            most *= brightest_[texture];
+        }
+        const double coat = shares.coat, lobe = shares.lobe, diffuse = shares.diffuse;
+        const glm::dvec3 gloss = base * lobe + coat;
+        return {base * diffuse + gloss, gloss, most * (diffuse + lobe) + coat};
+    }
+
+    double gloss_of(std::uint32_t material) const {
+        return double{reflectances_[material].coat} + double{reflectances_[material].lobe};
+    }
+
+private:
+    const Scene& scene_;
+    BaseColorMeans base_colors_;
+    std::vector<glm::dvec3> brightest_, means_;  // [textures]; no means: points of each triangle
+    std::vector<Reflectance> reflectances_;      // [materials]
+};
+
+// Areas and what they reflect, as sums; then as shares.
+void add_areas(const Scene& scene, SurfacesFound& found) {
+    const TriangleAlbedos albedos(scene);
+    SurfaceAnalysis& out = found.analysis;
+    found.reflects.reserve(scene.triangles.size());
+    double gloss = 0.0, reflected = 0.0;
+    for (const SceneTriangle& triangle : scene.triangles) {
+        const double area = triangle_area(scene, triangle);
+        const TriangleAlbedo albedo = albedos(triangle);
+        found.reflects.push_back(std::max({albedo.all.x, albedo.all.y, albedo.all.z}));
+        out.area += area;
+        reflected += area * luminance(albedo.all);
+        gloss += area * luminance(albedo.gloss);
+        if (albedos.gloss_of(triangle.material) > least_gloss) out.glossy_area += area;
+        if (scene.materials[triangle.material].double_sided) out.double_sided_area += area;
+        if (!(area > 0.0)) continue;
+        for (int c = 0; c < 3; ++c)
+            out.largest_albedo = std::max(out.largest_albedo, albedo.most[c]);
+    }
+    if (!(out.area > 0.0)) return;
+    if (reflected > 0.0) out.gloss = gloss / reflected;
+    out.glossy_area /= out.area;
+    out.double_sided_area /= out.area;
 }
 
 }  // namespace
@@ -171,57 +206,22 @@ double triangle_area(const Scene& scene, const SceneTriangle& triangle) {
                                         scene.positions[triangle.vertex[2]] - a));
 }
 
-std::vector<TriangleAlbedo> triangle_albedos(const Scene& scene) {
-    const BaseColorMeans base_colors(scene, false);
-    const int side = scene.triangles.size() <= few_triangles ? 3 : 1;
-    const std::vector<Texels> texels = darkest_and_brightest(scene);
-    const std::vector<Reflectance> reflectances = reflectances_of(scene);
-    std::vector<TriangleAlbedo> out;
-    out.reserve(scene.triangles.size());
-    for (const SceneTriangle& triangle : scene.triangles) {
-        const Material& material = scene.materials[triangle.material];
-        const Reflectance& shares = reflectances[triangle.material];
-        const VertexColours colours = vertex_colours(scene, triangle);
-        const glm::dvec3 base = base_colors.estimate(triangle, side) * colours.mean;
-        const glm::dvec3 color(material.base_color);
-        const int texture = material.base_texture.texture;
-        const Texels read = texture >= 0 ? texels[static_cast<std::size_t>(texture)] : Texels();
-        const glm::dvec3 least = color * colours.least * read.darkest;
-        const glm::dvec3 most = color * colours.most * read.brightest;
-        const double coat = shares.coat, lobe = shares.lobe, diffuse = shares.diffuse;
-        const glm::dvec3 gloss = base * lobe + coat;
-        const auto reflected = [&](const glm::dvec3& of) { return of * (diffuse + lobe) + coat; };
-        out.push_back({base * diffuse + gloss, gloss, reflected(least), reflected(most)});
-    }
-    return out;
-}
-
-SurfaceAnalysis surface_analysis(const Scene& scene, const std::vector<LocalTriangle>& triangles,
-                                 const std::vector<TriangleAlbedo>& albedos) {
-    SurfaceAnalysis out;
+SurfacesFound surface_analysis(const Scene& scene, const std::vector<LocalTriangle>& triangles) {
+    SurfacesFound found;
+    SurfaceAnalysis& out = found.analysis;
     out.triangles = scene.triangles.size();
     out.vertices = scene.positions.size();
     out.degenerate = static_cast<std::size_t>(
         std::count_if(triangles.begin(), triangles.end(),
                       [](const LocalTriangle& triangle) { return triangle.is_line(); }));
-    add_areas(scene, albedos, out);
+    add_areas(scene, found);
     const std::vector<MaterialUse> uses = uses_of(scene);
     for (std::size_t m = 0; m < uses.size(); ++m) {
         if (!uses[m].used) continue;
         out.textures = out.textures || has_textures(scene, scene.materials[m]);
         out.cutouts = out.cutouts || has_holes(scene, scene.materials[m], uses[m]);
     }
-    std::vector<double> edges;
-    for (const SceneTriangle& triangle : scene.triangles)
-        if (triangle_area(scene, triangle) > 0.0) edges.push_back(longest_edge(scene, triangle));
-    if (edges.empty()) return out;
-    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-    std::nth_element(edges.begin(), middle, edges.end());
-    out.median_edge = *middle;
-    const auto [least, most] = std::minmax_element(edges.begin(), edges.end());
-    out.smallest_edge = *least;
-    out.largest_edge = *most;
-    return out;
+    return found;
 }
 
 }  // namespace clgi

@@ -8,7 +8,6 @@
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include "lab/scenes/interiors.hpp"
 
 #include "convex_scenes.hpp"
@@ -19,8 +18,6 @@ namespace clgi {
 namespace {
 
 using test::Proven;
-
-using std::numbers::pi;
 
 // Surfaces are shaded flat, unless told.
 void expect_proven(const Scene& scene, const Proven& wanted, const std::string& name,
@@ -134,14 +131,13 @@ TEST(MotionAnalysis, AreWhatClipsMove) {
     const std::vector<float> still(9, 0.0f), there_and_back = {0, 0, 0, 0, 3, 0, 0, 0, 0};
     const SceneAnalysis moved = scene_analysis(driven(room, there_and_back));
     EXPECT_TRUE(moved.motion.geometry);
-    EXPECT_EQ(moved.motion.moving_triangles, 12u);
-    EXPECT_NEAR(moved.motion.travel, std::sqrt(3.0), 1e-6);  // the middle key is a sampled time
+    EXPECT_EQ(moved.motion.moving_area, 1.0);
     EXPECT_FALSE(moved.lights.moving);
     expect_proven(driven(room, there_and_back), {false, false, false}, "moved");
 
     const SceneAnalysis stays = scene_analysis(driven(room, still));
     EXPECT_FALSE(stays.motion.geometry);
-    EXPECT_EQ(stays.motion.travel, 0.0);
+    EXPECT_EQ(stays.motion.moving_area, 0.0);
     expect_proven(driven(room, still), {true, false, true}, "held where it is");
     Scene held = driven(room, still);
     held.animation->nodes[0].translation.y = 3.0;  // and the curve holds it elsewhere
@@ -180,10 +176,8 @@ TEST(MotionAnalysis, OfSkinsAreThoseOfTheirJoints) {
     const Scene strip = test::strip_draft("JOINTS_0", "WEIGHTS_0", shares).load();
     const MotionAnalysis analysis = scene_analysis(strip).motion;
     EXPECT_TRUE(analysis.geometry);
-    EXPECT_EQ(analysis.moving_triangles, 2u);
     EXPECT_NEAR(analysis.moving_area, 0.5, 1e-6);  // of two squares
     EXPECT_FALSE(analysis.moving_emission);
-    EXPECT_NEAR(analysis.travel, std::sqrt(2.0 / 5.0), 1e-6);
 }
 
 TEST(SurfaceAnalysis, AreSumsOverTriangles) {
@@ -201,9 +195,6 @@ TEST(SurfaceAnalysis, AreSumsOverTriangles) {
     EXPECT_EQ(analysis.triangles, 5u);
     EXPECT_EQ(analysis.degenerate, 1u);
     EXPECT_NEAR(analysis.area, 4.0, 1e-12);
-    const glm::dvec3 mean((0.2 + 1.5) / 4, (0.4 + 0.75) / 4, (0.8 + 3.0) / 4);
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(analysis.mean_albedo[c], mean[c], 1e-7) << c;
-    EXPECT_NEAR(analysis.smallest_albedo, 0.2, 1e-7);
     EXPECT_NEAR(analysis.largest_albedo, 1.0, 1e-7);
     const auto luminance = [](double r, double g, double b) {
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -211,23 +202,23 @@ TEST(SurfaceAnalysis, AreSumsOverTriangles) {
     EXPECT_NEAR(analysis.gloss, 0.75 * luminance(1.5, 0.75, 3.0) / luminance(1.7, 1.15, 3.8), 1e-6);
     EXPECT_NEAR(analysis.glossy_area, 0.75, 1e-12);
     EXPECT_NEAR(analysis.double_sided_area, 0.75, 1e-12);
-    EXPECT_NEAR(analysis.smallest_edge, std::sqrt(2.0), 1e-12);
-    EXPECT_NEAR(analysis.median_edge, std::sqrt(10.0), 1e-12);
-    EXPECT_NEAR(analysis.largest_edge, std::sqrt(10.0), 1e-12);
     EXPECT_FALSE(analysis.textures);
     EXPECT_FALSE(analysis.cutouts);
 
     // A dielectric's coat is white: 0.04 (1 - a).
     scene.materials[1].metallic = 0.0f;
-    EXPECT_NEAR(scene_analysis(scene).surfaces.mean_albedo.x, (0.2 + 3.0 * (0.5 * 0.97 + 0.03)) / 4,
-                1e-7);
-    scene.colors.assign(scene.positions.size(), glm::vec4(0.5f, 1.0f, 1.0f, 1.0f));
+    const auto with_coat = [&](double r, double g, double b) {
+        return 0.97 * luminance(r, g, b) + 0.03;
+    };
+    EXPECT_NEAR(scene_analysis(scene).surfaces.gloss,
+                3.0 * 0.03 / (luminance(0.2, 0.4, 0.8) + 3.0 * with_coat(0.5, 0.25, 1.0)), 1e-6);
+    scene.colors.assign(scene.positions.size(), glm::vec4(0.5f, 1.0f, 0.25f, 1.0f));
     const SurfaceAnalysis coloured = scene_analysis(scene).surfaces;
-    EXPECT_NEAR(coloured.mean_albedo.x, (0.1 + 3.0 * (0.25 * 0.97 + 0.03)) / 4, 1e-7);
-    EXPECT_NEAR(coloured.smallest_albedo, 0.1, 1e-7);
-    EXPECT_NEAR(coloured.largest_albedo, 0.97 + 0.03, 1e-7);
-    scene.colors[0].r = 0.25f;
-    EXPECT_NEAR(scene_analysis(scene).surfaces.smallest_albedo, 0.05, 1e-7);
+    EXPECT_NEAR(coloured.gloss,
+                3.0 * 0.03 / (luminance(0.1, 0.4, 0.2) + 3.0 * with_coat(0.25, 0.25, 0.25)), 1e-6);
+    EXPECT_NEAR(coloured.largest_albedo, 0.4, 1e-7);
+    scene.colors[0].b = 1.0f;  // of a corner
+    EXPECT_NEAR(scene_analysis(scene).surfaces.largest_albedo, 0.8, 1e-7);
 }
 
 // A tile with a texture of two texels, left and right.
@@ -250,10 +241,6 @@ TEST(SurfaceAnalysis, ReadTextures) {
     Scene scene = textured({255, 0, 51, 255, 255, 255, 51, 255});
     SurfaceAnalysis analysis = scene_analysis(scene).surfaces;
     EXPECT_TRUE(analysis.textures);
-    EXPECT_NEAR(analysis.mean_albedo.x, 0.5, 1e-7);
-    EXPECT_NEAR(analysis.mean_albedo.y, 0.25, 1e-7);
-    EXPECT_NEAR(analysis.mean_albedo.z, 0.1, 1e-7);
-    EXPECT_NEAR(analysis.smallest_albedo, 0.0, 1e-7) << "of the darkest texel";
     EXPECT_NEAR(analysis.largest_albedo, 0.5, 1e-7) << "of the brightest texel";
     scene.materials.push_back(scene.materials[0]);
     scene.materials[0].base_texture.texture = -1;
@@ -263,7 +250,7 @@ TEST(SurfaceAnalysis, ReadTextures) {
         1e-7);
     analysis = scene_analysis(textured({9, 8, 7, 255, 9, 8, 7, 0})).surfaces;
     EXPECT_FALSE(analysis.textures);
-    EXPECT_NEAR(analysis.smallest_albedo, 0.5 * 7 / 255, 1e-7);
+    EXPECT_NEAR(analysis.largest_albedo, 0.5 * 9 / 255, 1e-7);
 
     scene = textured({9, 8, 7, 255, 9, 8, 7, 102});  // alpha 0.4
     EXPECT_FALSE(scene_analysis(scene).surfaces.cutouts);
@@ -277,6 +264,17 @@ TEST(SurfaceAnalysis, ReadTextures) {
     scene.colors.clear();
     scene.materials[0].base_color.a = 0.5f;
     EXPECT_TRUE(scene_analysis(scene).surfaces.cutouts);
+}
+
+// Where there are many triangles, each counts with the mean of its texture.
+TEST(SurfaceAnalysis, OfManyTrianglesHaveTheMeanOfTheirTextures) {
+    Scene scene = textured({255, 0, 51, 255, 255, 255, 51, 255});
+    scene.materials[0].roughness = 0.5f;
+    const double gloss = scene_analysis(scene).surfaces.gloss;
+    EXPECT_GT(gloss, 0.05);
+    while (scene.triangles.size() <= 30000)
+        for (const std::size_t t : {0, 1}) scene.triangles.push_back(scene.triangles[t]);
+    EXPECT_NEAR(scene_analysis(scene).surfaces.gloss, gloss, 1e-6);
 }
 
 TEST(LightAnalysis, AreSumsOverLights) {
@@ -293,26 +291,20 @@ TEST(LightAnalysis, AreSumsOverLights) {
     EXPECT_EQ(analysis.directional, 2u);
     EXPECT_EQ(analysis.spots, 3u);
     EXPECT_EQ(analysis.emissive_triangles, 0u);
-    EXPECT_EQ(analysis.emissive_power, 0.0);
     EXPECT_FALSE(analysis.environment);
 
     scene.materials.push_back(scene.materials[0]);
     scene.materials[1].emission = {1.0f, 2.0f, 3.0f};
     scene.triangles[3].material = 1;
-    const double luminance = 0.2126 + 2.0 * 0.7152 + 3.0 * 0.0722;
     analysis = scene_analysis(scene).lights;
     EXPECT_EQ(analysis.emissive_triangles, 1u);
-    EXPECT_NEAR(analysis.emissive_area, 0.5, 1e-12);
-    EXPECT_NEAR(analysis.emissive_power, pi * luminance * 0.5, 1e-6);
-    scene.materials[1].double_sided = true;
-    EXPECT_NEAR(scene_analysis(scene).lights.emissive_power, pi * luminance, 1e-6);
-    EXPECT_NEAR(scene_analysis(scene).lights.emissive_area, 0.5, 1e-12);
+    scene.lights.clear();
+    EXPECT_TRUE(scene_analysis(scene).lights.any_direct());
 
     // The upper half of the sphere has (2,4,6), the lower one nothing.
     scene.environment = Environment{1, 2, {glm::vec3(1, 2, 3), glm::vec3(0)}, glm::vec3(2.0f)};
     analysis = scene_analysis(scene).lights;
     EXPECT_TRUE(analysis.environment);
-    EXPECT_NEAR(analysis.environment_mean, luminance, 1e-6);
     scene.environment->factor = glm::vec3(0.0f);
     EXPECT_FALSE(scene_analysis(scene).lights.environment);
 }
@@ -333,12 +325,11 @@ TEST(SceneAnalysis, OfGeneratedScenesAreKnown) {
     EXPECT_EQ(sealed.openness, 0.0);
     EXPECT_EQ(open.lights.emissive_triangles, 2u);
     EXPECT_EQ(sealed.lights.spots, 1u);
-    EXPECT_NEAR(sealed.size, std::sqrt(17.0), 1e-9);
     EXPECT_GT(scene_analysis(glossy_box()).surfaces.gloss, 0.0);
     const SceneAnalysis walks = scene_analysis(character());
     EXPECT_TRUE(walks.motion.geometry);
-    EXPECT_GT(walks.motion.travel, 0.05);
-    EXPECT_LT(walks.motion.moving_triangles, walks.surfaces.triangles);
+    EXPECT_GT(walks.motion.moving_area, 0.0);
+    EXPECT_LT(walks.motion.moving_area, 0.1);
 }
 
 TEST(SceneAnalysis, OfCollectedFilesAreKnown) {
@@ -348,13 +339,12 @@ TEST(SceneAnalysis, OfCollectedFilesAreKnown) {
     const SceneAnalysis area = of("cornell/cornell-box.gltf"),
                         spot = of("cornell/cornell-box-spot.glb");
     EXPECT_FALSE(area.proof.surfaces_open || area.lights.moving || area.motion.geometry);
-    EXPECT_NEAR(area.lights.emissive_power,
-                pi * 0.130 * 0.105 * (17 * 0.2126 + 12 * 0.7152 + 4 * 0.0722), 1e-3);
+    EXPECT_EQ(area.lights.emissive_triangles, 2u);
     EXPECT_TRUE(spot.lights.moving);
     EXPECT_FALSE(spot.motion.geometry);
     const SceneAnalysis man = of("animated/CesiumMan.glb");
     EXPECT_TRUE(man.motion.geometry && man.surfaces.textures && !man.proof.surfaces_open);
-    EXPECT_EQ(man.motion.moving_triangles, man.surfaces.triangles);
+    EXPECT_NEAR(man.motion.moving_area, 1.0, 1e-9);
 }
 
 TEST(SceneAnalysis, RefuseABrokenScene) {

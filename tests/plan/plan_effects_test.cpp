@@ -15,11 +15,10 @@ SceneAnalysis everything() {
     SceneAnalysis out;
     out.lights.points = out.lights.spots = out.lights.directional = 1;
     out.lights.emission = true;
-    out.lights.emissive_power = 3.0;
+    out.lights.emissive_triangles = 3;
     out.lights.environment = true;
     out.lights.moving = true;
     out.surfaces.triangles = 100;
-    out.surfaces.mean_albedo = {0.5, 0.2, 0.1};
     out.surfaces.largest_albedo = 0.5;
     out.surfaces.gloss = 0.1;
     out.surfaces.glossy_area = 0.5;

@@ -60,7 +60,7 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
     // Little moves, of many triangles: what stands still is baked.
     const auto walks = [](SceneAnalysis& f, PlanRequest& w) {
         f.surfaces.triangles = 500000;
-        f.motion = {true, 2000, 0.02, false, 0.1};
+        f.motion = {true, 0.02, false};
         w.animated = true;
     };
     EXPECT_EQ(method(walks), Method::light_atlas);
@@ -279,7 +279,7 @@ TEST(Plan, ComposesABakeOfWhatStandsStill) {
     const cl::Device& device = test::device().device;
     SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
     analysis.surfaces.triangles = 300000;
-    analysis.motion = {true, 2000, 0.02, false, 0.1};
+    analysis.motion = {true, 0.02, false};
     PlanRequest request;
     request.animated = true;
     const Plan plan = make_plan(device, analysis, request);
