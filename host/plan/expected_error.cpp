@@ -14,19 +14,12 @@ namespace {
 // Of direct light where no probe was taken: about what closed rooms have.
 constexpr double usual_direct_error = 0.03;
 
-// Direct light of points and directions with nothing that shadows it is exact, and so is none.
-bool exact_direct_light(const Plan& plan) {
-    if (!(plan.analysis.surfaces.largest_albedo > 0.0)) return true;
-    return !plan.on(Effect::direct_shadows) && !plan.on(Effect::area_light) &&
-           !plan.on(Effect::environment_light);
-}
-
 // Geometry that moves through a bake casts no indirect shadow and is lit by a few points of a
 // volume: by how much that changes a picture, as measured (docs/results/plans.md).
 constexpr double moving_error = 0.05;
 
 double direct_error(const Plan& plan) {
-    if (exact_direct_light(plan)) return 0.0;
+    if (has_exact_direct_light(plan)) return 0.0;
     const double usual = plan.probe ? plan.probe->direct_error : usual_direct_error;
     return usual / std::sqrt(fineness_of(plan));
 }
@@ -48,6 +41,12 @@ std::optional<double> indirect_error(const Plan& plan, const Preset& preset) {
 }
 
 }  // namespace
+
+bool has_exact_direct_light(const Plan& plan) {
+    if (!(plan.analysis.surfaces.largest_albedo > 0.0)) return true;  // none is
+    return !plan.on(Effect::direct_shadows) && !plan.on(Effect::area_light) &&
+           !plan.on(Effect::environment_light);
+}
 
 std::optional<double> expected_error(const Plan& plan, const Preset& preset) {
     if (gathers_the_sky(plan)) {
@@ -73,9 +72,9 @@ bool left_out_by_request(const Plan& plan) {
 std::string evidence_of_error(const Plan& plan) {
     const std::string kind = name_of(kind_of(plan));
     if (gathers_the_sky(plan)) return "measured in " + kind + " scenes";
-    const std::string direct = exact_direct_light(plan) ? "direct light is exact"
-                               : plan.probe             ? "direct light by a probe"
-                                                        : "direct light as in closed rooms";
+    const std::string direct = has_exact_direct_light(plan) ? "direct light is exact"
+                               : plan.probe                 ? "direct light by a probe"
+                                                            : "direct light as in closed rooms";
     if (!plan.on(Effect::first_bounce)) return direct;
     return "indirect light as measured in " + kind + " scenes, " +
            (is_composed(plan) ? "of what moves as in an office, " : "") + direct;

@@ -16,6 +16,9 @@ namespace clgi {
 // is. None where nothing was measured. plan: as the preset sets it.
 std::optional<double> expected_error(const Plan& plan, const Preset& preset);
 
+// Whether direct light has no error: of points and directions with nothing that shadows it.
+bool has_exact_direct_light(const Plan& plan);
+
 // Whether the plan lacks an effect because of the request: then its error against all light is not
 // known, but errors of settings can be compared.
 bool left_out_by_request(const Plan& plan);

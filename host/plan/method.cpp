@@ -52,6 +52,8 @@ void drop_too_slow_to_begin(std::vector<Candidate>& candidates) {
 
 void choose_method(const cl::Device& device, Plan& plan) {
     const Choice choice = methods_for(plan);
+    const EffectChoices effects = plan.effects;
+    for (EffectChoice& effect : plan.effects) effect.why.clear();  // candidates are many copies
     std::vector<Candidate> candidates;
     for (const Preset& preset : presets()) {
         if (std::find(choice.methods.begin(), choice.methods.end(), preset.method) ==
@@ -107,6 +109,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
     const Candidate best = choose();
 
     plan = best.plan;
+    plan.effects = effects;
     plan.why = !request.method && is_composed(plan) ? "little moves through light that is baked"
                                                     : choice.why;
     if (!left_out_by_request(plan)) plan.error = best.error;

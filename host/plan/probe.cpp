@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/opencl/timing.hpp"
+#include "plan/expected_error.hpp"
 #include "plan/picture_luminance.hpp"
 #include "scene/luminance.hpp"
 
@@ -35,48 +36,55 @@ double reflected_flux(const cl::CommandQueue& queue, const SecondOrderSolver& so
     return out;
 }
 
+// The size of its pictures: a fourth of the pixels, so that they take less than the one to come.
+void make_small(SecondOrderOptions& options, const PlanRequest& request) {
+    const double longest = std::max(request.width, request.height);
+    const double shrink = std::min(0.5, longest_side / longest);
+    options.width = std::max(1, static_cast<int>(std::lround(request.width * shrink)));
+    options.height = std::max(1, static_cast<int>(std::lround(request.height * shrink)));
+}
+
 }  // namespace
 
 ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
                   const Camera& camera, const Plan& plan) {
-    const PlanRequest& request = plan.request;
     SecondOrderOptions options;
-    const double shrink =
-        std::min(1.0, static_cast<double>(longest_side) / std::max(request.width, request.height));
-    options.width = std::max(1, static_cast<int>(std::lround(request.width * shrink)));
-    options.height = std::max(1, static_cast<int>(std::lround(request.height * shrink)));
+    make_small(options, plan.request);
     options.emitters.vpls = probe_vpls;
     make_fine(options.emitters, coarse);
     options.negative_vpls = 0;
     options.low_resolution_step = 1;
-    options.build = request.build;
+    options.build = plan.request.build;
     options.indirect = plan.on(Effect::first_bounce);
     SecondOrderSolver solver(programs, queue, scene, options);
+    const auto picture = [&] { return picture_luminance(queue, solver, solver.render(camera)); };
     const auto start = timing::Clock::now();  // kernels are built
-    const std::vector<double> lit = picture_luminance(queue, solver, solver.render(camera));
-    const double flux = options.indirect ? reflected_flux(queue, solver) : 0.0;
-    const bool unseen = options.indirect && !(flux > 0.0);
-    options.indirect = false;
-    solver.reconfigure(options);
-    const std::vector<double> direct = picture_luminance(queue, solver, solver.render(camera));
-
-    make_fine(options.emitters, 2.0 * coarse);
-    solver.reconfigure(options);
-    const std::vector<double> finer = picture_luminance(queue, solver, solver.render(camera));
-
-    const SceneFrame& frame = scene.frame();
-    const double lumen = flux * frame.exposure / (frame.scale * frame.scale);
-    const double radiance = lumen / (std::numbers::pi * plan.analysis.surfaces.area);
     ProbeResult out;
+    const std::vector<double> lit = picture();
     const double level = mean(lit);
     // A picture without light tells nothing about light that arrives over more bounces, and VPLs
     // without light nothing about what lights the picture.
-    out.first_bounce = out.reflected = out.direct_error = std::numeric_limits<double>::infinity();
-    if (level > 0.0)
-        out.direct_error = std::sqrt(coarse * mean_square_difference(direct, finer)) / level;
-    if (level > 0.0 && !unseen) {
-        out.first_bounce = std::sqrt(mean_square_difference(lit, direct)) / level;
-        out.reflected = radiance / level;
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    const auto over_level = [&](double what) { return level > 0.0 ? what / level : unknown; };
+    std::vector<double> direct = lit;
+    if (options.indirect) {
+        const double flux = reflected_flux(queue, solver);
+        options.indirect = false;
+        solver.reconfigure(options);
+        direct = picture();
+        const SceneFrame& frame = scene.frame();
+        const double lumen = flux * frame.exposure / (frame.scale * frame.scale);
+        const bool seen = flux > 0.0;
+        out.first_bounce =
+            seen ? over_level(std::sqrt(mean_square_difference(lit, direct))) : unknown;
+        out.reflected =
+            seen ? over_level(lumen / (std::numbers::pi * plan.analysis.surfaces.area)) : unknown;
+    }
+    if (!has_exact_direct_light(plan)) {
+        make_fine(options.emitters, 2.0 * coarse);
+        solver.reconfigure(options);
+        out.direct_error =
+            over_level(std::sqrt(coarse * mean_square_difference(direct, picture())));
     }
     out.milliseconds = timing::milliseconds(timing::Clock::now() - start);
     return out;

@@ -1,4 +1,4 @@
-// Two small pictures that tell what indirect light is worth.
+// Small pictures that tell what indirect light is worth.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -9,8 +9,9 @@
 
 namespace clgi {
 
-// A picture with a bounce that nothing shadows, one with direct light alone, and one with finer
-// direct light. scene: the planned_scene() of the plan so far.
+// A picture with a bounce that nothing shadows and one with direct light alone, if indirect light
+// is on; and one with finer direct light, if that is not exact. scene: the planned_scene() of the
+// plan so far.
 ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const DeviceScene& scene,
                   const Camera& camera, const Plan& plan);
 

@@ -63,6 +63,7 @@ std::shared_ptr<const Planned> make_render_plan(const RenderFlags& flags, const 
     plan = make_plan(session.queue, programs, scene,
                      scene.cameras[static_cast<std::size_t>(flags.camera)], plan_request(flags));
     planned->milliseconds = plan.analysis.milliseconds;
+    if (plan.reach) planned->milliseconds += plan.reach->milliseconds;
     if (plan.probe) planned->milliseconds += plan.probe->milliseconds;
     scene = planned_scene(scene, plan);
     notice(flags.device.quiet, "plan: " + plan_line(plan));

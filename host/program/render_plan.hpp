@@ -11,7 +11,7 @@ namespace clgi::program {
 
 struct Planned {
     Plan plan;
-    double milliseconds = 0.0;  // that analysis and probe took
+    double milliseconds = 0.0;  // that analysis, reach and probe took
 };
 
 // What the flags ask of a plan. Throws Error for invalid ones.

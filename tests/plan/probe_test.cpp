@@ -13,7 +13,7 @@ namespace {
 
 std::vector<double> luminances(const Scene& scene, const Camera& camera, double fineness) {
     SecondOrderOptions options;
-    options.width = 80;
+    options.width = 80;  // a fourth of the pixels that are asked for
     options.height = 60;
     options.indirect = false;
     const EmitterOptions usual;
@@ -41,9 +41,11 @@ TEST(Probe, TakesTheErrorOfDirectLightFromTwoPictures) {
         glows);
     const Camera camera = test::camera_at({0.6, 1.0, 0.6}, {-0.5, 0.6, -0.7});
     Plan plan;
-    plan.request.width = 80;
-    plan.request.height = 60;
+    plan.request.width = 160;
+    plan.request.height = 120;
     plan.analysis.surfaces.area = 10.0;
+    plan.analysis.surfaces.largest_albedo = 0.5;
+    plan.effects[static_cast<std::size_t>(Effect::area_light)].on = true;
     const DeviceScene device = test::on_device(scene);
     const ProbeResult found = probe(test::device().queue, test::programs(), device, camera, plan);
     const std::vector<double> coarse = luminances(scene, camera, 0.25),
@@ -58,7 +60,7 @@ TEST(Probe, TakesTheErrorOfDirectLightFromTwoPictures) {
     EXPECT_GT(wanted, 1e-3);
     // The same kernels and the same sums, in another order.
     EXPECT_NEAR(found.direct_error / wanted, 1.0, 1e-9);
-    EXPECT_EQ(found.first_bounce, 0.0);  // no effect is on: both pictures are of direct light
+    EXPECT_EQ(found.first_bounce, 0.0);  // it is off
 }
 
 }  // namespace

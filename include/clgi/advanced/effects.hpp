@@ -61,8 +61,9 @@ struct EffectChoice {
 using EffectChoices = std::array<EffectChoice, effect_count>;  // by Effect
 
 // What small pictures tell in addition to the analysis.
-// 0 where no surface reflects light. Infinite where the camera sees none; the first two also where
-// no VPL has any.
+// 0 where no surface reflects light; the first two also without indirect light, and the last one
+// where direct light is exact. Infinite where the camera sees none; the first two also where no VPL
+// has any.
 struct ProbeResult {
     // Root of the mean squared luminance that one bounce, unshadowed, adds to the camera's picture,
     // over the mean luminance of that picture.
