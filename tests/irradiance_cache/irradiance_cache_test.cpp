@@ -295,6 +295,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     points.stride = stride;
     points.planes = test::empty<float>(GBUFFER_PLANES * stride);
     const cl::Buffer irradiance = test::empty<float>(3 * stride);
+    const cl::Buffer doubt = test::empty<float>(stride);
     const auto pick = [&](const CacheBuffers& b) { passes.pick(queue, params, scene, b, places); };
     const auto link = [&](const CacheBuffers& b) {
         passes.link(queue, params, tree, scene, emitters, b);
@@ -303,7 +304,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
         passes.bounce(queue, {records, stride, 0, 0}, b);
     };
     const auto show = [&](const CacheBuffers& b) {
-        passes.show(queue, {4, stride, 0, 0}, tree, b, points, irradiance);
+        passes.show(queue, {4, stride, 0, 0}, tree, b, points, irradiance, doubt);
     };
     using B = CacheBuffers;
     for (const auto small : {&B::views, &B::visibility}) EXPECT_THROW(pick(buffers(small)), Error);
