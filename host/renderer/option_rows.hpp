@@ -11,6 +11,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace clgi::renderer {
@@ -59,37 +60,42 @@ inline void check_choice(const OptionRow& row, const std::string& text) {
     throw Error(row.name + " is '" + text + "', one of " + all + " needed");
 }
 
-// A number in the options. at: a reference to it.
-template <typename At>
-OptionRow number(OptionRow row, At at) {
-    using T = std::decay_t<decltype(at(std::declval<RendererOptions&>()))>;
-    row.kind = std::is_integral_v<T> ? OptionRow::Kind::integer : OptionRow::Kind::number;
+// Where a number stands in the options. Rows hold functions that find it and nothing else that
+// depends on its type, so that the table of all rows compiles fast.
+using Number = std::variant<int*, unsigned*, unsigned long*, unsigned long long*, float*, double*>;
+using NumberAt = Number (*)(RendererOptions&);
+
+inline Number place(NumberAt at, const RendererOptions& options) {
+    return at(const_cast<RendererOptions&>(options));
+}
+
+inline void write(const Number& number, double value) {
+    std::visit([&](auto* to) { *to = static_cast<std::decay_t<decltype(*to)>>(value); }, number);
+}
+
+// more: places that have the same value.
+inline OptionRow number(OptionRow row, NumberAt at, const std::vector<NumberAt>& more = {}) {
+    RendererOptions any;
+    const bool whole = std::visit(
+        [](auto* of) { return std::is_integral_v<std::decay_t<decltype(*of)>>; }, at(any));
+    row.kind = whole ? OptionRow::Kind::integer : OptionRow::Kind::number;
     row.get = [at](const RendererOptions& options) {
-        return text_of(at(const_cast<RendererOptions&>(options)));
+        return std::visit([](const auto* of) { return text_of(*of); }, place(at, options));
     };
-    row.set = [at, row](RendererOptions& options, const std::string& text) {
+    row.set = [at, more, row](RendererOptions& options, const std::string& text) {
         if (!row.choices.empty()) check_choice(row, text);
         const double value = number_of(row.name, text);
         check_range(row, text, value);
-        at(options) = static_cast<T>(value);
+        write(at(options), value);
+        for (const NumberAt other : more) write(other(options), value);
     };
     return row;
 }
 
-// The same value in several places.
-template <typename At, typename... More>
-OptionRow number(OptionRow row, At at, More... more) {
-    OptionRow out = number(std::move(row), at);
-    out.set = [first = out.set, at, more...](RendererOptions& options, const std::string& text) {
-        first(options, text);
-        ((more(options) = static_cast<std::decay_t<decltype(more(options))>>(at(options))), ...);
-    };
-    return out;
-}
-
 // A value of an enumeration or a count, by the words in `choices`, in the order of `values`.
-template <typename At, typename T>
-OptionRow choice(OptionRow row, At at, std::vector<T> values) {
+template <typename T>
+OptionRow choice(OptionRow row, std::type_identity_t<T>& (*at)(RendererOptions&),
+                 std::vector<T> values) {
     row.kind = OptionRow::Kind::choice;
     row.get = [at, values, row](const RendererOptions& options) -> std::string {
         for (std::size_t i = 0; i < values.size(); ++i)
@@ -105,8 +111,7 @@ OptionRow choice(OptionRow row, At at, std::vector<T> values) {
 }
 
 // on: what the switch sets the flag of the options to.
-template <typename At>
-OptionRow toggle(OptionRow row, At at, bool on = true) {
+inline OptionRow toggle(OptionRow row, bool& (*at)(RendererOptions&), bool on = true) {
     row.kind = OptionRow::Kind::toggle;
     row.get = [at, on](const RendererOptions& options) -> std::string {
         return at(const_cast<RendererOptions&>(options)) == on ? "true" : "false";
@@ -121,8 +126,8 @@ OptionRow toggle(OptionRow row, At at, bool on = true) {
 
 // Words for some values of a number that is 0 or more, such as off.
 inline OptionRow threshold(OptionRow row, const std::vector<std::pair<std::string, double>>& words,
-                           std::function<double(const RendererOptions&)> get,
-                           std::function<void(RendererOptions&, double)> put) {
+                           double (*get)(const RendererOptions&),
+                           void (*put)(RendererOptions&, double)) {
     row.kind = OptionRow::Kind::number;
     row.get = [words, get](const RendererOptions& options) {
         for (const auto& [word, value] : words)
@@ -149,11 +154,12 @@ inline OptionRow threshold(OptionRow row, const std::vector<std::pair<std::strin
 }
 
 // "0.1%" or "0.001".
-template <typename At>
-OptionRow share(OptionRow row, At at) {
+inline OptionRow share(OptionRow row, NumberAt at) {
     row.kind = OptionRow::Kind::number;
     row.get = [at](const RendererOptions& options) {
-        return text_of(static_cast<float>(100.0 * at(const_cast<RendererOptions&>(options)))) + "%";
+        const double value =
+            std::visit([](const auto* of) { return double(*of); }, place(at, options));
+        return text_of(static_cast<float>(100.0 * value)) + "%";
     };
     row.set = [at, name = row.name](RendererOptions& options, const std::string& text) {
         const bool percent = !text.empty() && text.back() == '%';
@@ -164,8 +170,7 @@ OptionRow share(OptionRow row, At at) {
         }
         if (!(value > 0.0 && value < 1e9))
             throw Error(name + " is '" + text + "', a share such as 2% or 0.02 needed");
-        at(options) =
-            static_cast<std::decay_t<decltype(at(options))>>(percent ? value / 100.0 : value);
+        write(at(options), percent ? value / 100.0 : value);
     };
     return row;
 }
