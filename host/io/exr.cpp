@@ -106,9 +106,10 @@ void read_pixels(Imf::InputPart& part, Image& image) {
     part.readPixels(window.min.y, window.max.y);
 }
 
-class Sink : public Imf::OStream {
+class FileStream : public Imf::OStream {
 public:
-    Sink(AtomicFile& file, const std::string& name) : Imf::OStream(name.c_str()), file_(file) {}
+    FileStream(AtomicFile& file, const std::string& name)
+        : Imf::OStream(name.c_str()), file_(file) {}
     void write(const char bytes[], int count) override {
         file_.write(bytes, static_cast<std::size_t>(count));
     }
@@ -185,8 +186,8 @@ void write_exr(const Image& image, const std::string& name, PixelType wanted, At
         frame.insert(channel.name, Imf::Slice::Make(type, values, header.dataWindow(), size,
                                                     size * static_cast<std::size_t>(image.width)));
     }
-    Sink sink(file, name);
-    Imf::OutputFile output(sink, header);
+    FileStream stream(file, name);
+    Imf::OutputFile output(stream, header);
     output.setFrameBuffer(frame);
     output.writePixels(image.height);
 }

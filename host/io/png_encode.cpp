@@ -16,19 +16,19 @@ namespace {
 
 // libpng leaves a failed call by longjmp, which must not pass over a C++ destructor: the frame
 // that sets the jump holds nothing but pointers, and the bytes live in the caller's.
-struct Sink {
+struct Encoded {
     std::vector<std::uint8_t>* bytes;
     bool out_of_memory;
 };
 
 void append(png_structp png, png_bytep data, std::size_t length) {
-    Sink* sink = static_cast<Sink*>(png_get_io_ptr(png));
+    Encoded* encoded = static_cast<Encoded*>(png_get_io_ptr(png));
     try {
-        sink->bytes->insert(sink->bytes->end(), data, data + length);
+        encoded->bytes->insert(encoded->bytes->end(), data, data + length);
     } catch (const std::bad_alloc&) {
-        sink->out_of_memory = true;
+        encoded->out_of_memory = true;
     }
-    if (sink->out_of_memory) png_error(png, "out of memory");
+    if (encoded->out_of_memory) png_error(png, "out of memory");
 }
 
 void flush(png_structp) {}
@@ -54,18 +54,18 @@ std::vector<std::uint8_t> encode_png(int w, int h, const std::uint8_t* rgba) {
     if (w <= 0 || h <= 0) throw Error("encode_png: a picture of " + size + " pixels");
 
     std::vector<std::uint8_t> bytes;
-    Sink sink{&bytes, false};
+    Encoded encoded{&bytes, false};
     png_structp png =
         png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, leave_png, ignore_png);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     bool written = false;
     if (info) {
-        png_set_write_fn(png, &sink, append, flush);
+        png_set_write_fn(png, &encoded, append, flush);
         png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
         written = write(png, info, w, h, rgba);
     }
     png_destroy_write_struct(&png, &info);
-    if (sink.out_of_memory) throw std::bad_alloc();
+    if (encoded.out_of_memory) throw std::bad_alloc();
     if (!written) throw Error("encode_png: libpng cannot write " + size + " pixels");
     return bytes;
 }

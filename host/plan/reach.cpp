@@ -21,7 +21,7 @@ constexpr std::size_t surfaces = 3;       // of a path
 constexpr double held = 0.9;              // of the points, by the sphere
 constexpr double beyond = 1.5;            // what else may light them
 constexpr std::size_t area_points = 512;  // that measure its area
-constexpr std::size_t lamp_points = 32, looks = 16;
+constexpr std::size_t lamp_points = 32, sight_lines = 16;
 
 struct Place {
     glm::dvec3 position;  // local
@@ -147,8 +147,8 @@ double hidden_share(const LocalScene& local, const Lamps& lamps,
     Rays rays;
     std::vector<std::size_t> owner;
     for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t k = 0; k < looks; ++k) {
-            const glm::dvec3 to = places[(i * looks + k * 7919) % places.size()];
+        for (std::size_t k = 0; k < sight_lines; ++k) {
+            const glm::dvec3 to = places[(i * sight_lines + k * 7919) % places.size()];
             const double distance = glm::distance(to, points[i].position);
             const glm::dvec3 along = (to - points[i].position) / std::max(distance, same_place);
             if (!(distance > 4.0 * same_place) || !(glm::dot(along, points[i].normal) > 0.0))

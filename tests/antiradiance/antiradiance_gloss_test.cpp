@@ -17,7 +17,7 @@ using test::HandElements;
 
 using std::numbers::pi;
 using test::nan;
-constexpr std::uint32_t all_of_it = LOCAL_RECEIVE | LOCAL_REFLECT | LOCAL_GO_THROUGH;
+constexpr std::uint32_t every_step = LOCAL_RECEIVE | LOCAL_REFLECT | LOCAL_GO_THROUGH;
 
 CLGI_IN_BOTH_MATHS(AntiradianceGloss);
 CLGI_IN_ALL_MODES(BrokenLobes);
@@ -148,7 +148,7 @@ TEST_P(AntiradianceGloss, OfOneBinIsSpreadAboutTheMirroredOne) {
         scene.sky[from] = {1.0f, 2.0f, 4.0f, 0.0f};
         test::LightOnDevice found(scene, {.math = GetParam()});
         const std::vector<float> factors = found.factors();
-        found.step(all_of_it);
+        found.step(every_step);
         const std::vector<glm::vec4> exitant = found.exitant();
         const glm::dvec3 w(scene.directions[from]);
         const glm::dvec3 mirror = w - 2.0 * glm::dot(n, w) * n;
@@ -214,8 +214,8 @@ HandElements glossy_elements(unsigned seed, int count) {
 
 TEST_P(AntiradianceGloss, OfRandomTreesIsThatOfTheDefinition) {
     const std::vector<std::uint32_t> steps = {
-        LOCAL_REFLECT | LOCAL_GO_THROUGH, all_of_it, LOCAL_RECEIVE | LOCAL_GO_THROUGH,
-        LOCAL_RECEIVE | LOCAL_REFLECT,    all_of_it, LOCAL_RECEIVE};
+        LOCAL_REFLECT | LOCAL_GO_THROUGH, every_step, LOCAL_RECEIVE | LOCAL_GO_THROUGH,
+        LOCAL_RECEIVE | LOCAL_REFLECT,    every_step, LOCAL_RECEIVE};
     for (const Storage storage : {Storage::full, Storage::half})
         for (const unsigned seed : {1u, 2u, 3u}) {
             const HandElements scene = glossy_elements(seed, seed == 3 ? 36 : 128);
@@ -245,7 +245,7 @@ TEST_P(AntiradianceGloss, KeepsWhatArrivesInFront) {
     for (std::uint32_t b = 0; b < scene.bins(); ++b)
         scene.sky[b] = {1.0f + b, 0.5f * b, 300.0f - b, 0.0f};
     test::LightOnDevice found(scene, {.math = GetParam()});
-    found.step(all_of_it);
+    found.step(every_step);
     const auto rows = test::download<float>(found.gloss.arriving, 2 * 3 * 128);
     for (std::size_t k = 0; k < 2; ++k)
         for (std::size_t b = 0; b < 128; ++b) {
@@ -265,7 +265,7 @@ TEST_P(AntiradianceGloss, DoesNotDependOnPackets) {
         test::LightOnDevice found(scene, {.math = GetParam(),
                                           .packet_width = width,
                                           .local_size = static_cast<std::size_t>(width)});
-        for (int step = 0; step < 3; ++step) found.step(all_of_it);
+        for (int step = 0; step < 3; ++step) found.step(every_step);
         if (wanted.empty()) wanted = found.exitant();
         if (GetParam() == Math::strict)
             EXPECT_EQ(found.exitant(), wanted) << width;
@@ -281,7 +281,7 @@ TEST_P(BrokenLobes, CountsLobesThatAreNoNumbers) {
         if (!exponent) scene.lobes[0].color.y = nan;
         for (glm::vec4& sky : scene.sky) sky = glm::vec4(1, 1, 1, 0);
         test::LightOnDevice found(scene, GetParam());
-        found.step(all_of_it);
+        found.step(every_step);
         EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 1u) << exponent;
     }
 }
@@ -314,7 +314,7 @@ TEST(AntiradianceGlossPasses, RefuseWhatDoesNotFit) {
     gloss.light = zeros(2 * 3 * 32);
     const auto lobes = [&] { passes.lobes(queue, links, gloss).wait(); };
     const auto local = [&] {
-        passes.gloss(queue, all_of_it, links, rows, directions, leaves, gloss).wait();
+        passes.gloss(queue, every_step, links, rows, directions, leaves, gloss).wait();
     };
     const auto vertices = [&] { passes.vertices(queue, gloss).wait(); };
     EXPECT_NO_THROW(lobes());

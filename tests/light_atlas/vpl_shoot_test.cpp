@@ -12,7 +12,7 @@ namespace {
 using test::nan;
 
 // Sites with random factors of everything.
-struct Exchange {
+struct ShootInput {
     std::uint32_t n, stride;
     std::vector<Site> sites;
     std::vector<float> planes, light, balance, shot;
@@ -21,7 +21,7 @@ struct Exchange {
     SiteBuffers buffers;
     float per_row_scale = 0.37f;
     // count 61: the last packet of every width is filled in part.
-    explicit Exchange(std::uint32_t count = 61) : n(count), stride(test::padded(count) + 16) {
+    explicit ShootInput(std::uint32_t count = 61) : n(count), stride(test::padded(count) + 16) {
         test::Random random(21);
         const auto fill = [&](std::vector<float>& values, std::size_t planes_of, double low,
                               double high) {
@@ -83,9 +83,9 @@ struct Shot {
 };
 
 // All shooters in batches of so many.
-Shot shoot(const Exchange& of, std::uint32_t batch, bool kept,
+Shot shoot(const ShootInput& of, std::uint32_t batch, bool kept,
            const VplPasses& passes = test::vpl_passes()) {
-    Exchange e = of;
+    ShootInput e = of;
     e.upload();
     const cl::Buffer bad = test::upload(std::vector<cl_uint>{0});
     for (std::uint32_t first = 0; first < e.n; first += batch) {
@@ -98,7 +98,7 @@ Shot shoot(const Exchange& of, std::uint32_t batch, bool kept,
 }
 
 TEST(Shoot, AddsWhatEveryShooterSendsInEveryChannel) {
-    const Exchange e;
+    const ShootInput e;
     for (const std::uint32_t batch : {61u, 16u, 1u})
         for (const bool kept : {true, false}) {
             const Shot found = shoot(e, batch, kept);
@@ -126,7 +126,7 @@ TEST(Shoot, AddsWhatEveryShooterSendsInEveryChannel) {
 }
 
 TEST(Shoot, IsTheSameForEveryWidthAndGroup) {
-    const Exchange e;
+    const ShootInput e;
     const Shot usual = shoot(e, 16, true);
     for (const int width : {1, 4, 8, 16}) {
         BuildOptions build;
@@ -150,29 +150,29 @@ TEST(Shoot, CountsNumbersThatAreNotFinite) {
         const auto packets = static_cast<cl_uint>((61 + width - 1) / width);
         for (int c = 0; c < 3; ++c)
             for (const float value : {nan, infinity, -infinity}) {
-                Exchange e;
+                ShootInput e;
                 e.light[(SITE_UNSHOT + c) * e.stride + 60] = value;
                 EXPECT_EQ(shoot(e, 61, true, passes).bad, 1u) << width;
-                Exchange all;
+                ShootInput all;
                 all.shot[c * all.stride + 5] = value;
                 EXPECT_EQ(shoot(all, 61, true, passes).bad, packets) << width;
             }
-        Exchange row;
+        ShootInput row;
         row.rows[3 * row.stride + 17] = 0x7c00;
         EXPECT_EQ(shoot(row, 61, true, passes).bad, 1u);
-        Exchange factor;
+        ShootInput factor;
         factor.balance[BALANCE_RECEIVER * factor.stride + 2] = nan;
         EXPECT_EQ(shoot(factor, 61, true, passes).bad, 1u);
     }
 }
 
 TEST(Shoot, OfNothingAndOfOneSite) {
-    const Exchange one(1);
+    const ShootInput one(1);
     const Shot found = shoot(one, 1, true);
     const double gained = one.row(0, 0) * one.factor(BALANCE_SHOOTER, 0) * one.shot[0] *
                           one.per_row_scale * one.factor(BALANCE_RECEIVER, 0);
     EXPECT_NEAR(found.light[0], one.light[0] + gained, 1e-5);
-    Exchange none(1);
+    ShootInput none(1);
     none.buffers.site_count = 0;
     const cl::Buffer any = test::upload(std::vector<float>(1024));
     ShootParams params = none.params(0, 0, true);
@@ -199,8 +199,8 @@ double bounded(double reach, double sum) {
 }
 
 // Rows whose sums lie around 1, some far off, some empty.
-Exchange uneven() {
-    Exchange e;
+ShootInput uneven() {
+    ShootInput e;
     test::Random random(22);
     for (std::uint32_t i = 0; i < e.n; ++i)
         for (std::uint32_t j = 0; j < e.n; ++j) {
@@ -239,7 +239,7 @@ struct Clamped {
 
 TEST(Balance, OfReceiversBringsTheirSumToTheirReach) {
     for (const int width : {1, 4, 16}) {
-        Exchange e = uneven();
+        ShootInput e = uneven();
         VplPasses(test::programs(), {.packet_width = width})
             .balance_receivers(test::device().queue, e.params(0, e.n, true), e.buffers,
                                test::upload(e.rows));
@@ -263,7 +263,7 @@ TEST(Balance, OfReceiversBringsTheirSumToTheirReach) {
 TEST(Balance, OfShootersBringsTheirSumToTheirReach) {
     for (const int width : {1, 4, 16})
         for (const bool kept : {true, false}) {
-            Exchange e = uneven();
+            ShootInput e = uneven();
             const VplPasses passes(test::programs(), {.packet_width = width});
             for (std::uint32_t first = 0; first < e.n; first += 23) {
                 const std::uint32_t count = std::min(23u, e.n - first);
@@ -293,7 +293,7 @@ TEST(Balance, OfShootersBringsTheirSumToTheirReach) {
 
 // Power shot is power received and lost, whatever the factors of the receivers are.
 TEST(Balance, OfShootersKeepsEnergy) {
-    Exchange e;
+    ShootInput e;
     for (std::uint32_t i = 0; i < e.n; ++i)
         for (std::uint32_t j = 0; j < e.n; ++j)
             e.rows[i * e.stride + j] = glm::packHalf1x16(

@@ -18,7 +18,7 @@ namespace {
 using test::Drawing;
 using test::Receiver;
 
-constexpr double u = 0x1p-24;  // half the spacing of floats at 1
+constexpr double half_ulp = 0x1p-24;  // half the spacing of floats at 1
 
 // The 24 rotations that take axes to axes: they move coordinates about and change no digit.
 std::vector<glm::mat3> quarter_turns() {
@@ -104,8 +104,9 @@ Scene heap() {
 
 // How far rounding may move the point where a pixel's ray meets its triangle, to first order:
 //   b1 = e2.(d x t) / det, b2 = e1.(d x t) / det, det = d.(e1 x e2), t from corner to eye
-// Each triple product is off by 6 u of its factors' lengths at most (a product, two sums, twice),
-// and the result moves by e1 db1 + e2 db2; the differences and the last sum add u of the scene.
+// Each triple product is off by 6 half_ulp of its factors' lengths at most (a product, two sums,
+// twice), and the result moves by e1 db1 + e2 db2; the differences and the last sum add half_ulp of
+// the scene.
 double rounding(const Scene& scene, const SceneFrame& frame, int triangle, const glm::dvec3& eye,
                 const glm::dvec3& seen) {
     const SceneTriangle& corners = scene.triangles[triangle];
@@ -115,7 +116,7 @@ double rounding(const Scene& scene, const SceneFrame& frame, int triangle, const
     const glm::dvec3 d = glm::normalize(seen - eye);
     const double reach = glm::length(eye - a), l1 = glm::length(e1), l2 = glm::length(e2);
     const double determinant = std::abs(glm::dot(d, glm::cross(e1, e2)));
-    return 6 * u * l1 * l2 * (2 * reach + l1 + l2) / determinant + 6 * u;
+    return 6 * half_ulp * l1 * l2 * (2 * reach + l1 + l2) / determinant + 6 * half_ulp;
 }
 
 TEST(Turned, ShowsTheSameTrianglesAtTheSameDepth) {
@@ -136,7 +137,7 @@ TEST(Turned, ShowsTheSameTrianglesAtTheSameDepth) {
             EXPECT_LE(glm::length(after - before), 2 * bound) << p;
             const glm::vec3 normal = drawing.at(GBUFFER_GEOMETRIC, p) * turn;
             EXPECT_EQ(drawing.at(GBUFFER_BASE, p), usual.at(GBUFFER_BASE, p));
-            EXPECT_GT(glm::dot(normal, usual.at(GBUFFER_GEOMETRIC, p)), 1 - 16 * u);
+            EXPECT_GT(glm::dot(normal, usual.at(GBUFFER_GEOMETRIC, p)), 1 - 16 * half_ulp);
         }
     }
 }
@@ -174,7 +175,7 @@ TEST(Turned, GathersTheSame) {
                              (square * (square + radius2) + radius2 * radius2);
             }
             // 16 roundings a term and one for each of 63 additions, in either picture.
-            EXPECT_NEAR(found[r].x, usual[r].x, 2 * (16 + 63) * u * condition);
+            EXPECT_NEAR(found[r].x, usual[r].x, 2 * (16 + 63) * half_ulp * condition);
         }
     }
 }
@@ -202,7 +203,7 @@ TEST(Turned, LightsASpotsOwnPlaceAsTheIntegralSays) {
 
 CLGI_IN_ALL_MODES(Reordered);
 
-SecondOrderOptions small_frame() {
+SecondOrderOptions odd_frame() {
     SecondOrderOptions options;
     options.build = test::usual_build();
     options.width = 47;
@@ -215,7 +216,7 @@ SecondOrderOptions small_frame() {
 TEST_P(Reordered, TrianglesAndVerticesGiveTheSamePictureBitForBit) {
     const Scene scene = heap();
     const auto render = [&](const Scene& other) {
-        return test::render(other, other.cameras[0], small_frame());
+        return test::render(other, other.cameras[0], odd_frame());
     };
     const test::Frame usual = render(scene);
     for (const Scene& other :
@@ -256,7 +257,7 @@ TEST_P(Reordered, LightsGiveTheSameLightsAndTheSameSum) {
     scene.lights.push_back(test::point_light({-0.4, 0.7, 0.3}, 0.37f));
     scene.lights.push_back(test::directional_light({0.2f, -1, 0.1f}, 0.83f));
     scene.lights.push_back(test::spot_light({0.5, 0.5, 0.6}, {-1, -0.4f, -1}, 0.5, 2.1f));
-    SecondOrderOptions options = small_frame();
+    SecondOrderOptions options = odd_frame();
     options.negative_vpls = 0;  // a direction is no sum: its own rounding is not bounded here
     options.low_resolution_step = 1;
     const test::Frame usual = test::render(scene, scene.cameras[0], options);
@@ -271,13 +272,13 @@ TEST_P(Reordered, LightsGiveTheSameLightsAndTheSameSum) {
     };
     EXPECT_FALSE(test::same_bits(usual.lights, other.lights));
     EXPECT_TRUE(test::same_bits(sorted(usual.lights), sorted(other.lights)));
-    // Nothing is taken away, so each of n additions is u of the sum off at most; then a handful of
-    // products.
+    // Nothing is taken away, so each of n additions is half_ulp of the sum off at most; then a
+    // handful of products.
     const double additions = options.emitters.vpls + 4 + 8;
     for (std::size_t p = 0; p < usual.pixels; ++p)
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(other.radiance[p][c], usual.radiance[p][c],
-                        2 * (additions * u + test::half_error()) * usual.radiance[p][c]);
+                        2 * (additions * half_ulp + test::half_error()) * usual.radiance[p][c]);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace clgi {
 namespace {
 
-struct Input {
+struct UpsampleInput {
     RefineParams params{};
     std::uint32_t low_width = 0, low_height = 0;
     std::vector<float> planes, points, low;  // of POINT_PLANES, POINT_PLANES, IRRADIANCE_PLANES
@@ -36,9 +36,9 @@ struct Input {
 
 // Tilted curved surfaces with edges between them and holes, and other light at every point and in
 // every channel, some of it negative.
-Input random_input(std::uint32_t width, std::uint32_t height, std::uint32_t step) {
+UpsampleInput random_input(std::uint32_t width, std::uint32_t height, std::uint32_t step) {
     test::Random random(width * 1000 + height * 10 + step);
-    Input out;
+    UpsampleInput out;
     const std::uint32_t pixels = width * height;
     out.low_width = (width + step - 1) / step;
     out.low_height = (height + step - 1) / step;
@@ -84,7 +84,7 @@ struct Pixel {
     bool own;  // a low-resolution point itself
 };
 
-Pixel blended(const Input& in, std::uint32_t x, std::uint32_t y) {
+Pixel blended(const UpsampleInput& in, std::uint32_t x, std::uint32_t y) {
     const std::uint32_t step = in.params.step, p = y * in.params.width + x;
     const double s = in.params.position_scale;
     const double right = x % step / static_cast<double>(step);
@@ -116,7 +116,7 @@ struct Output {
     std::vector<std::uint8_t> flags;  // [width * height] and 16 more
 };
 
-Output upsample(const Input& in, const ImagePasses& passes) {
+Output upsample(const UpsampleInput& in, const ImagePasses& passes) {
     const std::size_t pixels = std::size_t{in.params.width} * in.params.height;
     const cl::Buffer planes = test::upload(in.planes), points = test::upload(in.points),
                      low = test::upload(in.low);
@@ -136,7 +136,7 @@ TEST(Upsample, BlendsEveryChannelAsInDoublePrecision) {
     double worst = 0.0;
     for (const auto& [width, height] : sizes)
         for (const std::uint32_t step : {2u, 4u}) {
-            const Input in = random_input(width, height, step);
+            const UpsampleInput in = random_input(width, height, step);
             const Output out = upsample(in, test::image_passes());
             for (std::uint32_t y = 0; y < height; ++y)
                 for (std::uint32_t x = 0; x < width; ++x) {
@@ -168,7 +168,7 @@ TEST(Upsample, BlendsEveryChannelAsInDoublePrecision) {
 
 TEST(Upsample, MarksWhatReachesTheThresholdExactly) {
     // Parallel normals, no distance: every difference is exactly 0, and so is the threshold.
-    Input in = random_input(8, 8, 4);
+    UpsampleInput in = random_input(8, 8, 4);
     for (std::size_t i = 0; i < in.planes.size(); ++i)
         in.planes[i] = i / in.params.stride == 5 ? 1.0f : 0.0f;
     for (std::size_t i = 0; i < in.points.size(); ++i)
@@ -184,7 +184,7 @@ TEST(Upsample, IsTheSameForEveryPacketWidth) {
         const ImagePasses passes(test::programs(), {.packet_width = lanes});
         for (const auto& [width, height] : sizes)
             for (const std::uint32_t step : {2u, 4u}) {
-                const Input in = random_input(width, height, step);
+                const UpsampleInput in = random_input(width, height, step);
                 const Output usual = upsample(in, test::image_passes());
                 const Output other = upsample(in, passes);
                 EXPECT_TRUE(other.flags == usual.flags) << lanes << ": " << width;

@@ -15,6 +15,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace bumpy_mesh_scene {
 namespace {
 
 using std::numbers::pi;
@@ -104,8 +105,10 @@ void cut_last_triangle(Scene& scene) {
 }
 
 }  // namespace
+}  // namespace bumpy_mesh_scene
 
 Scene bumpy_mesh() {
+    using namespace bumpy_mesh_scene;
     Scene scene;
     scene.name = "bumpy mesh";
     generated::add_material(scene, "mesh", glm::vec3(0.78f, 0.77f, 0.74f));

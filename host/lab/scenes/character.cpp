@@ -12,6 +12,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace character_scene {
 namespace {
 
 using namespace generated::figure;
@@ -94,8 +95,10 @@ void set_rest(Animation& animation, const Stance& stance) {
 }
 
 }  // namespace
+}  // namespace character_scene
 
 Scene character(const OfficeOptions& options) {
+    using namespace character_scene;
     Scene scene;
     generated::add_office(scene, options);
     scene.name = "character";

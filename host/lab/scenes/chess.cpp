@@ -14,6 +14,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace chess_scene {
 namespace {
 
 constexpr double field = 0.05;       // metres, a side of a field of the board
@@ -256,8 +257,10 @@ void add_board(Scene& scene, std::uint32_t material) {
 }
 
 }  // namespace
+}  // namespace chess_scene
 
 Scene chess(const ChessOptions& options) {
+    using namespace chess_scene;
     generated::check_color("chess", "white", options.white, 1.0);
     generated::check_color("chess", "black", options.black, 1.0);
 

@@ -14,6 +14,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace cloth_scene {
 namespace {
 
 constexpr int cells = 32;
@@ -146,8 +147,10 @@ std::vector<float> weights_through(int states) {
 }
 
 }  // namespace
+}  // namespace cloth_scene
 
 Scene cloth(const ClothOptions& options) {
+    using namespace cloth_scene;
     generated::check_color("cloth", "cloth", options.cloth, 1.0);
     generated::check_color("cloth", "floor", options.floor, 1.0);
     generated::check_range("cloth", "states", options.states, 4, 96);

@@ -11,6 +11,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace corridor_scene {
 namespace {
 
 constexpr double wall = 0.12;  // metres, all
@@ -151,8 +152,10 @@ void check(const CorridorOptions& options) {
 }
 
 }  // namespace
+}  // namespace corridor_scene
 
 Scene corridor(const CorridorOptions& options) {
+    using namespace corridor_scene;
     check(options);
     Scene scene;
     scene.name = "corridor";

@@ -8,6 +8,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace drawn_scene {
 namespace {
 
 using namespace generated;
@@ -192,8 +193,10 @@ Scene draw_hole(const DrawnOptions& options) {
 }
 
 }  // namespace
+}  // namespace drawn_scene
 
 const std::vector<DrawnKind>& drawn_kinds() {
+    using namespace drawn_scene;
     static const std::vector<DrawnKind> kinds = {
         {"room", "furnished, with a panel lamp", false, draw_room},
         {"window", "a furnished room with a window", true, draw_windowed},
@@ -211,6 +214,7 @@ const std::vector<DrawnKind>& drawn_kinds() {
 }
 
 Scene drawn(const std::string& kind, const DrawnOptions& options) {
+    using namespace drawn_scene;
     check_range("drawn scene", "extent", options.extent, 0.0, 1e5);
     for (const DrawnKind& one : drawn_kinds()) {
         if (one.name != kind) continue;

@@ -12,23 +12,23 @@
 namespace clgi::generated {
 namespace {
 
-const Placement here;
+const Placement unmoved;
 
 // A wall in its own coordinates: along it, up, and through it.
-struct Wall {
+struct ChamberWall {
     glm::dvec3 corner, along, up, through;  // unit but for the corner
     double length, height, thickness;
 };
 
-void add_slab(Scene& scene, const Wall& wall, double low, double high, double bottom, double top,
-              std::uint32_t material) {
+void add_slab(Scene& scene, const ChamberWall& wall, double low, double high, double bottom,
+              double top, std::uint32_t material) {
     if (!(high - low > 1e-9) || !(top - bottom > 1e-9)) return;
     add_solid(scene, wall.corner + low * wall.along + bottom * wall.up,
               {(high - low) * wall.along, (top - bottom) * wall.up, wall.thickness * wall.through},
               material);
 }
 
-void add_wall(Scene& scene, const Wall& wall, const Hole* hole, std::uint32_t material) {
+void add_wall(Scene& scene, const ChamberWall& wall, const Hole* hole, std::uint32_t material) {
     if (!hole) {
         add_slab(scene, wall, 0.0, wall.length, 0.0, wall.height, material);
         return;
@@ -80,23 +80,24 @@ void add_chamber(Scene& scene, Draws& draws, const Chamber& chamber,
                  const std::optional<Hole>& hole) {
     const double t = chamber.wall;
     const glm::dvec3 low = chamber.low, high = low + chamber.size;
-    add_block(scene, here, low - glm::dvec3(t), {high.x + t, low.y, high.z + t},
+    add_block(scene, unmoved, low - glm::dvec3(t), {high.x + t, low.y, high.z + t},
               add_material(scene, "floor", draws.colour()));
     if (chamber.roof)
-        add_block(scene, here, {low.x - t, high.y, low.z - t}, high + glm::dvec3(t),
+        add_block(scene, unmoved, {low.x - t, high.y, low.z - t}, high + glm::dvec3(t),
                   add_material(scene, "ceiling", draws.colour()));
     const glm::dvec3 x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
     // Walls across z stand between those across x. Both start at the chamber's corners.
-    const Wall walls[] = {{low - t * x, z, y, x, chamber.size.z, chamber.size.y, t},
-                          {{high.x, low.y, low.z}, z, y, x, chamber.size.z, chamber.size.y, t},
-                          {low - t * z, x, y, z, chamber.size.x, chamber.size.y, t},
-                          {{low.x, low.y, high.z}, x, y, z, chamber.size.x, chamber.size.y, t}};
+    const ChamberWall walls[] = {
+        {low - t * x, z, y, x, chamber.size.z, chamber.size.y, t},
+        {{high.x, low.y, low.z}, z, y, x, chamber.size.z, chamber.size.y, t},
+        {low - t * z, x, y, z, chamber.size.x, chamber.size.y, t},
+        {{low.x, low.y, high.z}, x, y, z, chamber.size.x, chamber.size.y, t}};
     for (int k = 0; k < 4; ++k)
         add_wall(scene, walls[k], hole && hole->wall == k ? &*hole : nullptr,
                  add_material(scene, "wall", draws.colour()));
     for (const double px : {low.x - t, high.x})  // corners, so that no light comes in there
         for (const double pz : {low.z - t, high.z})
-            add_block(scene, here, {px, low.y, pz}, {px + t, high.y, pz + t},
+            add_block(scene, unmoved, {px, low.y, pz}, {px + t, high.y, pz + t},
                       static_cast<std::uint32_t>(scene.materials.size() - 1));
 }
 

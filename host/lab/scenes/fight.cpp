@@ -14,6 +14,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace fight_scene {
 namespace {
 
 using namespace generated::figure;
@@ -80,8 +81,10 @@ void add_belt_end(Scene& scene, const generated::Flesh& body, std::uint32_t mate
 }
 
 }  // namespace
+}  // namespace fight_scene
 
 Scene fight_like(const FightOptions& options) {
+    using namespace fight_scene;
     generated::check_color("fight-like", "skin", options.skin, 1.0);
     generated::check_color("fight-like", "trousers", options.trousers, 1.0);
     generated::check_color("fight-like", "gloves", options.gloves, 1.0);

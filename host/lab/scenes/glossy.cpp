@@ -10,6 +10,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace glossy_scene {
 namespace {
 
 constexpr int cube_cells = 16;  // 6 x 16 x 16 x 2 = 3,072 triangles
@@ -91,8 +92,10 @@ Light lamp(const glm::dvec3& from, const glm::dvec3& to, float cone, const Gloss
 }
 
 }  // namespace
+}  // namespace glossy_scene
 
 Scene glossy_box(const GlossyOptions& options) {
+    using namespace glossy_scene;
     check("glossy-box", options);
     Scene scene;
     scene.name = "glossy-box";
@@ -107,6 +110,7 @@ Scene glossy_box(const GlossyOptions& options) {
 }
 
 Scene glossy_bust_like(const GlossyOptions& options) {
+    using namespace glossy_scene;
     check("glossy-bust-like", options);
     Scene scene;
     scene.name = "glossy-bust-like";

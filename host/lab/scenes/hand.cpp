@@ -13,6 +13,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace hand_scene {
 namespace {
 
 constexpr double clip_length = 4.0;  // seconds
@@ -165,8 +166,10 @@ void add_nail(Scene& scene, const generated::Flesh& flesh, const Finger& finger,
 }
 
 }  // namespace
+}  // namespace hand_scene
 
 Scene hand_like(const HandOptions& options) {
+    using namespace hand_scene;
     generated::check_color("hand-like", "skin", options.skin, 1.0);
     generated::check_range("hand-like", "roughness", options.roughness, 0.05, 1.0);
 

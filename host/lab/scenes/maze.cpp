@@ -7,6 +7,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace maze_scene {
 namespace {
 
 // From above, the camera's end at the bottom: '#' wall, '.' passage, 'o' passage open above.
@@ -98,8 +99,10 @@ void add_outside(Scene& scene, const Materials& m) {
 }
 
 }  // namespace
+}  // namespace maze_scene
 
 Scene maze(const MazeOptions& options) {
+    using namespace maze_scene;
     generated::check_range("maze", "illuminance", options.illuminance, 0.0, 1e20);
     Scene scene;
     scene.name = "maze";

@@ -11,6 +11,7 @@
 
 namespace clgi {
 namespace generated {
+namespace office_scene {
 namespace {
 
 constexpr double width = 6.0, height = 2.7, depth = 4.6, thickness = 0.25;
@@ -112,8 +113,10 @@ void add_furniture(Scene& scene, const OfficeMaterials& m) {
 }
 
 }  // namespace
+}  // namespace office_scene
 
 void add_office(Scene& scene, const OfficeOptions& options) {
+    using namespace office_scene;
     check_range("office", "illuminance", options.illuminance, 0.0, 1e20);
     const OfficeMaterials materials = add_materials(scene);
     add_walls(scene, materials);

@@ -11,6 +11,7 @@
 #include "scene/surfaces.hpp"
 
 namespace clgi {
+namespace oriental_scene {
 namespace {
 
 using namespace generated;
@@ -234,8 +235,10 @@ void add_furniture(Scene& scene, const Materials& m) {
 }
 
 }  // namespace
+}  // namespace oriental_scene
 
 Scene oriental_like(const OrientalOptions& options) {
+    using namespace oriental_scene;
     check_range("oriental-like", "illuminance", options.illuminance, 0.0, 1e20);
     Scene scene;
     scene.name = "oriental-like";
