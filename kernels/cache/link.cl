@@ -6,7 +6,8 @@
 //
 // w: form factor of a pixel, rho: reflectance of the surface in it, W_j: share of record j in it
 // (lookup.clh), D: direct light there, by shadow maps (lights/direct.clh). E has no direct light.
-//                               [derived: radiosity of points, gathered by hemicubes]
+// Sample points of emissive surfaces, of which there may be hundreds, take turns from one block of
+// 16 pixels to the next.        [derived: radiosity of points, gathered by hemicubes]
 //
 // Work size    1D, one work-item a record; any local size; tail guarded
 // Writes       its own row and its own base light
@@ -93,15 +94,20 @@ kernel void cache_link(
             floatp lit[3] = {packet_zero, packet_zero, packet_zero};
             ShadowPoint point = {surface.x,           surface.y,           surface.z,
                                  surface.geometric_x, surface.geometric_y, surface.geometric_z};
-            for (uint e = 0; e < params.emitter_count; ++e) {
-                global const Emitter* emitter = emitters + e;
+            uint step = params.emitter_step, turn = (pixel / 16 + 5 * face + record) % step;
+            uint in_turn = (params.emitter_count - params.whole_emitters + step - 1 - turn) / step;
+            for (uint k = 0; k < params.whole_emitters + in_turn; ++k) {
+                int whole = k < params.whole_emitters;
+                global const Emitter* emitter =
+                    emitters + (whole ? k : k + turn + (k - params.whole_emitters) * (step - 1));
                 DirectRay ray = direct_ray(emitter, &point);
                 floatp arriving =
                     direct_arriving(emitter, light_views, &maps, &point, surface.normal_x,
                                     surface.normal_y, surface.normal_z, &ray, 1.0f);
-                lit[0] = fma(arriving, packet_splat(emitter->intensity.x), lit[0]);
-                lit[1] = fma(arriving, packet_splat(emitter->intensity.y), lit[1]);
-                lit[2] = fma(arriving, packet_splat(emitter->intensity.z), lit[2]);
+                float counts = whole ? 1.0f : (float)step;
+                lit[0] = fma(arriving, packet_splat(counts * emitter->intensity.x), lit[0]);
+                lit[1] = fma(arriving, packet_splat(counts * emitter->intensity.y), lit[1]);
+                lit[2] = fma(arriving, packet_splat(counts * emitter->intensity.z), lit[2]);
             }
             float direct[3][CLGI_WIDTH];
             packet_store(lit[0] * surface.base_r, direct[0]);

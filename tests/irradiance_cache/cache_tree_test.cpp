@@ -135,5 +135,33 @@ TEST(CacheRecords, KeepApart) {
     EXPECT_LE(records.size(), 201u);
 }
 
+// One in each block with doubt, at the pixel with most of it; blocks with more doubt come first.
+TEST(CacheRecords, AreRefinedWhereDoubtIsLargest) {
+    constexpr int width = 7, height = 5, side = 3;
+    const auto count = static_cast<std::size_t>(width * height);
+    std::vector<CacheRecord> pixels;
+    for (std::size_t i = 0; i < count; ++i)
+        pixels.push_back({glm::vec3(static_cast<float>(i)), {0, 1, 0}, {0, 1, 0}});
+    std::vector<float> doubt(count, 0.0f);
+    const auto at = [](int x, int y) { return static_cast<std::size_t>(y * width + x); };
+    doubt[at(1, 1)] = 2.0f;
+    doubt[at(2, 2)] = 3.0f;  // of the same block
+    doubt[at(6, 4)] = 4.0f;  // of the last, which is 1 x 2 pixels
+    doubt[at(4, 0)] = 1.0f;
+    doubt[at(0, 3)] = std::numeric_limits<float>::quiet_NaN();
+    doubt[at(3, 4)] = 9.0f;  // nothing is there
+    pixels[at(3, 4)] = {};
+    const auto places = [&](std::size_t most) {
+        std::vector<float> out;
+        for (const CacheRecord& record : doubtful_records(pixels, doubt, width, height, side, most))
+            out.push_back(record.position.x);
+        return out;
+    };
+    const auto place = [&](int x, int y) { return static_cast<float>(at(x, y)); };
+    EXPECT_EQ(places(10), (std::vector<float>{place(2, 2), place(6, 4), place(4, 0)}));
+    EXPECT_EQ(places(1), (std::vector<float>{place(2, 2)}));
+    EXPECT_TRUE(places(0).empty());
+}
+
 }  // namespace
 }  // namespace clgi

@@ -89,19 +89,24 @@ TEST_P(IrradianceCachePictures, HaveTheSkyOfATiltedPlane) {
 // In a closed sphere of albedo p light that arrives as E is E / (1 - p) with all reflections; with
 // n of them the sum of p^k up to n.
 TEST_P(IrradianceCachePictures, HaveAllReflectionsOfASphere) {
-    Scene scene = furnace({.light = LightSource::point, .albedo = 0.6f, .subdivisions = 3});
+    Scene scene = furnace({.light = LightSource::point, .subdivisions = 3});
+    const glm::vec3 albedo(0.6f, 0.3f, 0.75f);
+    scene.materials[0].base_color = glm::vec4(albedo, 1.0f);
     scene.lights[0].intensity = {1.0f, 2.0f, 5.0f};
     scene.cameras = {test::camera_at({0, 0, 0.2}, {0.3, 0.2, -1}, 1.2f)};
     for (const int bounces : {0, 1, 3}) {
         IrradianceCacheOptions options = cache_options();
         options.bounces = bounces;
         const CachePicture found = pictured(scene, options);
-        const double gain = bounces == 0 ? 2.5 : (1.0 - std::pow(0.6, bounces + 1)) / 0.4;
         EXPECT_TRUE(found.status.converged);
         for (int c = 0; c < 3; ++c) {
-            const double wanted = 0.6 / pi * scene.lights[0].intensity[c] * gain;
+            const double p = albedo[c];
+            const double gain =
+                bounces == 0 ? 1.0 / (1.0 - p) : (1.0 - std::pow(p, bounces + 1)) / (1.0 - p);
+            const double wanted = p / pi * scene.lights[0].intensity[c] * gain;
             // Facets are nearer to the light than the sphere.
-            EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.03 * wanted) << bounces;
+            EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.03 * wanted)
+                << bounces << " " << c;
         }
     }
 }
@@ -134,6 +139,105 @@ TEST_P(IrradianceCachePictures, HaveALampByHemicubes) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(mean_radiance(direct.radiance)[c], mean_radiance(found.radiance)[c],
                     0.02 * mean_radiance(found.radiance)[c]);
+}
+
+// What a lamp sends by way of coloured walls: by sample points that take turns in hemicubes, and by
+// hemicubes alone, which know no samples. A spotlight beside it lights every pixel.
+TEST_P(IrradianceCachePictures, HaveLampsWhoseSamplesTakeTurns) {
+    Scene scene = test::plain_scene({0.7f, 0.4f, 0.2f});
+    test::add_box(scene, {-1, 0, -1}, {1, 1.4, 1}, -1);
+    Material lamp;
+    lamp.base_color = glm::vec4(0, 0, 0, 1);
+    lamp.emission = {3.0f, 6.0f, 12.0f};
+    const std::uint32_t glows = test::add_material(scene, lamp);
+    test::add_quad(
+        scene, {glm::dvec3(-0.5, 1.3, -0.4), {0.3, 1.3, -0.4}, {0.3, 1.2, 0.5}, {-0.5, 1.2, 0.5}},
+        glows);
+    scene.cameras = {test::camera_at({-0.9, 0.5, 0.8}, {0.3, 0.1, -0.4}, 1.0f)};
+    IrradianceCacheOptions options = cache_options();
+    options.picture.direct = false;
+    // Emission by hemicubes is no direct light; so the lamp's own light is taken away.
+    options.emission = true;
+    options.face = 64;
+    const glm::dvec3 by_hemicubes = mean_radiance(pictured(scene, options).radiance);
+    SecondOrderOptions direct;
+    direct.width = cache_width;
+    direct.height = cache_height;
+    direct.indirect = false;
+    direct.emitters.area_samples = 512;
+    const glm::dvec3 alone = mean_radiance(test::render(scene, scene.cameras[0], direct).radiance);
+    options.emission = false;
+    for (const int samples : {4, 70, 256}) {
+        options.picture.emitters.area_samples = samples;
+        const glm::dvec3 found = mean_radiance(pictured(scene, options).radiance);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[c], by_hemicubes[c] - alone[c], 0.04 * by_hemicubes[c])
+                << samples << " " << c;
+    }
+    // A lamp of another kind counts whole beside 256 samples that take turns.
+    scene.lights = {test::point_light({0.4, 0.9, 0.2}, 0.5f)};
+    const glm::dvec3 both = mean_radiance(pictured(scene, options).radiance);
+    scene.materials[glows].emission = glm::vec3(0.0f);
+    const glm::dvec3 point = mean_radiance(pictured(scene, options).radiance);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(both[c] - point[c], by_hemicubes[c] - alone[c], 0.04 * by_hemicubes[c]) << c;
+}
+
+// A lamp that lies outside of the focus has no points with shadow maps, and lights by hemicubes.
+TEST_P(IrradianceCachePictures, HaveLampsBeyondTheFocusByHemicubes) {
+    Scene scene = test::plain_scene({0.5f, 0.6f, 0.7f});
+    test::add_floor(scene, 0.1);
+    Material lamp;
+    lamp.base_color = glm::vec4(0, 0, 0, 1);
+    lamp.emission = {3.0f, 2.0f, 1.0f};
+    const std::uint32_t glows = test::add_material(scene, lamp);
+    test::add_quad(
+        scene, {glm::dvec3(-0.5, 1, -0.5), {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}}, glows);
+    scene.cameras = {test::camera_at({0, 0.8, 0.001}, {0, 0, 0}, 0.1f)};
+    IrradianceCacheOptions options = cache_options(20, 0);
+    options.picture.emitters.area_samples = 256;
+    options.face = 64;
+    const double side = std::sqrt(1.25), half = 0.5;
+    const double irradiance = 4.0 * (half / side * std::atan(half / side));
+    for (const double radius : {0.3, 1.1}) {  // the lamp is outside, and inside
+        scene.focus = Focus{glm::dvec3(0.0, 0.05, 0.0), radius};
+        options.picture.direct = true;
+        const glm::dvec3 all = mean_radiance(pictured(scene, options).radiance);
+        options.picture.direct = false;
+        const glm::dvec3 gathered = mean_radiance(pictured(scene, options).radiance);
+        for (int c = 0; c < 3; ++c) {
+            const double wanted = scene.materials[0].base_color[c] / pi * irradiance *
+                                  scene.materials[glows].emission[c];
+            EXPECT_NEAR(all[c], wanted, 0.03 * wanted) << radius << " " << c;
+            EXPECT_NEAR(gathered[c], radius < 1.0 ? wanted : 0.0, 0.03 * wanted) << radius;
+        }
+    }
+}
+
+// Where the light changes more records are made, and the picture errs less: below a small block in
+// a room that a spotlight lights by way of one wall.
+TEST_P(IrradianceCachePictures, ErrLessWithRefinedRecords) {
+    Scene scene = test::plain_scene({0.7f, 0.6f, 0.5f});
+    test::add_box(scene, {0, 0, 0}, {4, 3, 5}, -1);
+    test::add_box(scene, {1.5, 0.15, 1.5}, {2.5, 0.6, 2.5}, 1);
+    scene.lights = {test::spot_light({2, 2.5, 4}, {0, -0.1f, 1}, 0.5f, 60.0f)};
+    scene.cameras = {test::camera_at({0.4, 1.6, 4.6}, {2.2, 0.3, 1.5}, 0.9f)};
+    const reference::PathTracer tracer(scene);
+    reference::VerifyOptions check;
+    check.effects.emission = check.effects.direct = false;
+    check.samples = 600;
+    IrradianceCacheOptions options = cache_options(30, 300);
+    options.picture.direct = false;
+    const auto error = [&](int refined) {
+        options.refined = refined;
+        const CachePicture found = pictured(scene, options);
+        EXPECT_LE(found.status.refined, static_cast<std::size_t>(refined));
+        EXPECT_EQ(found.status.refined > 0, refined > 0);
+        return tracer.verify(scene.cameras[0], cache_width, cache_height, found.radiance, check)
+            .error.value;
+    };
+    const double before = error(0), after = error(300);
+    EXPECT_LT(after, 0.75 * before) << before;
 }
 
 // A coloured room with a window, looked at away from it, in a plain that is a thousand times
@@ -253,71 +357,6 @@ TEST(IrradianceCache, SaysWhatItCannotDo) {
     EXPECT_NE(refused([](Options& o) { o.picture.build.storage = Storage::half; }).find("storage"),
               std::string::npos);
     EXPECT_NE(refused([](Options& o) { o.picture.width = 0; }).find("width"), std::string::npos);
-}
-
-// Each pass with buffers for its records, and then with one of them too small.
-TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
-    const DeviceScene scene = test::on_device(furnace({.subdivisions = 1}));
-    const CachePasses passes(test::programs(), test::usual_build());
-    const cl::CommandQueue& queue = test::device().queue;
-    constexpr std::uint32_t records = 4, stride = 16, size = 8;
-    CacheParams params{};
-    params.count = records;
-    params.stride = stride;
-    params.size = size;
-    params.picks = 2;
-    params.pick_stride = 16;
-    CacheTree tree{};
-    tree.record_count = records;
-    tree.stride = stride;
-    tree.node_count = 1;
-    const std::vector<std::uint32_t> leaf = {CACHE_LEAF};
-    const auto buffers = [&](cl::Buffer CacheBuffers::*small) {
-        CacheBuffers b;
-        b.planes = test::empty<float>(RECORD_PLANES * stride);
-        b.views = test::empty<View>(5 * records);
-        b.visibility = test::empty<std::uint64_t>(3 * size * size * records);
-        b.nodes = test::upload(leaf);
-        b.lists = test::empty<std::uint32_t>(CACHE_WAYS * CACHE_LISTED);
-        b.sky = test::empty<float>(4);
-        b.rows = test::empty<float>(3 * stride * records);
-        for (cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
-            *light = test::empty<float>(3 * stride);
-        if (small) b.*small = test::empty<float>(1);
-        return b;
-    };
-    const cl::Buffer places = test::empty<float>(RECORD_PLANES * 16);
-    EmitterBuffers emitters;
-    emitters.kind = Pixels::depth;
-    for (cl::Buffer* buffer : {&emitters.emitters, &emitters.views, &emitters.visibility})
-        *buffer = test::empty<float>(64);
-    GBuffer points;
-    points.stride = stride;
-    points.planes = test::empty<float>(GBUFFER_PLANES * stride);
-    const cl::Buffer irradiance = test::empty<float>(3 * stride);
-    const cl::Buffer doubt = test::empty<float>(stride);
-    const auto pick = [&](const CacheBuffers& b) { passes.pick(queue, params, scene, b, places); };
-    const auto link = [&](const CacheBuffers& b) {
-        passes.link(queue, params, tree, scene, emitters, b);
-    };
-    const auto bounce = [&](const CacheBuffers& b) {
-        passes.bounce(queue, {records, stride, 0, 0}, b);
-    };
-    const auto show = [&](const CacheBuffers& b) {
-        passes.show(queue, {4, stride, 0, 0}, tree, b, points, irradiance, doubt);
-    };
-    using B = CacheBuffers;
-    for (const auto small : {&B::views, &B::visibility}) EXPECT_THROW(pick(buffers(small)), Error);
-    for (const auto small :
-         {&B::planes, &B::views, &B::visibility, &B::rows, &B::base, &B::reflected})
-        EXPECT_THROW(link(buffers(small)), Error);
-    for (const auto small : {&B::rows, &B::base, &B::reflected, &B::light, &B::next})
-        EXPECT_THROW(bounce(buffers(small)), Error);
-    for (const auto small : {&B::planes, &B::light}) EXPECT_THROW(show(buffers(small)), Error);
-    EXPECT_NO_THROW(bounce(buffers(nullptr)));
-    params.size = 12;
-    EXPECT_THROW(pick(buffers(nullptr)), Error);
-    queue.finish();
 }
 
 }  // namespace

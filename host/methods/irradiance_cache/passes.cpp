@@ -71,6 +71,8 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
          3 * word * params.stride * (std::size_t{params.first} + params.count));
     need(link_, "base", b.base, 3 * word * params.stride);
     need(link_, "reflected", b.reflected, 3 * word * params.stride);
+    need_range("cache.link", "emitter_step", params.emitter_step, 1u, 1u << 20);
+    need_range("cache.link", "whole_emitters", params.whole_emitters, 0u, params.emitter_count);
     need_depth_words(link_, 1, emitters.kind);
     need_emitters(link_, emitters, params.emitter_count);
     return launch(link_, queue, params.count, wait, params, tree, scene.info(), b.views,

@@ -46,9 +46,9 @@ typedef struct {
     uint pick_stride;
     uint emitter_count;  // with shadow maps of depth alone
     float focus;         // square of its radius, local units
-    uint pad0_;
-    uint pad1_;
-    uint pad2_;
+    uint whole_emitters;  // so many light every pixel of a hemicube
+    uint emitter_step;    // of the others each lights one block of 16 pixels in so many, at least 1
+    uint pad_;
 } CacheParams;
 
 typedef struct {

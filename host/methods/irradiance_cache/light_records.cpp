@@ -1,0 +1,119 @@
+// Light from record to record, and from records to the picture.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "methods/irradiance_cache/state.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr int most_steps = 256, steps_a_look = 8;
+constexpr float rest = 1e-3f;
+
+}  // namespace
+
+void IrradianceCache::State::plant(CacheTree& planted, cl::Buffer& nodes, cl::Buffer& lists) {
+    const RecordTree made = make_tree(records);
+    planted = {};
+    for (int c = 0; c < 3; ++c) (&planted.centre.x)[c] = made.centre[c];
+    planted.centre.w = made.half_side;
+    planted.node_count = static_cast<std::uint32_t>(made.nodes.size());
+    planted.record_count = static_cast<std::uint32_t>(records.size());
+    planted.stride = stride;
+    Recorder& record = picture.record();
+    grow(nodes, made.nodes.size() * sizeof(std::uint32_t));
+    grow(lists, made.lists.size() * sizeof(std::uint32_t));
+    record.write(nodes, made.nodes.data(), made.nodes.size() * sizeof(std::uint32_t));
+    record.write(lists, made.lists.data(), made.lists.size() * sizeof(std::uint32_t));
+}
+
+void IrradianceCache::State::link(std::size_t first) {
+    Recorder& record = picture.record();
+    if (first == 0) {
+        plant(tree, b.nodes, b.lists);
+        // To the stride: rows are summed in whole packets.
+        for (const cl::Buffer* buffer : {&b.base, &b.reflected, &b.light, &b.next})
+            record.fill(*buffer, 0);
+        if (!sky.texels.empty())
+            record.write(b.sky, sky.texels.data(), sky.texels.size() * sizeof(float));
+    }
+    const std::size_t count = records.size() - first;
+    record("cache.link", count, [&](const WaitList& wait) {
+        return passes.link(record.queue(), params(first, count), tree, scene,
+                           picture.emitter_buffers(), b, wait);
+    });
+}
+
+void IrradianceCache::State::grow(cl::Buffer& buffer, std::size_t size) {
+    const std::size_t held = buffer() ? buffer.getInfo<CL_MEM_SIZE>() : 0;
+    if (held < size)
+        buffer = cl::Buffer(picture.record().queue().getInfo<CL_QUEUE_CONTEXT>(), CL_MEM_READ_ONLY,
+                            size + size / 4);
+}
+
+void IrradianceCache::State::light() {
+    Recorder& record = picture.record();
+    const auto count = static_cast<std::uint32_t>(records.size());
+    record("cache.begin", count, [&](const WaitList& wait) {
+        cl::Event copied;
+        record.queue().enqueueCopyBuffer(b.base, b.light, 0, 0,
+                                         3 * std::size_t{stride} * sizeof(float), &wait, &copied);
+        return copied;
+    });
+    const int limit = options.bounces > 0 ? options.bounces : most_steps;
+    found.converged = false;
+    int step = 0;
+    while (step < limit && !found.converged) {
+        const int last = std::min(limit, step + steps_a_look);
+        for (; step < last; ++step) bounce(0);
+        if (options.bounces == 0) found.converged = rests();
+    }
+    found.bounces = step;
+    if (options.bounces > 0) found.converged = true;
+}
+
+void IrradianceCache::State::bounce(std::size_t first) {
+    Recorder& record = picture.record();
+    const auto count = static_cast<std::uint32_t>(records.size() - first);
+    const CacheBounceParams params{count, stride, static_cast<std::uint32_t>(first), 0};
+    record("cache.bounce", 3 * count,
+           [&](const WaitList& wait) { return passes.bounce(record.queue(), params, b, wait); });
+    std::swap(b.light, b.next);
+}
+
+bool IrradianceCache::State::rests() {
+    const std::size_t count = 3 * std::size_t{stride};
+    std::vector<float> now(count), before(count);
+    const cl::CommandQueue& queue = picture.record().queue();
+    const WaitList pending = picture.record().waits();
+    queue.enqueueReadBuffer(b.light, CL_TRUE, 0, count * sizeof(float), now.data(), &pending);
+    queue.enqueueReadBuffer(b.next, CL_TRUE, 0, count * sizeof(float), before.data());
+    float most = 0.0f, change = 0.0f;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const std::size_t at = c * stride + i;
+            most = std::max(most, now[at]);
+            change = std::max(change, std::abs(now[at] - before[at]));
+        }
+    return change <= rest * most;
+}
+
+void IrradianceCache::State::show() {
+    const bool refined = found.refined > 0;
+    if (refined) plant(all_tree, all_nodes, all_lists);
+    CacheBuffers all = b;
+    if (refined) {
+        all.nodes = all_nodes;
+        all.lists = all_lists;
+    }
+    const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()), picture.stride(), 0,
+                                 0};
+    picture.record()("cache.show", picture.pixels(), [&](const WaitList& wait) {
+        return passes.show(picture.record().queue(), params, refined ? all_tree : tree, all,
+                           picture.gbuffer(), picture.irradiance(), doubt, wait);
+    });
+}
+
+}  // namespace clgi

@@ -1,0 +1,151 @@
+// Where records lie: on what the picture shows, on what those see, and where their light changes.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "methods/irradiance_cache/state.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr int refinements = 2;
+constexpr float lift_share = 4e-6f;  // of the focus's radius
+
+}  // namespace
+
+std::vector<CacheRecord> IrradianceCache::State::read_records(const cl::Buffer& planes,
+                                                              std::size_t plane_floats,
+                                                              std::size_t count) {
+    std::vector<float> values(RECORD_PLANES * plane_floats);
+    const WaitList pending = picture.record().waits();
+    picture.record().queue().enqueueReadBuffer(planes, CL_TRUE, 0, values.size() * sizeof(float),
+                                               values.data(), &pending);
+    std::vector<CacheRecord> out(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        glm::vec3* parts[] = {&out[i].position, &out[i].normal, &out[i].geometric};
+        for (int part = 0; part < 3; ++part)
+            for (int c = 0; c < 3; ++c)
+                (*parts[part])[c] =
+                    values[static_cast<std::size_t>(3 * part + c) * plane_floats + i];
+    }
+    return out;
+}
+
+void IrradianceCache::State::write_records() {
+    std::vector<float> values(RECORD_PLANES * std::size_t{stride}, 0.0f);
+    std::vector<std::uint32_t> order(stride);
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const glm::vec3 parts[] = {records[i].position, records[i].normal, records[i].geometric};
+        for (int part = 0; part < 3; ++part)
+            for (int c = 0; c < 3; ++c)
+                values[static_cast<std::size_t>(3 * part + c) * stride + i] = parts[part][c];
+        order[i] = static_cast<std::uint32_t>(i);
+    }
+    picture.record().write(b.planes, values.data(), values.size() * sizeof(float));
+    picture.record().write(chosen, order.data(), order.size() * sizeof(std::uint32_t));
+}
+
+void IrradianceCache::State::draw(std::size_t first) {
+    const auto from = static_cast<std::uint32_t>(first);
+    const auto count = static_cast<std::uint32_t>(records.size() - first);
+    const auto face = static_cast<std::uint32_t>(options.face);
+    const float lift = lift_share * scene.frame().detail;
+    CubeParams params{};
+    params.point_count = count;
+    params.faces = 5;
+    params.size = face;
+    params.first_view = 5 * from;
+    params.first_pixel = 3 * face * face * from;
+    params.stride = stride;
+    params.lift = lift;
+    params.near = 0.5f * lift;
+    params.first_chosen = from;
+    params.turned = 1;
+    Recorder& record = picture.record();
+    record("gbuffer.cubes", count, [&](const WaitList& wait) {
+        return cubes.cubes(record.queue(), params, b.planes, chosen, b.views, wait);
+    });
+    const ViewSpan span{5 * from, 5 * count, face, face,
+                        std::size_t{3} * face * face * records.size()};
+    record("gbuffer.raster_views", span.count, [&](const WaitList& wait) {
+        return cubes.raster_views(record.queue(), span, b.views, scene, b.visibility,
+                                  Pixels::visibility, wait);
+    });
+}
+
+void IrradianceCache::State::meet(std::size_t first, std::size_t count) {
+    const std::size_t viewers = records.size() - first;
+    if (count == 0 || viewers == 0) return;
+    Recorder& record = picture.record();
+    record("cache.pick", viewers * picks_per_record, [&](const WaitList& wait) {
+        return passes.pick(record.queue(), params(first, viewers), scene, b, places, wait);
+    });
+    const std::size_t picks = viewers * picks_per_record;
+    const std::vector<CacheRecord> seen = read_records(places, pick_stride, picks);
+    // One pick of each viewer after the other, so that none of them comes first.
+    std::vector<CacheRecord> candidates;
+    std::vector<std::size_t> by;
+    for (std::size_t k = 0; k < picks_per_record; ++k)
+        for (std::size_t v = 0; v < viewers; ++v) {
+            candidates.push_back(seen[v * picks_per_record + k]);
+            by.push_back(first + v);
+        }
+    const std::size_t before = records.size();
+    add_records(records, candidates, by, count);
+    if (records.size() == before) return;
+    write_records();
+    draw(before);
+}
+
+void IrradianceCache::State::choose(const View& view) {
+    Recorder& record = picture.record();
+    record.wait();
+    shown = read_records(picture.gbuffer().planes, picture.stride(), picture.pixels());
+    records = seen_records(shown, static_cast<int>(view.width), static_cast<int>(view.height),
+                           options.seen);
+    const std::size_t most = capacity - static_cast<std::size_t>(options.met) -
+                             static_cast<std::size_t>(options.refined);
+    if (records.size() > most) records.resize(most);
+    found.seen = records.size();
+    found.met = found.refined = 0;
+    if (records.empty()) return;
+    write_records();
+    draw(0);
+    const auto met = static_cast<std::size_t>(options.met);
+    meet(0, met - met / 3);
+    meet(found.seen, met / 3);
+    found.met = records.size() - found.seen;
+}
+
+void IrradianceCache::State::refine(const View& view) {
+    if (options.refined == 0) return;
+    const auto width = static_cast<int>(view.width), height = static_cast<int>(view.height);
+    int side = block_side(width, height, options.seen);
+    auto left = static_cast<std::size_t>(options.refined);
+    for (int round = 0; round < refinements; ++round) {
+        side = std::max(side / 2, 1);
+        const std::vector<CacheRecord> more =
+            doubtful_records(shown, read_doubt(), width, height, side,
+                             left / static_cast<std::size_t>(refinements - round));
+        if (more.empty()) return;
+        const std::size_t first = records.size();
+        records.insert(records.end(), more.begin(), more.end());
+        left -= more.size();
+        found.refined += more.size();
+        write_records();
+        draw(first);
+        link(first);
+        std::swap(b.light, b.next);
+        bounce(first);
+        show();
+    }
+}
+
+std::vector<float> IrradianceCache::State::read_doubt() {
+    std::vector<float> out(picture.pixels());
+    const WaitList pending = picture.record().waits();
+    picture.record().queue().enqueueReadBuffer(doubt, CL_TRUE, 0, out.size() * sizeof(float),
+                                               out.data(), &pending);
+    return out;
+}
+
+}  // namespace clgi
