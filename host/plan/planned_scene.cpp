@@ -11,7 +11,7 @@ namespace clgi {
 namespace {
 
 // Of the scene, what the picture reaches: below these it is a small part of it.
-constexpr double small_size = 0.125, small_area = 0.3, small_power = 0.5;
+constexpr double small_size = 0.125, small_area = 0.1, small_power = 0.5;
 
 bool kept(const Light& light, const Plan& plan) {
     if (light.intensity == glm::vec3(0.0f) && !plan.request.lights_change) return false;

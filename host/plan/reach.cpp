@@ -48,15 +48,15 @@ double at(std::size_t i, std::uint32_t base) {
     return radical_inverse(static_cast<std::uint32_t>(i) + 1, base);
 }
 
-// All places that paths meet, local.
-std::vector<glm::dvec3> met(const LocalScene& local, const Camera& camera, int width, int height) {
+// All places that paths meet.
+std::vector<Place> met(const LocalScene& local, const Camera& camera, int width, int height) {
     const SceneFrame& frame = local.frame;
     const double wished = wished_tests / static_cast<double>(std::max<std::size_t>(
                                              surfaces * local.triangles.size(), 1));
     const auto paths = static_cast<std::size_t>(std::clamp(wished, fewest_paths, most_paths));
     const View view = make_view(camera, frame, width, height);
-    std::vector<Place> places;
-    std::vector<glm::dvec3> along, out;
+    std::vector<Place> places, out;
+    std::vector<glm::dvec3> along;
     for (std::size_t i = 0; i < paths; ++i) {
         const double x = 2.0 * at(i, 2) - 1.0, y = 2.0 * at(i, 3) - 1.0;
         const glm::dvec3 across = x * double{view.right.w} * glm::dvec3(camera.right) +
@@ -72,7 +72,7 @@ std::vector<glm::dvec3> met(const LocalScene& local, const Camera& camera, int w
         places = ends(rays, places, along, local);
         along.clear();
         for (std::size_t i = 0; i < places.size(); ++i) {
-            out.push_back(places[i].position);
+            out.push_back(places[i]);
             along.push_back(
                 about(places[i].normal, at(i, depth == 0 ? 5 : 11), at(i, depth == 0 ? 7 : 13)));
         }
@@ -80,10 +80,9 @@ std::vector<glm::dvec3> met(const LocalScene& local, const Camera& camera, int w
     return out;
 }
 
-double radius_of_share(const std::vector<glm::dvec3>& places, const glm::dvec3& centre,
-                       double share) {
+double radius_of_share(const std::vector<Place>& places, const glm::dvec3& centre, double share) {
     std::vector<double> distances;
-    for (const glm::dvec3& place : places) distances.push_back(glm::distance(place, centre));
+    for (const Place& place : places) distances.push_back(glm::distance(place.position, centre));
     const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(places.size() - 1));
     std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
     return distances[static_cast<std::size_t>(rank)];
@@ -101,72 +100,108 @@ double share_of_area(const std::vector<LocalTriangle>& triangles, const glm::dve
     return share(static_cast<double>(inside), static_cast<double>(points.size()));
 }
 
-// Lamps, and which of the emissive triangles lie in the sphere.
-struct Lamps {
-    double power = 0.0, inside = 0.0;  // lumen
-    std::vector<double> emits;         // [triangles] of those inside: radiance, cd/m^2
-    double area = 0.0;                 // local, of these
+// Whether nothing lies between a lamp and a place that faces it. normal: of the lamp's surface, or
+// 0.
+class SightLines {
+public:
+    void add(const glm::dvec3& from, const glm::dvec3& normal, const Place& to, std::size_t lamp) {
+        const double distance = glm::distance(to.position, from);
+        const glm::dvec3 along = (to.position - from) / std::max(distance, same_place);
+        const bool faces = normal == glm::dvec3(0.0) || glm::dot(along, normal) > 0.0;
+        if (!(distance > 4.0 * same_place) || !faces || !(glm::dot(along, to.normal) < 0.0)) return;
+        rays_.add(from, along, distance - 2.0 * same_place, Rays::any);
+        lamps_.push_back(lamp);
+    }
+
+    // By lamp: whether a place sees it.
+    std::vector<bool> seen(const LocalScene& local, std::size_t lamps) {
+        rays_.trace(local.blockers);
+        std::vector<bool> out(lamps, false);
+        for (std::size_t r = 0; r < lamps_.size(); ++r)
+            if (!rays_.met(r)) out[lamps_[r]] = true;
+        return out;
+    }
+
+private:
+    Rays rays_;
+    std::vector<std::size_t> lamps_;
 };
 
-Lamps lamps_of(const Scene& scene, const LocalScene& local, const glm::dvec3& centre,
-               double radius) {
+const Place& place_at(const std::vector<Place>& places, std::size_t lamp, std::size_t line) {
+    return places[(lamp * sight_lines + line * 7919) % places.size()];
+}
+
+// Of emissive surfaces, the share of their power that some place sees. emits: [triangles]
+double seen_share(const LocalScene& local, const std::vector<double>& emits,
+                  const std::vector<Place>& places) {
+    const std::vector<SurfacePoint> points = surface_points(local.triangles, emits, lamp_points);
+    SightLines lines;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t k = 0; k < sight_lines; ++k)
+            lines.add(points[i].position, points[i].normal, place_at(places, i, k), i);
+    const std::vector<bool> seen = lines.seen(local, points.size());
+    double all = 0.0, some = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        all += emits[points[i].triangle];
+        some += seen[i] ? emits[points[i].triangle] : 0.0;
+    }
+    return share(some, all);
+}
+
+// What the lamps that light the places send, of all.
+struct Lamps {
+    double power = 0.0, reached = 0.0;  // lumen; reached: in the sphere, or seen by a place
+    double area = 0.0;                  // local, of emissive surfaces in the sphere
+    double hidden = 0.0;                // share of the power of these that no place sees
+};
+
+Lamps lamps_of(const Scene& scene, const LocalScene& local, const std::vector<Place>& places,
+               const glm::dvec3& centre, double radius) {
     Lamps out;
     const SceneFrame& frame = local.frame;
-    const auto add = [&](double power, const glm::dvec3& place) {
-        const bool inside = glm::distance(place, centre) <= radius;
-        out.power += power;
-        out.inside += inside ? power : 0.0;
-        return inside;
+    const auto inside = [&](const glm::dvec3& place) {
+        return glm::distance(place, centre) <= radius;
     };
-    for (const Light& light : scene.lights)
-        if (light.kind != Light::Kind::directional)
-            add(4.0 * std::numbers::pi * luminance(light.intensity),
-                (light.position - frame.origin) * frame.scale);
-    const double square = frame.scale * frame.scale;
-    out.emits.assign(local.triangles.size(), 0.0);
+    std::vector<double> outside;  // lumen
+    SightLines lines;
+    for (const Light& light : scene.lights) {
+        if (light.kind == Light::Kind::directional) continue;
+        const double power = 4.0 * std::numbers::pi * luminance(light.intensity);
+        const glm::dvec3 at = (light.position - frame.origin) * frame.scale;
+        out.power += power;
+        if (inside(at)) {
+            out.reached += power;
+            continue;
+        }
+        for (std::size_t k = 0; k < sight_lines; ++k)
+            lines.add(at, glm::dvec3(0.0), place_at(places, outside.size(), k), outside.size());
+        outside.push_back(power);
+    }
+    const std::vector<bool> seen = lines.seen(local, outside.size());
+    for (std::size_t i = 0; i < outside.size(); ++i) out.reached += seen[i] ? outside[i] : 0.0;
+
+    std::vector<double> near(local.triangles.size(), 0.0), far = near;
+    double near_power = 0.0, far_power = 0.0;
     for (std::size_t i = 0; i < local.lights.emissive.size(); ++i) {
         const std::uint32_t t = local.lights.emissive[i];
         const LocalTriangle& one = local.triangles[t];
-        if (one.is_line()) continue;
         const double radiance = local.lights.radiance[i];
-        if (!add(std::numbers::pi * radiance * one.area / square,
-                 (one.corners[0] + one.corners[1] + one.corners[2]) / 3.0))
-            continue;
-        out.emits[t] = radiance;
-        out.area += one.area;
-    }
-    return out;
-}
-
-// Points on lamps that none of the places sees, by power.
-double hidden_share(const LocalScene& local, const Lamps& lamps,
-                    const std::vector<glm::dvec3>& places) {
-    if (!(lamps.area > 0.0)) return 0.0;
-    const std::vector<SurfacePoint> points =
-        surface_points(local.triangles, lamps.emits, lamp_points);
-    Rays rays;
-    std::vector<std::size_t> owner;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t k = 0; k < sight_lines; ++k) {
-            const glm::dvec3 to = places[(i * sight_lines + k * 7919) % places.size()];
-            const double distance = glm::distance(to, points[i].position);
-            const glm::dvec3 along = (to - points[i].position) / std::max(distance, same_place);
-            if (!(distance > 4.0 * same_place) || !(glm::dot(along, points[i].normal) > 0.0))
-                continue;
-            rays.add(points[i].position, along, distance - 2.0 * same_place, Rays::any);
-            owner.push_back(i);
+        if (one.is_line()) continue;
+        const double power = std::numbers::pi * radiance * one.area / (frame.scale * frame.scale);
+        if (inside((one.corners[0] + one.corners[1] + one.corners[2]) / 3.0)) {
+            near[t] = radiance;
+            near_power += power;
+            out.area += one.area;
+        } else {
+            far[t] = radiance;
+            far_power += power;
         }
-    rays.trace(local.blockers);
-    std::vector<bool> seen(points.size(), false);
-    for (std::size_t r = 0; r < owner.size(); ++r)
-        if (!rays.met(r)) seen[owner[r]] = true;
-    double all = 0.0, hidden = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const double power = lamps.emits[points[i].triangle];
-        all += power;
-        hidden += seen[i] ? 0.0 : power;
     }
-    return all > 0.0 ? hidden / all : 0.0;
+    out.power += near_power + far_power;
+    out.reached += near_power;
+    if (near_power > 0.0) out.hidden = 1.0 - seen_share(local, near, places);
+    if (far_power > 0.0) out.reached += far_power * seen_share(local, far, places);
+    return out;
 }
 
 }  // namespace
@@ -176,7 +211,7 @@ Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera
     const auto start = timing::Clock::now();
     Reach out;
     const SceneFrame& frame = local.frame;
-    const std::vector<glm::dvec3> places = met(local, camera, width, height);
+    const std::vector<Place> places = met(local, camera, width, height);
     out.points = places.size();
     out.sphere = {frame.origin, frame.radius / frame.scale};
     if (places.empty()) return out;
@@ -186,9 +221,9 @@ Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera
     const double near = radius_of_share(places, eye, held);
     glm::dvec3 sum(0.0);
     double count = 0.0;
-    for (const glm::dvec3& place : places)
-        if (glm::distance(place, eye) <= near) {
-            sum += place;
+    for (const Place& place : places)
+        if (glm::distance(place.position, eye) <= near) {
+            sum += place.position;
             count += 1.0;
         }
     const glm::dvec3 centre = sum / count;
@@ -196,10 +231,10 @@ Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera
     out.sphere = {frame.origin + centre / frame.scale, radius / frame.scale};
     out.size = radius / double{frame.radius};
     out.area = share_of_area(local.triangles, centre, beyond * radius);
-    const Lamps lamps = lamps_of(scene, local, centre, beyond * radius);
-    out.power = share(lamps.inside, lamps.power);
+    const Lamps lamps = lamps_of(scene, local, places, centre, beyond * radius);
+    out.power = share(lamps.reached, lamps.power);
     out.emissive_area = lamps.area / (frame.scale * frame.scale);
-    out.hidden = hidden_share(local, lamps, places);
+    out.hidden = lamps.hidden;
     out.milliseconds = timing::milliseconds(timing::Clock::now() - start);
     return out;
 }

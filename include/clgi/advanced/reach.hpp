@@ -12,9 +12,9 @@ struct Reach {
     std::size_t points = 0;  // places that paths met; 0: nothing is known, and the rest is 1
     // Around nine tenths of them.
     Focus sphere;
-    // Shares of what the sphere, half as large again, holds: of the scene's area, and of the power
-    // of its lamps (lumen, without directional lights and the environment).
-    double area = 1.0, power = 1.0;
+    double area = 1.0;   // share of the scene's, of what the sphere, half as large again, holds
+    double power = 1.0;  // share of the power of lamps (lumen, without directional lights and the
+                         // environment) that it holds, or that some of the places see
     double emissive_area = 0.0;  // m^2, of what it holds
     // Share of the power of these emissive surfaces that none of the places sees.
     double hidden = 0.0;
