@@ -80,9 +80,7 @@ public:
         const Design design = design_of(first, first_seconds);
         std::vector<Traced> pixels = drawn(design.counts, 3);
         if (rounds(design, pixels)) {
-            std::vector<Draw> weighted;
-            for (const Traced& pixel : pixels) weighted.push_back(pixel.weighted());
-            const ErrorAndEnergy found = estimate(weighted, draws_.mean());
+            const ErrorAndEnergy found = estimate_of(pixels);
             out_.error = found.error;
             out_.energy = found.energy;
         } else {
@@ -209,6 +207,18 @@ private:
         return out;
     }
 
+    ErrorAndEnergy estimate_of(const std::vector<Traced>& pixels) const {
+        std::vector<Draw> weighted;
+        for (const Traced& pixel : pixels) weighted.push_back(pixel.weighted());
+        return estimate(weighted, draws_.mean());
+    }
+
+    bool decided(const std::vector<Traced>& pixels) const {
+        if (!(options_.decide > 0.0)) return false;
+        const Estimate error = estimate_of(pixels).error;
+        return error.high <= options_.decide || error.low > options_.decide;
+    }
+
     // False if cancelled.
     bool rounds(Design design, std::vector<Traced>& pixels) {
         double round = 0.0;  // samples
@@ -238,6 +248,7 @@ private:
                 // In parts, so that it can be cancelled and times may change.
                 next = std::min(next, std::max(4, static_cast<int>(std::max(done, next / 3))));
             }
+            if (next > 0 && decided(pixels)) next = 0;
             if (progress_ && !progress_(next > 0 ? share : 1.0)) return false;
         }
         return true;
@@ -268,6 +279,7 @@ Options tracing_of(const VerifyOptions& options) {
                         ", " + std::to_string(low) + " to " + std::to_string(high) + " needed");
     };
     in("seconds", options.seconds, 0, 1e9);
+    in("decide", options.decide, 0, 1e9);
     in("pixels", options.pixels, 16, 1 << 20);
     in("samples", options.samples, 8, 1 << 20);
     Options out;

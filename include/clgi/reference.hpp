@@ -95,6 +95,7 @@ struct Estimate {
 struct VerifyOptions {
     Effects effects;         // of the truth
     double seconds = 0.0;    // time limit; 0: none. A first pass and 200 pixels take what they take
+    double decide = 0.0;     // > 0: ends when the interval lies above this error or below it
     int pixels = 1000;       // that are path-traced, at most; 16 to 2^20
     int samples = 64;        // paths of one of them, at most, as a mean of all; 8 to 2^20
     std::uint64_t seed = 1;  // without a time limit the same seed gives the same result
