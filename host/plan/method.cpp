@@ -34,6 +34,31 @@ bool fits(const cl::Device& device, const Plan& plan) {
     return plan.cost.megabytes <= 1e-6 * share * device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
 }
 
+// What checks of earlier plans say of a candidate: errors of its method are as many times larger
+// than expected as they found.
+std::optional<double> as_checked(const Plan& plan, std::optional<double> expected) {
+    if (!expected) return expected;
+    double factor = 1.0;
+    for (const PlanCheck& check : plan.checks)
+        if (check.method == plan.method && check.expected && *check.expected > 0.0)
+            factor = std::max(factor, check.measured / *check.expected);
+    return factor * *expected;
+}
+
+// Removes what was checked, and what is as coarse or coarser.
+void drop_checked(std::vector<Candidate>& candidates) {
+    constexpr double finer = 1.2;  // takes so many times as long, at least
+    const auto checked = [](const Candidate& one) {
+        const auto& checks = one.plan.checks;
+        return std::any_of(checks.begin(), checks.end(), [&](const PlanCheck& check) {
+            return check.method == one.plan.method &&
+                   one.plan.cost.total_ms() < finer * check.predicted_ms;
+        });
+    };
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), checked),
+                     candidates.end());
+}
+
 // Removes those that the device has no room for, unless it has none for any.
 void drop_too_large(const cl::Device& device, std::vector<Candidate>& candidates) {
     const auto large = [&](const Candidate& one) { return !fits(device, one.plan); };
@@ -50,7 +75,7 @@ void drop_too_slow_to_begin(std::vector<Candidate>& candidates) {
 
 }  // namespace
 
-void choose_method(const cl::Device& device, Plan& plan) {
+bool choose_method(const cl::Device& device, Plan& plan) {
     const Choice choice = methods_for(plan);
     const EffectChoices effects = plan.effects;
     for (EffectChoice& effect : plan.effects) effect.why.clear();  // candidates are many copies
@@ -63,10 +88,12 @@ void choose_method(const cl::Device& device, Plan& plan) {
             Candidate one{plan, std::nullopt};
             set(one.plan, preset, fineness);
             one.plan.cost = cost_of(device, one.plan);
-            one.error = expected_error(one.plan, preset);
+            one.error = as_checked(one.plan, expected_error(one.plan, preset));
             candidates.push_back(std::move(one));
         }
     }
+    drop_checked(candidates);
+    if (candidates.empty()) return false;
     drop_too_large(device, candidates);
     if (plan.request.animated) drop_too_slow_to_begin(candidates);
 
@@ -119,6 +146,7 @@ void choose_method(const cl::Device& device, Plan& plan) {
     plan.unavoidable = unavoidable(plan, plan.method);
     for (EffectChoice& effect : plan.effects)
         effect.by = effect.on ? provider_of(plan, plan.method, effect.effect).by : "";
+    return true;
 }
 
 }  // namespace clgi

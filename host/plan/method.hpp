@@ -6,8 +6,8 @@
 
 namespace clgi {
 
-// Sets the method, its settings, cost and error.
-void choose_method(const cl::Device& device, Plan& plan);
+// Sets the method, its settings, cost and error. False if all settings were checked.
+bool choose_method(const cl::Device& device, Plan& plan);
 
 // Of the plan's method with its settings and effects.
 PlanCost cost_of(const cl::Device& device, const Plan& plan);

@@ -146,4 +146,18 @@ Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Sc
     return with(probe(queue, programs, uploaded, camera, unprobed));
 }
 
+std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, double measured) {
+    constexpr double less = 0.95;     // of the error; otherwise it does not pay
+    constexpr double patience = 1e4;  // ms, where no time was requested
+    if (!(measured >= 0.0)) throw Error("plan: the measured error is negative or not a number");
+    Plan out = plan;
+    out.checks.push_back({plan.method, plan.error, measured, plan.cost.total_ms()});
+    if (!choose_method(device, out)) return std::nullopt;
+    price(device, out);
+    const double most = plan.request.seconds ? 1e3 * *plan.request.seconds : patience;
+    if (out.cost.total_ms() > most || (out.error && *out.error > less * measured))
+        return std::nullopt;
+    return out;
+}
+
 }  // namespace clgi

@@ -15,6 +15,7 @@ enum class SceneKind {
     fine,       // tens of thousands of triangles
     open,       // much light leaves
     indirect,   // most of what the camera sees is lit by other surfaces
+    skylit,     // the sky lights it, by hemicubes
 };
 // Root mean square of indirect light over the mean of the picture, by the probe; 1 without one.
 double indirect_share(const Plan& plan);
@@ -27,7 +28,7 @@ struct Preset {
     int places;      // leaves requested, or VPLs
     // By kind: error of indirect light, over its share (expected_error.hpp); of transfer, of the
     // whole picture. Measured; 0: was not.
-    double error[5];
+    double error[6];
 };
 
 // By method, each from quick to accurate.

@@ -50,7 +50,8 @@ void apply_effects(Plan& plan) {
     transfer.occlusion =
         plan.on(Effect::environment_shadows) ? Occlusion::automatic : Occlusion::none;
     transfer.gloss = plan.on(Effect::gloss);
-    transfer.interreflections = plan.on(Effect::first_bounce) && occludes(transfer.occlusion) ? 1 : 0;
+    transfer.interreflections =
+        plan.on(Effect::first_bounce) && occludes(transfer.occlusion) ? 1 : 0;
     transfer.build = build;
     plan.transfer_view.picture = plan.picture;
 }

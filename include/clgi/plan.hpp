@@ -47,6 +47,14 @@ struct PlanCost {
     double total_ms() const { return once_ms + frame_ms; }
 };
 
+// What a check found of a picture that was rendered by a plan.
+struct PlanCheck {
+    Method method = Method::direct;
+    std::optional<double> expected;  // error, before it
+    double measured = 0.0;           // error
+    double predicted_ms = 0.0;       // of all that the plan does
+};
+
 // The options of a Renderer, and the reasons for them.
 struct Plan : RendererOptions {
     Plan() { method = Method::direct; }
@@ -55,7 +63,8 @@ struct Plan : RendererOptions {
     // Of the scene without the lights and the gloss that the request leaves out.
     SceneAnalysis analysis;
     std::optional<ProbeResult> probe;
-    std::optional<Reach> reach;  // of the camera; none without one
+    std::optional<Reach> reach;     // of the camera; none without one
+    std::vector<PlanCheck> checks;  // of the plans before this one
     EffectChoices effects;
     // What all effects that are left out for the tolerance change: 0 where that is proven,
     // otherwise an estimate by the probe with a margin.
@@ -84,6 +93,12 @@ CLGI_API Plan make_plan(const cl::Device& device, const SceneAnalysis& analysis,
 // matters, uploads the scene and draws a few small pictures of it.
 CLGI_API Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
                         const Camera& camera, const PlanRequest& request);
+
+// The plan to go on with after a check of the picture by `plan` measured this error, above the one
+// that was requested. Settings of a method are expected to err by as many times more as it did;
+// what was tried, and what is coarser, is not tried again. None if nothing is expected to err less
+// than what was measured, within the time.
+CLGI_API std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, double measured);
 
 // Whether the picture reaches so little of the scene that methods that share their work out over
 // all of it, and a probe by them, tell little of the picture.

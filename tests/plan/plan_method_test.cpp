@@ -107,7 +107,7 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
                   w.seconds = 1e-3;
                   w.without = {Effect::direct_shadows};
               }),
-              Method::light_atlas);  // the only one, however slow
+              Method::irradiance_cache);  // the quickest that can do without, however slow
     EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest&) { f.surfaces.triangles = 0; }),
               Method::direct);
     EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest&) {
@@ -282,6 +282,7 @@ TEST(Plan, ComposesABakeOfWhatStandsStill) {
     analysis.motion = {true, 0.02, false};
     PlanRequest request;
     request.animated = true;
+    request.seconds = 0.4;
     const Plan plan = make_plan(device, analysis, request);
     ASSERT_EQ(plan.method, Method::light_atlas);
     EXPECT_EQ(plan.why, "little moves through light that is baked");
@@ -292,7 +293,7 @@ TEST(Plan, ComposesABakeOfWhatStandsStill) {
     EXPECT_EQ(by(Effect::further_bounces), "baked VPLs; moving: volume");
     EXPECT_EQ(by(Effect::moving_geometry), "direct light, volume");
     EXPECT_LE(plan.cost.once_ms, 10e3 + 1.0);
-    EXPECT_LT(plan.cost.frame_ms, 100.0);
+    EXPECT_LT(plan.cost.frame_ms, 400.0);
     ASSERT_TRUE(plan.error);
     EXPECT_GT(*plan.error, 0.05);
     EXPECT_NE(plan.error_evidence.find("of what moves as in an office"), std::string::npos);
