@@ -138,12 +138,14 @@ ordered_json analysis_json(const SceneAnalysis& analysis) {
 
 }  // namespace
 
+std::string plan_settings(const Plan& plan) {
+    return fmt::format("{} ({})", name_of(plan.method), settings_text(plan));
+}
+
 std::string plan_line(const Plan& plan) {
     std::string out = fmt::format(
-        "{} ({}): {}; predicted {:.3g} ms before the first picture, "
-        "{:.3g} ms a picture, {:.0f} MB",
-        name_of(plan.method), settings_text(plan), plan.why, plan.cost.once_ms, plan.cost.frame_ms,
-        plan.cost.megabytes);
+        "{}: {}; predicted {:.3g} ms before the first picture, {:.3g} ms a picture, {:.0f} MB",
+        plan_settings(plan), plan.why, plan.cost.once_ms, plan.cost.frame_ms, plan.cost.megabytes);
     if (plan.error)
         out += fmt::format("; error about {:.2g} % ({})", 100.0 * *plan.error, plan.error_evidence);
     return out;

@@ -8,11 +8,13 @@
 #include "program/duration.hpp"
 #include "program/percent.hpp"
 #include "program/plan_text.hpp"
+#include "program/render_attempt.hpp"
 
 namespace clgi::program {
 namespace {
 
-std::string unmet(const Plan& plan) {
+// checked: pictures will be, so that what is expected of their error does not matter.
+std::string unmet(const Plan& plan, bool checked) {
     std::string out;
     if (!plan.meets_time)
         out = fmt::format(
@@ -20,14 +22,47 @@ std::string unmet(const Plan& plan) {
             plan.request.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
             1e3 * *plan.request.seconds, plan.request.animated ? "--frame-time" : "--time-budget");
     const auto add = [&](const std::string& more) { out += (out.empty() ? "" : "; ") + more; };
-    if (!plan.meets_error && plan.error)
+    if (!checked && !plan.meets_error && plan.error)
         add(fmt::format("no method is known to reach the error of {:.3g} % in such scenes",
                         100.0 * *plan.request.error));
-    else if (!plan.meets_error)
+    else if (!checked && !plan.meets_error)
         add("the error of the method in such scenes is not known");
     for (const Effect effect : plan.unavoidable)
         add(fmt::format("no method that suits can leave out {}: it is rendered", name_of(effect)));
     return out;
+}
+
+// The error that pictures are checked for; none where the last picture is not that of the flags.
+std::optional<double> checked_target(const RenderFlags& flags, const Plan& plan) {
+    const bool one = flags.frames == 1 && !flags.fps && !flags.spin_light && !flags.orbit;
+    return one ? plan.request.error : std::nullopt;
+}
+
+// Plans once more where an error is above the target, and may be brought down in the time.
+std::optional<Planned> go_on(const cl::Device& device, const Planned& planned,
+                             const reference::Estimate& error, double target, double spent) {
+    constexpr double nearly = 0.8;   // of the target: a better picture would not be told from it
+    constexpr std::size_t most = 4;  // attempts
+    const Plan& plan = planned.plan;
+    if (error.value < nearly * target || plan.checks.size() + 1 >= most) return std::nullopt;
+    const std::optional<Plan> next = next_plan(device, plan, error.value);
+    if (!next) return std::nullopt;
+    if (plan.request.seconds && spent + 1e-3 * next->cost.total_ms() > *plan.request.seconds)
+        return std::nullopt;
+    return Planned{*next, planned.milliseconds};
+}
+
+bool is_better(const reference::Verification& found,
+               const std::optional<reference::Verification>& than) {
+    return !than || found.error.value < than->error.value;
+}
+
+std::string missed(double target, const std::optional<reference::Verification>& found) {
+    std::string out = fmt::format("the target error of {:.3g} % is not reached", 100.0 * target);
+    if (!found) return out + ": the picture was not checked";
+    if (found->error.low <= target)
+        return out + " for sure: the check, whose paths seldom meet the light, allows for more";
+    return out + ": no settings are known that would err less in the time";
 }
 
 }  // namespace
@@ -56,20 +91,51 @@ PlanRequest plan_request(const RenderFlags& flags) {
     return out;
 }
 
-std::shared_ptr<const Planned> make_render_plan(const RenderFlags& flags, const Session& session,
-                                                const Programs& programs, Scene& scene) {
-    auto planned = std::make_shared<Planned>();
-    Plan& plan = planned->plan;
-    plan = make_plan(session.queue, programs, scene,
-                     scene.cameras[static_cast<std::size_t>(flags.camera)], plan_request(flags));
-    planned->milliseconds = plan.analysis.milliseconds;
-    if (plan.reach) planned->milliseconds += plan.reach->milliseconds;
-    if (plan.probe) planned->milliseconds += plan.probe->milliseconds;
-    scene = planned_scene(scene, plan);
-    notice(flags.device.quiet, "plan: " + plan_line(plan));
-    const std::string warning = unmet(plan);
+void render_planned(const RenderFlags& flags, const Session& session, const Programs& programs,
+                    const Scene& scene) {
+    Planned first;
+    first.plan =
+        make_plan(session.queue, programs, scene,
+                  scene.cameras[static_cast<std::size_t>(flags.camera)], plan_request(flags));
+    first.milliseconds = first.plan.analysis.milliseconds;
+    if (first.plan.reach) first.milliseconds += first.plan.reach->milliseconds;
+    if (first.plan.probe) first.milliseconds += first.plan.probe->milliseconds;
+    const std::optional<double> target = checked_target(flags, first.plan);
+    const std::string warning = unmet(first.plan, target.has_value());
     if (!warning.empty()) notice(false, "warning: " + warning);
-    return planned;
+    catch_interrupts();
+
+    std::vector<RenderedAttempt> attempts;
+    std::unique_ptr<RenderAttempt> best;
+    std::optional<Planned> next = first;
+    double spent = 0.0;
+    bool found = false;
+    while (next) {
+        const auto planned = std::make_shared<const Planned>(*next);
+        const Plan& plan = planned->plan;
+        next.reset();
+        notice(flags.device.quiet, "plan: " + plan_line(plan));
+        RendererOptions options = plan;
+        options.animated = flags.options.animated;
+        options.clip = flags.options.clip;
+        options.transfer.coarse = flags.options.transfer.coarse;
+        auto attempt = std::make_unique<RenderAttempt>(
+            flags, session, programs, nullptr, planned_scene(scene, plan), options, planned);
+        attempt->draw();
+        spent += attempt->seconds();
+        if (target || flags.verify.on) attempt->check(scene, target.value_or(0.0));
+        const auto& verified = attempt->record().verified;
+        attempts.push_back({plan_settings(plan), plan.error, verified, attempt->seconds()});
+        found = target && verified && verified->error.high <= *target;
+        if (target && verified && !found && !interrupted())
+            next = go_on(session.device, *planned, verified->error, *target, spent);
+        if (!best || (verified && is_better(*verified, best->record().verified)))
+            best = std::move(attempt);
+    }
+    if (!target) attempts.clear();
+    if (target && !found) notice(false, "warning: " + missed(*target, best->record().verified));
+    best->finish(attempts, found || !target);
+    if ((target || flags.verify.on) && interrupted()) throw Interrupted();
 }
 
 }  // namespace clgi::program

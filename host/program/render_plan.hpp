@@ -17,8 +17,10 @@ struct Planned {
 // What the flags ask of a plan. Throws Error for invalid ones.
 PlanRequest plan_request(const RenderFlags& flags);
 
-// Plans by the flags, says so, and leaves of the scene what the plan renders.
-std::shared_ptr<const Planned> make_render_plan(const RenderFlags& flags, const Session& session,
-                                                const Programs& programs, Scene& scene);
+// Plans by the flags, says so and renders what the plan leaves of the scene. With --target-error
+// the picture is checked, and others are made by other settings until the check's upper bound is
+// within the error or nothing better is known; the best is kept.
+void render_planned(const RenderFlags& flags, const Session& session, const Programs& programs,
+                    const Scene& scene);
 
 }  // namespace clgi::program

@@ -44,6 +44,14 @@ struct AntiradianceSummary {
     double linking_ms = 0.0;  // on the host
 };
 
+// One of several renders for an error that was asked for.
+struct RenderedAttempt {
+    std::string settings;            // in words, with the method
+    std::optional<double> expected;  // error
+    std::optional<reference::Verification> verified;
+    double seconds = 0.0;
+};
+
 struct RenderRecord {
     cl::Device device;
     BuildOptions build;
@@ -68,6 +76,8 @@ struct RenderRecord {
     std::optional<IrradianceCacheStatus> cache;
     std::optional<AntiradianceSummary> antiradiance;
     std::shared_ptr<const Planned> planned;  // of --method auto
+    std::vector<RenderedAttempt> attempts;   // for an error that was asked for: all of them
+    bool meets_target = true;                // the last check's upper bound does
     std::vector<std::string> warnings;
     AntiradianceFrames exchanges;  // of antiradiance
 };

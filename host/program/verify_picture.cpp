@@ -54,10 +54,9 @@ void run_verify(const VerifyPictureFlags& flags) {
     check_camera("verify", flags.camera, scene);
     const reference::PathTracer tracer(scene);
     catch_interrupts();
-    const reference::Verification found =
-        tracer.verify(scene.cameras[static_cast<std::size_t>(flags.camera)], picture.width,
-                      picture.height, radiance_of(picture), options,
-                      progress_bar("verify", flags.quiet));
+    const reference::Verification found = tracer.verify(
+        scene.cameras[static_cast<std::size_t>(flags.camera)], picture.width, picture.height,
+        radiance_of(picture), options, progress_bar("verify", flags.quiet));
     if (found.cancelled) throw Interrupted();
     if (flags.json)
         fmt::print("{}\n", verify_json(found).dump(2));
@@ -72,8 +71,9 @@ void add_verify(CLI::App& app) {
         "verify", "The error of a picture, by path-tracing some hundred of its pixels");
     const auto flags = std::make_shared<VerifyPictureFlags>();
     command
-        ->add_option("picture", flags->picture,
-                     "The picture to judge, .exr or .hdr: radiance in cd/m^2 from the scene's camera")
+        ->add_option(
+            "picture", flags->picture,
+            "The picture to judge, .exr or .hdr: radiance in cd/m^2 from the scene's camera")
         ->required()
         ->type_name("PICTURE");
     command->add_option("scene", flags->scene, ".gltf or .glb file")

@@ -133,4 +133,65 @@ TEST_F(VerifyProgram, RefusesWhatItCannotCheck) {
     expect_one_error_line(run("bake " + scene + out + " --verify fast"), 1);
 }
 
+// A picture that is there: the error is what the check of the render found, from other pixels.
+TEST_F(VerifyProgram, JudgesAPictureOfAnyOrigin) {
+    const std::string scene = make("cornell --light spot");
+    const std::string exr = file("a.exr").string(), truth = file("t.exr").string();
+    ASSERT_EQ(
+        run("render " + scene + " --size 64x48 --full --quiet --method second-order -o " + exr)
+            .code,
+        0);
+    ASSERT_EQ(run("reference " + scene + " --size 64x48 --spp 400 --quiet --full -o " + truth).code,
+              0);
+    const Outcome outcome =
+        run("verify " + exr + " " + scene + " --limit 0.3s --seed 5 --json --quiet");
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const json found = json::parse(outcome.out), compare = compared(exr, truth);
+    expect_in(found, compare.at("luminance_error"), 0.01);
+    expect_in(found.at("energy"), compare.at("luminance_energy"), 0.01);
+    const Outcome line = run("verify " + exr + " " + scene + " --limit 0.1s --quiet");
+    EXPECT_NE(line.out.find("a.exr: measured error "), std::string::npos) << line.out;
+    // Against direct light alone the picture has too much.
+    const Outcome direct = run("verify " + exr + " " + scene +
+                               " --limit 0.2s --effects emission,direct --json --quiet");
+    EXPECT_GT(json::parse(direct.out).at("energy").at("low"), 1.02) << direct.out;
+
+    expect_one_error_line(run("verify " + file("none.exr").string() + " " + scene), 2);
+    expect_one_error_line(run("verify " + scene + " " + scene), 2);
+    expect_one_error_line(run("verify " + exr + " " + scene + " --limit soon"), 1);
+    expect_one_error_line(run("verify " + exr + " " + scene + " --camera 7"), 1);
+}
+
+// --target-error is a promise: the picture is checked, and made by other settings until the check
+// is within it, or the best is kept and the program says so.
+TEST_F(VerifyProgram, GoesOnUntilTheErrorIsReached) {
+    const std::string scene = make("cornell --light spot");
+    const auto target = [&](const std::string& error) {
+        const Outcome outcome = run("render " + scene + " --size 48x36 --full --target-error " +
+                                    error + " --verify 0.4s -o " + file("a.exr").string() +
+                                    " --stats " + file("s.json").string());
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        json out = json::parse(read("s.json"));
+        out["err"] = outcome.err;
+        return out;
+    };
+    const json easy = target("20%");
+    EXPECT_EQ(easy.at("target").at("met"), true) << easy;
+    EXPECT_EQ(easy.at("target").at("error"), 0.2);
+    EXPECT_LE(easy.at("measured_error").at("high"), 0.2);
+    EXPECT_EQ(easy.at("err").get<std::string>().find("not reached"), std::string::npos);
+    // Nothing reaches a thousandth of a percent: the settings become finer, the best is kept.
+    const json hard = target("0.001%");
+    EXPECT_EQ(hard.at("target").at("met"), false) << hard;
+    EXPECT_NE(hard.at("err").get<std::string>().find("the target error of 0.001 % is not reached"),
+              std::string::npos)
+        << hard;
+    const json& attempts = hard.at("target").at("attempts");
+    ASSERT_GE(attempts.size(), 1u);
+    double least = 1e9;
+    for (const json& one : attempts)
+        least = std::min(least, one.at("measured_error").at("value").get<double>());
+    EXPECT_EQ(hard.at("measured_error").at("value"), least);
+}
+
 }  // namespace

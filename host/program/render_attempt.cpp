@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "program/render_attempt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <clgi/advanced/static_scene.hpp>
+#include <utility>
+
+#include "lab/preview.hpp"
+#include "lab/replicates.hpp"
+#include "lab/timing.hpp"
+
+namespace clgi::program {
+namespace {
+
+std::string with_check(std::string text, const RenderRecord& record) {
+    if (record.verified)  // in the first line
+        text.insert(std::min(text.find('\n'), text.size()), ", " + verify_line(*record.verified));
+    return text;
+}
+
+bool go_on(double) { return !interrupted(); }
+
+}  // namespace
+
+bool renders_once(const RenderFlags& flags) {
+    const bool asks = !flags.ask.time_budget.empty() ||
+                      (flags.method == "auto" && !flags.ask.target_error.empty());
+    return asks && flags.frames == 1 && !flags.fps;
+}
+
+RenderAttempt::RenderAttempt(const RenderFlags& flags, const Session& session,
+                             const Programs& programs, GlFrames* gl, Scene scene,
+                             const RendererOptions& options, std::shared_ptr<const Planned> planned)
+    : flags_(flags),
+      session_(session),
+      gl_(gl),
+      options_(options),
+      scene_(std::move(scene)),
+      device_scene_(session.context, session.device, scene_),
+      renderer_(programs, session.queue, scene_, device_scene_, options_),
+      motion_(flags, scene_, device_scene_, session.queue),
+      camera_(scene_.cameras[static_cast<std::size_t>(flags.camera)]),
+      last_camera_(camera_),
+      moves_(flags.fps && moves(scene_)) {
+    record_.planned = std::move(planned);
+    renderer_.build();
+    if (gl_) gl_->open(session_.queue, renderer_);
+    record_.build_ms = 1e3 * watch_.seconds();
+    for (const std::string& warning : renderer_.status().warnings)
+        notice(flags_.device.quiet, "warning: " + warning);
+}
+
+void RenderAttempt::draw() {
+    const bool planned = record_.planned != nullptr;
+    const TuningTarget target = planned ? TuningTarget() : request_of("render", flags_.ask);
+    warm_up();
+    if (target.frame_ms || target.error) tune(target);
+    for (int frame = 0; frame < flags_.frames; ++frame) render(frame);
+    if (flags_.replicates > 1) {
+        record_.replicates = lab::replicate(renderer_, camera_, flags_.replicates, go_on);
+        if (!record_.replicates) throw Interrupted();
+        picture_ = record_.replicates->mean;
+    } else if (!flags_.fps) {
+        picture_ = lab::radiance_picture(renderer_);
+    }
+}
+
+// The first picture is not timed: some drivers compile on the first launch.
+void RenderAttempt::warm_up() {
+    if (flags_.fps) follow(motion_.at(0), true);  // builds its kernels; links are made for poses
+    const Stopwatch watch;
+    const auto bar = progress_bar(options_.method == Method::light_atlas ? "bake" : "render",
+                                  flags_.device.quiet);
+    if (gl_) {
+        gl_->render(renderer_, camera_).wait();
+        if (!bar(1.0)) throw Interrupted();
+        return;
+    }
+    prepare(bar);
+    record_.prepare_ms = 1e3 * watch.seconds();
+    if (renders_once(flags_)) return;
+    if (!renderer_.run(camera_, bar) && !gave_up()) throw Interrupted();
+}
+
+void RenderAttempt::prepare(const Progress& progress) {
+    if (!renderer_.prepare(progress) && !gave_up()) throw Interrupted();
+}
+
+void RenderAttempt::follow(const Motion::Step& step, bool vectors) {
+    if (step.lights) renderer_.lights_changed();
+    if (moves_ || (vectors && options_.method == Method::dynamic_transfer))
+        renderer_.geometry_changed();
+}
+
+// A frame's time has all in it that follows from the lights and the pose: of a bake, only what has
+// changed.
+void RenderAttempt::render(int frame) {
+    const bool always = options_.method != Method::light_atlas && !renders_once(flags_);
+    record_.frame_ms.push_back(lab::time_frame(session_.queue, [&] {
+        const Motion::Step step = motion_.at(frame);
+        last_camera_ = step.camera;
+        if (!renders_once(flags_)) follow(step, flags_.fps || frame == 0);
+        if (always || step.lights) prepare(go_on);
+        if (gl_)
+            gl_->render(renderer_, step.camera);
+        else
+            renderer_.render(step.camera);
+    }));
+    if (AntiradianceSolver* solver = renderer_.antiradiance())
+        exchanges_.add(frame, solver->status(), solver->options());
+    record_.passes.push_back(lab::pass_times(renderer_.times()));
+    if (flags_.fps) save_picture(lab::radiance_picture(renderer_), numbered(flags_.picture, frame));
+    if (interrupted()) throw Interrupted();
+}
+
+void RenderAttempt::tune(const TuningTarget& target) {
+    SecondOrderSolver& solver = *renderer_.second_order();
+    const auto found =
+        tune_second_order(session_.queue, renderer_.scene(), solver, camera_, target, go_on);
+    if (!found || !solver.run(camera_, nullptr)) throw Interrupted();
+    record_.ask = AskRecord{target, *found};
+}
+
+double RenderAttempt::seconds() const {
+    return 1e-3 * (record_.prepare_ms + lab::spread(record_.frame_ms).median);
+}
+
+void RenderAttempt::check(const Scene& truth, double decide) {
+    constexpr double least = 1.0, share = 2.0;  // seconds, and of the picture's, to decide
+    const double spent = 1e-3 * record_.build_ms + seconds();
+    record_.verified =
+        verify(truth, flags_.verify, spent,
+               [&](const reference::PathTracer& tracer, reference::VerifyOptions options) {
+                   options.decide = decide;
+                   if (decide > 0.0 && flags_.verify.time.empty())
+                       options.seconds = std::max(least, share * seconds());
+                   return tracer.verify(last_camera_, picture_.width, picture_.height,
+                                        radiance_of(picture_), options,
+                                        progress_bar("verify", flags_.device.quiet));
+               });
+}
+
+void RenderAttempt::finish(const std::vector<RenderedAttempt>& attempts, bool meets_target) {
+    if (record_.verified) add_verified(picture_, *record_.verified);
+    if (!flags_.fps) save_picture(picture_, flags_.picture);
+    motion_.report();
+    record_.attempts = attempts;
+    record_.meets_target = meets_target;
+    tell();
+}
+
+// What is wrong with the picture, besides what the scene's warnings say.
+void RenderAttempt::warn() {
+    if (record_.verified && record_.planned) {
+        const std::string less = expected_less(record_.planned->plan.error, *record_.verified);
+        if (!less.empty()) {
+            record_.warnings.push_back(less);
+            notice(false, "warning: " + less);
+        }
+    }
+    fill(record_, renderer_, scene_);
+    for (const std::string& warning : troubles(renderer_, exchanges_))
+        notice(false, "warning: " + warning);
+    if (!gl_) return;
+    notice(flags_.device.quiet, fmt::format("OpenGL {}; {}", gl_->renderer(), gl_->path()));
+    if (const std::uint32_t texels = gl_->non_finite())
+        notice(false, fmt::format("warning: {} texels of the G-buffer were not finite and became "
+                                  "background",
+                                  texels));
+}
+
+void RenderAttempt::tell() {
+    record_.device = session_.device;
+    record_.bytes = renderer_.bytes_with_scene() + motion_.bytes();
+    record_.gbuffer = flags_.gbuffer;
+    record_.exchanges = exchanges_;
+    record_.warnings = scene_.warnings;
+    if (gl_) {
+        record_.gl_renderer = gl_->renderer();
+        record_.gl_path = gl_->path();
+    }
+    warn();
+    if (record_.ask) {
+        const std::string warning = ask_warning(*record_.ask);
+        if (!warning.empty()) notice(false, warning);
+    }
+    if (!flags_.device.quiet)
+        fmt::print("{}: {}\n", names_of(flags_.picture),
+                   with_check(summary(record_, renderer_), record_));
+    if (!flags_.stats.empty()) save_stats(record_, flags_.stats);
+}
+
+}  // namespace clgi::program

@@ -1,0 +1,67 @@
+// A render by one set of settings: from the scene to the last frame, checked.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/renderer.hpp>
+#include <memory>
+#include <optional>
+
+#include "program/gl_frames.hpp"
+#include "program/motion.hpp"
+#include "program/render_flags.hpp"
+#include "program/stats.hpp"
+#include "program/stopwatch.hpp"
+
+namespace clgi::program {
+
+// Whether a picture is made once, without one before it that is not timed: where a time or an error
+// is asked for all of it.
+bool renders_once(const RenderFlags& flags);
+
+class RenderAttempt {
+public:
+    // scene: what is left of it by the plan, which is null without one. gl: null, or what draws the
+    // camera's view. What is handed over by reference is kept.
+    RenderAttempt(const RenderFlags& flags, const Session& session, const Programs& programs,
+                  GlFrames* gl, Scene scene, const RendererOptions& options,
+                  std::shared_ptr<const Planned> planned);
+
+    // All frames; with --fps they are saved, too. Throws Interrupted.
+    void draw();
+    // Measures the error against all light of a scene. decide: as in VerifyOptions.
+    void check(const Scene& truth, double decide);
+    // Saves the picture of the last frame; warnings, a line of the result and --stats. attempts:
+    // all for an error that was asked for.
+    void finish(const std::vector<RenderedAttempt>& attempts = {}, bool meets_target = true);
+
+    const RenderRecord& record() const { return record_; }
+    double seconds() const;  // that the picture took, with all before it
+
+private:
+    void warm_up();
+    bool gave_up() const { return renderer_.status().given_up; }
+    void prepare(const Progress& progress);
+    void follow(const Motion::Step& step, bool vectors);
+    void render(int frame);
+    void tune(const TuningTarget& target);
+    void tell();
+    void warn();
+
+    const Stopwatch watch_;  // since the scene is uploaded
+    const RenderFlags& flags_;
+    const Session& session_;
+    GlFrames* gl_;
+    RendererOptions options_;
+    Scene scene_;
+    DeviceScene device_scene_;
+    Renderer renderer_;
+    Motion motion_;
+    Camera camera_;
+    Camera last_camera_;  // of the last frame
+    bool moves_;          // vertices do, between frames
+    AntiradianceFrames exchanges_;
+    RenderRecord record_;
+    io::Image picture_;  // of the last frame
+};
+
+}  // namespace clgi::program
