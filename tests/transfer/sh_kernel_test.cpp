@@ -33,9 +33,12 @@ std::vector<float> on_device(const std::vector<float>& planes, const std::string
                              int width, std::size_t terms) {
     const test::Device& on = test::device();
     cl::Program program(on.context, test::kernel_text("tests/support/sh.cl"));
-    program.build(
-        on.device,
-        ("-cl-std=CL1.2 -Werror -DCLGI_WIDTH=" + std::to_string(width) + options).c_str());
+    // The compiler remarks on packets that are wider than the processor's registers (core/Kernels).
+    const bool narrow =
+        on.device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() < static_cast<cl_uint>(width);
+    program.build(on.device, ("-cl-std=CL1.2 " + std::string(narrow ? "" : "-Werror ") +
+                              "-DCLGI_WIDTH=" + std::to_string(width) + options)
+                                 .c_str());
     cl::Kernel kernel(program, "sh");
     const cl::Buffer given = test::upload(planes);
     const cl::Buffer values = test::empty<float>(terms * stride);
