@@ -20,19 +20,37 @@ std::vector<std::filesystem::path> kernel_files() {
     return files;
 }
 
+// On a CPU with narrower registers than AVX-512 has the compiler remarks that 64-byte vectors are
+// passed in another way. Nobody is called that was built the other way, and no option of OpenCL
+// silences it.
+bool is_about_registers(const std::string& log) {
+    std::istringstream lines(log);
+    bool found = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("error:") == std::string::npos) continue;
+        const bool registers = line.find("changes the ABI") != std::string::npos;
+        if (!registers && line.find("too many errors") == std::string::npos) return false;
+        found = found || registers;
+    }
+    return found;
+}
+
 // What the compiler said; empty when it was content.
 std::string remarks(const std::filesystem::path& file, const std::string& options) {
+    static const std::string strict = "-Werror ";
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();
     cl::Program program(test::device().context, text.str());
     try {
         program.build(test::device().device, ("-cl-std=CL1.2 " + options).c_str());
     } catch (const cl::Error& error) {
-        return "OpenCL error " + std::to_string(error.err()) + "\n" +
-               program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(test::device().device);
+        const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(test::device().device);
+        if (options.rfind(strict, 0) == 0 && is_about_registers(log))
+            return remarks(file, options.substr(strict.size()));
+        return "OpenCL error " + std::to_string(error.err()) + "\n" + log;
     }
     const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(test::device().device);
-    return log.find("warning") == std::string::npos ? "" : log;
+    return options.rfind(strict, 0) != 0 || log.find("warning") == std::string::npos ? "" : log;
 }
 
 void expect_content(const std::string& options) {
@@ -61,7 +79,7 @@ TEST(Kernels, AreAllThere) {
     EXPECT_EQ(files, names);
 }
 
-TEST(Kernels, BuildWithoutMacros) { expect_content("-Werror"); }
+TEST(Kernels, BuildWithoutMacros) { expect_content("-Werror "); }
 
 TEST(Kernels, BuildOneLaneWide) { expect_content("-Werror -DCLGI_WIDTH=1"); }
 
@@ -69,20 +87,7 @@ TEST(Kernels, BuildFourLanesWide) { expect_content("-Werror -DCLGI_WIDTH=4"); }
 
 TEST(Kernels, BuildEightLanesWide) { expect_content("-Werror -DCLGI_WIDTH=8"); }
 
-// On a CPU with narrower registers the compiler remarks that built-in functions pass 64-byte
-// vectors in another way than AVX-512 would. Nobody is called that was built the other way, and
-// nothing but an option of that compiler would silence it: there the width only has to build.
-TEST(Kernels, BuildSixteenLanesWide) {
-    const cl::Device& device = test::device().device;
-    if (device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16) {
-        expect_content("-Werror -DCLGI_WIDTH=16");
-        return;
-    }
-    for (const auto& file : kernel_files()) {
-        const std::string said = remarks(file, "-DCLGI_WIDTH=16");
-        EXPECT_EQ(said.find("error"), std::string::npos) << file << "\n" << said;
-    }
-}
+TEST(Kernels, BuildSixteenLanesWide) { expect_content("-Werror -DCLGI_WIDTH=16"); }
 
 TEST(Kernels, BuildWithNearLists) { expect_content("-Werror -DCLGI_WIDTH=4 -DCLGI_NEAR"); }
 
