@@ -158,6 +158,12 @@ ErrorAndEnergy estimate(const std::vector<Draw>& draws, double picture) {
     // Both at their ends: wider, but it exists even if M is hardly known.
     const double widest = quotient(found + square.above, least * least, 0.0);
     out.error.high = std::sqrt(widest);
+    // Where all is black there may be light that no sample has met.
+    if (!(truth > 0.0) && !(picture > 0.0)) {
+        out.error.high = infinite;
+        out.energy.low = 0.0;
+        return out;
+    }
     constexpr double endless = 1e30;
     double end = std::max(ratio, 1e-12);
     while (end < std::min(widest, endless) && upper(end) > 0.0) end *= 2.0;

@@ -143,8 +143,10 @@ TEST(Interval, HasNoEndWhereTheTruthMayBeBlack) {
     EXPECT_TRUE(std::isinf(found.error.high));
     for (Draw& draw : draws) draw = {draw.stratum, 0.0, 0.0, 0.0};
     found = reference::estimate(draws, 0.0);
-    EXPECT_EQ(found.error.high, 0.0) << "black, and so is the truth";
+    EXPECT_EQ(found.error.value, 0.0) << "black, and so is what was found of the truth";
+    EXPECT_TRUE(std::isinf(found.error.high));
     EXPECT_EQ(found.energy.value, 1.0);
+    EXPECT_EQ(found.energy.low, 0.0);
 }
 
 Brightness uneven(std::size_t width, std::size_t height) {
