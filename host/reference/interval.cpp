@@ -168,6 +168,10 @@ ErrorAndEnergy estimate(const std::vector<Draw>& draws, double picture) {
     double end = std::max(ratio, 1e-12);
     while (end < std::min(widest, endless) && upper(end) > 0.0) end *= 2.0;
     if (end < std::min(widest, endless)) out.error.high = std::sqrt(root(ratio, end, upper));
+    // The difference of means is a part of the error, also where no pixel met light twice.
+    const auto off = [](double energy) { return std::abs(energy - 1.0); };
+    if (out.error.high < off(out.energy.value))
+        out.error.high = std::max(off(out.energy.low), off(out.energy.high));
     return out;
 }
 

@@ -130,6 +130,16 @@ TEST(Interval, IsOfTheQuotientWhereTheTruthIsNoisy) {
     EXPECT_LT(found.error.high, 1.5 * found.error.value);
 }
 
+// One sample of one pixel met light where the picture is black: no product of two samples says so.
+TEST(Interval, HoldsTheDifferenceOfMeans) {
+    std::vector<Draw> draws = draws_of([](std::size_t) { return 0.0; });
+    for (Draw& draw : draws) draw = {draw.stratum, 0.0, 0.0, 0.0};
+    draws[7].light = 300.0;
+    const ErrorAndEnergy found = reference::estimate(draws, 0.0);
+    EXPECT_EQ(found.energy.value, 0.0);
+    EXPECT_GE(found.error.high, 1.0);
+}
+
 TEST(Interval, HasNoEndWhereTheTruthMayBeBlack) {
     std::vector<Draw> draws = draws_of([](std::size_t) { return 0.01; });
     for (Draw& draw : draws) draw.light = 0.0;
