@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <clgi/passes/cache.hpp>
 #include <clgi/procedural.hpp>
 
@@ -66,6 +67,55 @@ TEST(CachePasses, ShowsTheMeanOfRecordsAndHowFarTheyDiffer) {
     EXPECT_EQ(doubts[2], 0.0f);
     EXPECT_EQ(doubts[3], 0.0f);
     EXPECT_EQ(doubts[4], -1.0f);
+}
+
+// Three records in a row: weights by distance, and none for the farthest (lookup.clh).
+TEST(CachePasses, WeighsRecordsByDistance) {
+    const CachePasses passes(test::programs(), test::usual_build());
+    const cl::CommandQueue& queue = test::device().queue;
+    constexpr std::uint32_t stride = 16;
+    const double places[] = {-1.0, 1.0, 3.0}, at = 0.5;
+    std::vector<float> records(RECORD_PLANES * stride, 0.0f), light(3 * stride, 0.0f),
+        planes(GBUFFER_PLANES * stride, 0.0f);
+    std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
+    double mean = 0.0, last = 0.0;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        records[RECORD_POSITION * stride + i] = static_cast<float>(places[i]);
+        records[(RECORD_NORMAL + 1) * stride + i] = 1.0f;
+        light[i] = static_cast<float>(1u << (3 * i));
+        lists[2 * CACHE_LISTED + i] = i;  // +y
+        const double apart = (places[i] - at) * (places[i] - at);
+        mean += 0.1 * apart / 3.0;
+        last = std::max(last, apart);
+    }
+    double sum = 0.0, wanted = 0.0;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const double apart = (places[i] - at) * (places[i] - at), left = 1.0 - 0.999 * apart / last;
+        const double weight = left * left * mean / (apart + mean);
+        sum += weight;
+        wanted += weight * double{light[i]};
+    }
+    planes[GBUFFER_POSITION * stride] = static_cast<float>(at);
+    planes[(GBUFFER_NORMAL + 1) * stride] = 1.0f;
+    CacheTree tree{};
+    tree.centre = {0.0f, 0.0f, 0.0f, 4.0f};
+    tree.node_count = 1;
+    tree.record_count = 3;
+    tree.stride = stride;
+    CacheBuffers b;
+    b.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
+    b.lists = test::upload(lists);
+    b.planes = test::upload(records);
+    b.light = test::upload(light);
+    GBuffer points;
+    points.stride = stride;
+    points.planes = test::upload(planes);
+    const cl::Buffer irradiance = test::empty<float>(3 * stride),
+                     doubt = test::empty<float>(stride);
+    passes.show(queue, {1, stride, 0, 0}, tree, b, points, irradiance, doubt);
+    float found = 0.0f;
+    queue.enqueueReadBuffer(irradiance, CL_TRUE, 0, sizeof(float), &found);
+    EXPECT_NEAR(found, wanted / sum, 1e-5 * wanted / sum);
 }
 
 // Each pass with buffers for its records, and then with one of them too small.
