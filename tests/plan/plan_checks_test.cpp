@@ -71,7 +71,8 @@ TEST(PlanChecks, EndWhereNothingIsExpectedToErrLess) {
 
 TEST(PlanChecks, KeepToTheTimeThatWasRequested) {
     const Plan first = plan_of(std::nullopt, 0.1);
-    for (std::optional<Plan> more = next(first, 1.0); more; more = next(*more, 1.0)) {
+    for (std::optional<Plan> more = next(first, *first.error); more;
+         more = next(*more, *more->error)) {
         EXPECT_LE(more->cost.total_ms(), 100.0);
         ASSERT_LT(more->checks.size(), 100u);
     }
