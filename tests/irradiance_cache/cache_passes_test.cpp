@@ -12,6 +12,23 @@
 namespace clgi {
 namespace {
 
+// A tree of one leaf around the origin.
+CacheTree one_leaf(std::uint32_t records, std::uint32_t stride) {
+    CacheTree out{};
+    out.centre = {0.0f, 0.0f, 0.0f, 4.0f};
+    out.node_count = 1;
+    out.record_count = records;
+    out.stride = stride;
+    return out;
+}
+
+GBuffer points_of(const std::vector<float>& planes, std::uint32_t stride) {
+    GBuffer out;
+    out.stride = stride;
+    out.planes = test::upload(planes);
+    return out;
+}
+
 // Between two records that are as near, light is their mean, and the doubt the square of half their
 // difference of luminance; on one of them it is almost its own.
 TEST(CachePasses, ShowsTheMeanOfRecordsAndHowFarTheyDiffer) {
@@ -35,19 +52,13 @@ TEST(CachePasses, ShowsTheMeanOfRecordsAndHowFarTheyDiffer) {
     std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
     lists[2 * CACHE_LISTED] = 0;  // +y
     lists[2 * CACHE_LISTED + 1] = 1;
-    CacheTree tree{};
-    tree.centre = {0.0f, 0.0f, 0.0f, 2.0f};
-    tree.node_count = 1;
-    tree.record_count = 2;
-    tree.stride = stride;
+    const CacheTree tree = one_leaf(2, stride);
     CacheBuffers b;
     b.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
     b.lists = test::upload(lists);
     b.planes = test::upload(records);
     b.light = test::upload(light);
-    GBuffer points;
-    points.stride = stride;
-    points.planes = test::upload(planes);
+    const GBuffer points = points_of(planes, stride);
     const cl::Buffer irradiance = test::upload(std::vector<float>(3 * stride, -1.0f)),
                      doubt = test::upload(std::vector<float>(stride, -1.0f));
     passes.show(queue, {4, stride, 0, 0}, tree, b, points, irradiance, doubt);
@@ -97,19 +108,13 @@ TEST(CachePasses, WeighsRecordsByDistance) {
     }
     planes[GBUFFER_POSITION * stride] = static_cast<float>(at);
     planes[(GBUFFER_NORMAL + 1) * stride] = 1.0f;
-    CacheTree tree{};
-    tree.centre = {0.0f, 0.0f, 0.0f, 4.0f};
-    tree.node_count = 1;
-    tree.record_count = 3;
-    tree.stride = stride;
+    const CacheTree tree = one_leaf(3, stride);
     CacheBuffers b;
     b.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
     b.lists = test::upload(lists);
     b.planes = test::upload(records);
     b.light = test::upload(light);
-    GBuffer points;
-    points.stride = stride;
-    points.planes = test::upload(planes);
+    const GBuffer points = points_of(planes, stride);
     const cl::Buffer irradiance = test::empty<float>(3 * stride),
                      doubt = test::empty<float>(stride);
     passes.show(queue, {1, stride, 0, 0}, tree, b, points, irradiance, doubt);
