@@ -164,14 +164,15 @@ PlanCost irradiance_cache(const Plan& plan) {
     const double records = 1.5 * options.seen + options.met + options.refined,
                  pixels = 3.0 * options.face * options.face;
     // A pixel of a hemicube is lit by all lamps, but by few of the samples of emissive surfaces.
-    constexpr double samples_at_once = 4.0;
+    // Some pixels are looked up again while records are weighed.
+    constexpr double samples_at_once = 4.0, weighed = 1.3;
     const Lamps lamps = lamps_of(plan, plan.picture.emitters, false);
     const double samples =
         plan.on(Effect::area_light) ? static_cast<double>(plan.picture.emitters.area_samples) : 0.0;
     const double lit = lamps.emitters - samples + std::min(samples, samples_at_once);
     Amount frame = picture(plan, false);
-    frame += {records * (0.1 + 1.5e-5 * triangles(plan) + (4e-5 + 1e-5 * lit) * pixels) +
-                  1e-6 * records * records,
+    frame += {records * (0.1 + 1.5e-5 * triangles(plan) + weighed * (4e-5 + 1e-5 * lit) * pixels) +
+                  2e-6 * records * records,
               records * (8.0 * pixels + 12.0 * records)};
     return {0.0, frame.ms, 1e-6 * frame.bytes};
 }

@@ -71,6 +71,8 @@ kernel void cache_link(
         View view = views[5 * record + face];
         uint pixels = view.width * view.height;
         for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
+            uint block = pixel / 16 + 5 * face + record;
+            if (block % params.thin != 0) continue;
             floatp x, y;
             gbuffer_window(&view, pixel, &x, &y);
             floatp factor = cache_form_factor(face, params.size, x, y);
@@ -94,7 +96,7 @@ kernel void cache_link(
             floatp lit[3] = {packet_zero, packet_zero, packet_zero};
             ShadowPoint point = {surface.x,           surface.y,           surface.z,
                                  surface.geometric_x, surface.geometric_y, surface.geometric_z};
-            uint step = params.emitter_step, turn = (pixel / 16 + 5 * face + record) % step;
+            uint step = params.emitter_step, turn = block / params.thin % step;
             uint in_turn = (params.emitter_count - params.whole_emitters + step - 1 - turn) / step;
             for (uint k = 0; k < params.whole_emitters + in_turn; ++k) {
                 int whole = k < params.whole_emitters;

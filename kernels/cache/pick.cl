@@ -3,13 +3,14 @@
 //                                          [derived: importance from the eye, as Segovia06 has it]
 //
 // Work size    1D, one work-item a pick; any local size; tail guarded
-// Writes       its own place of the nine planes; a normal of 0 where the direction leaves the scene
+// Writes       its own place of the ten planes; a normal of 0 where the direction leaves the scene
 //              or meets a back that nothing is reflected by
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/cache.h"
 #include "clgi/shared/halton.h"
 #include "gbuffer/hit.clh"
 #include "gbuffer/visibility.clh"
+#include "luminance.clh"
 
 kernel void cache_pick(
     const CacheParams    params,
@@ -17,13 +18,13 @@ kernel void cache_pick(
     global const View*   restrict views,       // five of each record
     global const ulong*  restrict visibility,  // of all records
     SCENE_ARGUMENTS,
-    global float*        restrict places)      // [RECORD_PLANES][pick_stride]
+    global float*        restrict places)      // [PICK_PLANES][pick_stride]
 {
     uint item = (uint)get_global_id(0);
     if (item >= params.count * params.picks) return;
     SceneBuffers scene = SCENE_BUFFERS;
     uint record = item / params.picks;
-    uint index = (params.first + record) * params.picks + item % params.picks + 1;
+    uint index = (params.first + record) * params.picks + item % params.picks + params.first_sample + 1;
     global const View* faces = views + 5 * (params.first + record);
     float radius = sqrt(radical_inverse(index, 2)), angle = 2.0f * CLGI_PI * radical_inverse(index, 3);
     float a = radius * cos(angle), b = radius * sin(angle);
@@ -52,13 +53,16 @@ kernel void cache_pick(
     packet_store(surface.front, front);
     int sends = triangle >= 0 &&
                 (front[0] || (triangles[triangle].w & (uint)TRIANGLE_DOUBLE_SIDED));
-    floatp values[RECORD_PLANES] = {surface.x,           surface.y,           surface.z,
+    floatp values[PICK_PLANES] = {surface.x,           surface.y,           surface.z,
                                     surface.normal_x,    surface.normal_y,    surface.normal_z,
-                                    surface.geometric_x, surface.geometric_y, surface.geometric_z};
-    uint place = params.first_pick + item;
-    for (uint plane = 0; plane < RECORD_PLANES; ++plane) {
+                                    surface.geometric_x, surface.geometric_y, surface.geometric_z,
+                                   luminance(surface.base_r, surface.base_g, surface.base_b)};
+    if (sends)
+        values[PICK_REFLECTANCE] *=
+            materials[triangles[triangle].w & TRIANGLE_MATERIAL].reflectance.x;
+    for (uint plane = 0; plane < PICK_PLANES; ++plane) {
         float lanes[CLGI_WIDTH];
         packet_store(values[plane], lanes);
-        places[plane * params.pick_stride + place] = sends ? lanes[0] : 0.0f;
+        places[plane * params.pick_stride + item] = sends ? lanes[0] : 0.0f;
     }
 }

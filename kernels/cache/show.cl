@@ -1,9 +1,7 @@
 // The light of an irradiance cache at the pixels of a picture.   [derived: Ward88, interpolation]
 //
-//   E = sum_i W_i E_i,   doubt = sum_i W_i (Y_i - Y)^2
-//
-// W_i: share of record i, Y: luminance of E. Where records differ, E changes between them, and more
-// of them would change it.
+// Doubt is how much the records of a pixel differ (lookup.clh): where they do, light changes between
+// them, and more of them would change it.
 //
 // Work size    1D, one work-item a pixel; any local size; tail guarded
 // Writes       irradiance and doubt of its own pixel, 0 where nothing is or no record stands in
@@ -11,10 +9,6 @@
 #include "cache/lookup.clh"
 #include "finite.clh"
 #include "planes.clh"
-
-static float cache_luminance(float r, float g, float b) {
-    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
-}
 
 kernel void cache_show(
     const CacheShowParams  params,
@@ -37,15 +31,11 @@ kernel void cache_show(
     } else if (dot(normal, normal) > 0.0f) {
         CacheShare share = cache_lookup(&tree, nodes, lists, records, point, normal,
                                         CACHE_LISTED);
-        for (uint i = 0; i < share.count; ++i)
-            for (int c = 0; c < 3; ++c)
-                sum[c] = fma(share.weight[i], light[c * tree.stride + share.record[i]], sum[c]);
-        float mean = cache_luminance(sum[0], sum[1], sum[2]);
-        for (uint i = 0; i < share.count; ++i) {
-            global const float* of = light + share.record[i];
-            float off = cache_luminance(of[0], of[tree.stride], of[2 * tree.stride]) - mean;
-            spread = fma(share.weight[i] * off, off, spread);
-        }
+        CacheLight found = cache_light(&share, light, tree.stride);
+        sum[0] = found.irradiance.x;
+        sum[1] = found.irradiance.y;
+        sum[2] = found.irradiance.z;
+        spread = found.spread;
     }
     doubt[at] = spread;
     for (int c = 0; c < 3; ++c)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <clgi/passes/cache.hpp>
 #include <clgi/procedural.hpp>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "device.hpp"
 #include "math_modes.hpp"
@@ -29,55 +31,178 @@ GBuffer points_of(const std::vector<float>& planes, std::uint32_t stride) {
     return out;
 }
 
+constexpr std::uint32_t plane = 16;  // stride of small planes
+
+// Two records that face up, a metre to the left and to the right of the origin.
+struct TwoRecords {
+    TwoRecords() {
+        std::vector<float> records(RECORD_PLANES * plane, 0.0f), light(3 * plane, 0.0f);
+        std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
+        for (std::uint32_t i = 0; i < 2; ++i) {
+            records[RECORD_POSITION * plane + i] = i == 0 ? -1.0f : 1.0f;
+            records[(RECORD_NORMAL + 1) * plane + i] = 1.0f;
+            lists[2 * CACHE_LISTED + i] = i;  // +y
+            for (std::uint32_t c = 0; c < 3; ++c) light[c * plane + i] = values[i][c];
+        }
+        b.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
+        b.lists = test::upload(lists);
+        b.planes = test::upload(records);
+        b.light = test::upload(light);
+    }
+
+    const float values[2][3] = {{1.0f, 2.0f, 3.0f}, {5.0f, 1.0f, 8.0f}};
+    // Half of the difference of luminance.
+    const float half = 0.5f * (0.2126f * 4.0f - 0.7152f * 1.0f + 0.0722f * 5.0f);
+    CacheTree tree = one_leaf(2, plane);
+    CacheBuffers b;
+};
+
 // Between two records that are as near, light is their mean, and the doubt the square of half their
 // difference of luminance; on one of them it is almost its own.
 TEST(CachePasses, ShowsTheMeanOfRecordsAndHowFarTheyDiffer) {
     const CachePasses passes(test::programs(), test::usual_build());
     const cl::CommandQueue& queue = test::device().queue;
-    constexpr std::uint32_t stride = 16;
-    std::vector<float> records(RECORD_PLANES * stride, 0.0f), light(3 * stride, 0.0f),
-        planes(GBUFFER_PLANES * stride, 0.0f);
-    for (std::uint32_t i = 0; i < 2; ++i) {
-        records[RECORD_POSITION * stride + i] = i == 0 ? -1.0f : 1.0f;
-        records[(RECORD_NORMAL + 1) * stride + i] = 1.0f;
-    }
-    const float values[2][3] = {{1.0f, 2.0f, 3.0f}, {5.0f, 1.0f, 8.0f}};
-    for (std::uint32_t i = 0; i < 2; ++i)
-        for (std::uint32_t c = 0; c < 3; ++c) light[c * stride + i] = values[i][c];
+    const TwoRecords two;
+    constexpr std::uint32_t stride = plane;
     // Points: in the middle, on the second record, one that faces away, background.
+    std::vector<float> planes(GBUFFER_PLANES * stride, 0.0f);
     for (std::uint32_t i = 0; i < 3; ++i) {
         planes[GBUFFER_POSITION * stride + i] = i == 1 ? 1.0f : 0.0f;
         planes[(GBUFFER_NORMAL + 1) * stride + i] = i == 2 ? -1.0f : 1.0f;
     }
-    std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
-    lists[2 * CACHE_LISTED] = 0;  // +y
-    lists[2 * CACHE_LISTED + 1] = 1;
-    const CacheTree tree = one_leaf(2, stride);
-    CacheBuffers b;
-    b.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
-    b.lists = test::upload(lists);
-    b.planes = test::upload(records);
-    b.light = test::upload(light);
     const GBuffer points = points_of(planes, stride);
     const cl::Buffer irradiance = test::upload(std::vector<float>(3 * stride, -1.0f)),
                      doubt = test::upload(std::vector<float>(stride, -1.0f));
-    passes.show(queue, {4, stride, 0, 0}, tree, b, points, irradiance, doubt);
+    passes.show(queue, {4, stride, 0, 0}, two.tree, two.b, points, irradiance, doubt);
     std::vector<float> found(3 * stride), doubts(stride);
     queue.enqueueReadBuffer(irradiance, CL_TRUE, 0, found.size() * sizeof(float), found.data());
     queue.enqueueReadBuffer(doubt, CL_TRUE, 0, doubts.size() * sizeof(float), doubts.data());
     for (std::uint32_t c = 0; c < 3; ++c) {
-        EXPECT_NEAR(found[c * stride], 0.5f * (values[0][c] + values[1][c]), 1e-5f);
-        EXPECT_NEAR(found[c * stride + 1], values[1][c], 0.01f * values[1][c]);
+        EXPECT_NEAR(found[c * stride], 0.5f * (two.values[0][c] + two.values[1][c]), 1e-5f);
+        EXPECT_NEAR(found[c * stride + 1], two.values[1][c], 0.01f * two.values[1][c]);
         EXPECT_EQ(found[c * stride + 2], 0.0f);
         EXPECT_EQ(found[c * stride + 3], 0.0f);
         EXPECT_EQ(found[c * stride + 4], -1.0f);
     }
-    const float half = 0.5f * (0.2126f * 4.0f - 0.7152f * 1.0f + 0.0722f * 5.0f);
-    EXPECT_NEAR(doubts[0], half * half, 1e-5f);
-    EXPECT_LT(doubts[1], 0.02f * half * half);
+    EXPECT_NEAR(doubts[0], two.half * two.half, 1e-5f);
+    EXPECT_LT(doubts[1], 0.02f * two.half * two.half);
     EXPECT_EQ(doubts[2], 0.0f);
     EXPECT_EQ(doubts[3], 0.0f);
     EXPECT_EQ(doubts[4], -1.0f);
+}
+
+// worth = rho sqrt(spread + (Y / 10)^2), by hand: in the middle, beside each record, of one that
+// faces away, and of none.
+TEST(CachePasses, WeighWhatPicksSend) {
+    const CachePasses passes(test::programs(), test::usual_build());
+    const cl::CommandQueue& queue = test::device().queue;
+    const TwoRecords two;
+    constexpr std::uint32_t stride = plane;
+    std::vector<float> places(PICK_PLANES * stride, 0.0f);
+    const float across[] = {0.0f, 0.9f, 0.0f, -0.9f};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        places[i] = across[i];
+        places[(RECORD_NORMAL + 1) * stride + i] = i == 2 ? -1.0f : 1.0f;
+        places[PICK_REFLECTANCE * stride + i] = 0.25f;
+    }
+    CacheParams params{};
+    params.count = 1;
+    params.picks = 5;
+    params.pick_stride = stride;
+    const cl::Buffer worth = test::upload(std::vector<float>(stride, -1.0f)),
+                     nearest = test::upload(std::vector<std::uint32_t>(stride, 77));
+    passes.weigh(queue, params, two.tree, two.b, test::upload(places), worth, nearest);
+    std::vector<float> found(stride);
+    std::vector<std::uint32_t> cells(stride);
+    queue.enqueueReadBuffer(worth, CL_TRUE, 0, stride * sizeof(float), found.data());
+    queue.enqueueReadBuffer(nearest, CL_TRUE, 0, stride * sizeof(float), cells.data());
+    const float mean = 0.2126f * 3.0f + 0.7152f * 1.5f + 0.0722f * 5.5f;
+    EXPECT_NEAR(found[0], 0.25f * std::sqrt(two.half * two.half + 0.01f * mean * mean), 1e-5f);
+    EXPECT_EQ(cells[1], 1u);
+    EXPECT_EQ(cells[3], 0u);
+    for (const std::uint32_t none : {2u, 4u}) {
+        EXPECT_EQ(found[none], 0.0f);
+        EXPECT_EQ(cells[none], CACHE_NONE);
+    }
+    EXPECT_EQ(found[5], -1.0f);
+    EXPECT_EQ(cells[5], 77u);
+}
+
+// In a glowing sphere every part of a hemicube sees the same, so any share of its blocks finds
+// pi L; picks tell what surfaces reflect, in other directions from another sample on.
+TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
+    Scene sphere = furnace({.subdivisions = 2});
+    sphere.materials[0].emission = glm::vec3(1.0f, 2.0f, 4.0f);
+    sphere.materials[0].base_color = glm::vec4(0.2f, 0.5f, 0.7f, 1.0f);
+    sphere.materials[0].metallic = 0.5f;
+    sphere.materials[0].roughness = 0.5f;
+    const DeviceScene scene = test::on_device(sphere);
+    const cl::CommandQueue& queue = test::device().queue;
+    const CachePasses passes(test::programs(), test::usual_build());
+    const GBufferPasses cubes(test::programs(), test::usual_build());
+    constexpr std::uint32_t size = 16;
+    TwoRecords two;  // inside of it
+    two.b.views = test::empty<View>(10);
+    two.b.visibility = test::empty<std::uint64_t>(6 * size * size);
+    two.b.sky = test::empty<float>(4);
+    two.b.rows = test::empty<float>(6 * plane);
+    two.b.base = test::empty<float>(3 * plane);
+    two.b.reflected = test::empty<float>(3 * plane);
+    std::vector<float> records(RECORD_PLANES * plane, 0.0f);
+    for (std::uint32_t i = 0; i < 2; ++i)
+        for (const std::uint32_t normal : {RECORD_NORMAL, RECORD_GEOMETRIC})
+            records[(normal + 1) * plane + i] = 1.0f;
+    two.b.planes = test::upload(records);
+    CubeParams of{};
+    of.point_count = 2;
+    of.faces = 5;
+    of.size = size;
+    of.stride = plane;
+    of.near = 1e-4f;
+    of.turned = 1;
+    cubes.cubes(queue, of, two.b.planes, test::upload(std::vector<std::uint32_t>{0, 1}),
+                two.b.views);
+    cubes.raster_views(queue, {0, 10, size, size, 6 * size * size}, two.b.views, scene,
+                       two.b.visibility, Pixels::visibility);
+    CacheParams params{};
+    params.count = 2;
+    params.stride = plane;
+    params.size = size;
+    params.emission = CACHE_EMISSION_ALL;
+    params.picks = 4;
+    params.pick_stride = plane;
+    params.emitter_step = 1;
+    EmitterBuffers emitters;
+    emitters.kind = Pixels::depth;
+    for (cl::Buffer* buffer : {&emitters.emitters, &emitters.views, &emitters.visibility})
+        *buffer = test::empty<float>(64);
+    const glm::dvec3 exposed = glm::dvec3(sphere.materials[0].emission) / scene.frame().exposure;
+    for (const std::uint32_t thin : {1u, 3u, 8u}) {
+        params.thin = thin;
+        passes.link(queue, params, two.tree, scene, emitters, two.b);
+        std::vector<float> base(3 * plane);
+        queue.enqueueReadBuffer(two.b.base, CL_TRUE, 0, base.size() * sizeof(float), base.data());
+        for (int c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < 2; ++i)
+                EXPECT_NEAR(base[static_cast<std::size_t>(c) * plane + i],
+                            glm::pi<double>() * exposed[c], 1e-4 * exposed[c])
+                    << thin;
+    }
+    const cl::Buffer places = test::empty<float>(PICK_PLANES * plane);
+    std::vector<float> picked[2];
+    for (const std::uint32_t sample : {0u, 5u}) {
+        params.first_sample = sample;
+        passes.pick(queue, params, scene, two.b, places);
+        std::vector<float>& found = picked[sample / 5];
+        found.resize(PICK_PLANES * plane);
+        queue.enqueueReadBuffer(places, CL_TRUE, 0, found.size() * sizeof(float), found.data());
+        // (1 - m) (1 - 0.04 (1 - a)) + m a, with a the square of the roughness.
+        const float diffuse = 0.5f * (1.0f - 0.04f * 0.75f) + 0.5f * 0.25f;
+        const float reflects = diffuse * (0.2126f * 0.2f + 0.7152f * 0.5f + 0.0722f * 0.7f);
+        for (std::size_t i = 0; i < 8; ++i)
+            EXPECT_NEAR(found[PICK_REFLECTANCE * plane + i], reflects, 1e-5f);
+    }
+    EXPECT_NE(picked[0], picked[1]);
 }
 
 // Three records in a row: weights by distance, and none for the farthest (lookup.clh).
@@ -135,7 +260,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     params.size = size;
     params.picks = 2;
     params.pick_stride = 16;
-    params.emitter_step = 1;
+    params.emitter_step = params.thin = 1;
     CacheTree tree{};
     tree.record_count = records;
     tree.stride = stride;
@@ -155,7 +280,8 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
         if (small) b.*small = test::empty<float>(1);
         return b;
     };
-    const cl::Buffer places = test::empty<float>(RECORD_PLANES * 16);
+    const cl::Buffer places = test::empty<float>(PICK_PLANES * 16);
+    const cl::Buffer worth = test::empty<float>(16);
     EmitterBuffers emitters;
     emitters.kind = Pixels::depth;
     for (cl::Buffer* buffer : {&emitters.emitters, &emitters.views, &emitters.visibility})
@@ -166,6 +292,9 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     const cl::Buffer irradiance = test::empty<float>(3 * stride);
     cl::Buffer doubt = test::empty<float>(stride);
     const auto pick = [&](const CacheBuffers& b) { passes.pick(queue, params, scene, b, places); };
+    const auto weigh = [&](const CacheBuffers& b) {
+        passes.weigh(queue, params, tree, b, places, worth, worth);
+    };
     const auto link = [&](const CacheBuffers& b) {
         passes.link(queue, params, tree, scene, emitters, b);
     };
@@ -183,11 +312,15 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     for (const auto small : {&B::rows, &B::base, &B::reflected, &B::light, &B::next})
         EXPECT_THROW(bounce(buffers(small)), Error);
     for (const auto small : {&B::planes, &B::light}) EXPECT_THROW(show(buffers(small)), Error);
+    for (const auto small : {&B::planes, &B::light}) EXPECT_THROW(weigh(buffers(small)), Error);
     EXPECT_NO_THROW(bounce(buffers(nullptr)));
     EXPECT_THROW(passes.bounce(queue, {records, stride, stride - records + 1, 0}, buffers(nullptr)),
                  Error);
     doubt = test::empty<float>(1);
     EXPECT_THROW(show(buffers(nullptr)), Error);
+    params.thin = 0;  // no block would count
+    EXPECT_THROW(link(buffers(nullptr)), Error);
+    params.thin = 1;
     params.emitter_step = 0;  // nothing would take a turn
     EXPECT_THROW(link(buffers(nullptr)), Error);
     params.emitter_step = 1;

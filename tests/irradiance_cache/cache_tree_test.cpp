@@ -163,5 +163,53 @@ TEST(CacheRecords, AreRefinedWhereDoubtIsLargest) {
     EXPECT_TRUE(places(0).empty());
 }
 
+// The first record shows the second alone, which shows the third, which shows itself and nothing:
+// its importance is the sum of a geometric series.
+TEST(CacheRecords, AreImportantByWhatTheySend) {
+    WeighedPicks picks;
+    picks.by_each = 2;
+    picks.nearest = {1, 1, 2, 2, 2, CACHE_NONE};
+    picks.reflectance = {0.5f, 0.3f, 0.25f, 0.5f, 0.5f, 0.9f};
+    const std::vector<double> found = importance_of(3, 1, picks);
+    ASSERT_EQ(found.size(), 3u);
+    EXPECT_EQ(found[0], 1.0);
+    EXPECT_NEAR(found[1], 0.4, 1e-7);
+    EXPECT_NEAR(found[2], 0.4 * 0.375 / (1.0 - 0.25), 1e-4);
+    picks.nearest = {};
+    picks.reflectance = {};
+    EXPECT_EQ(importance_of(4, 4, picks), std::vector<double>(4, 0.25));
+}
+
+// Two cells: by doubt alone the second would be split first, but only it sees what is in doubt.
+TEST(CacheRecords, SplitTheCellThatIsWorthMost) {
+    const glm::vec3 up(0, 1, 0);
+    const std::vector<CacheRecord> first = {{{0, 0, 0}, up, up}, {{10, 0, 0}, up, up}};
+    const auto at = [&](float x) { return CacheRecord{{x, 0, 0}, up, up}; };
+    WeighedPicks picks;
+    picks.by_each = 3;
+    picks.places = {at(1), at(2), at(-1.5f), at(11), at(12), {}};
+    picks.reflectance.assign(6, 0.5f);
+    picks.worth = {4.0f, 2.0f, 1.0f, 100.0f, 50.0f, 0.0f};
+    picks.nearest = {0, 0, 0, 1, 1, CACHE_NONE};
+    const auto places = [&](std::size_t count) {
+        std::vector<CacheRecord> records = first;
+        split_cells(records, 1, picks, count);
+        std::vector<float> out;
+        for (std::size_t i = 2; i < records.size(); ++i) out.push_back(records[i].position.x);
+        return out;
+    };
+    // Times their squared distances: 4, 8 and 2.25; after the pick at 2 those are 4, 0 and 2.25.
+    EXPECT_EQ(places(1), (std::vector<float>{2}));
+    EXPECT_EQ(places(10), (std::vector<float>{2, 1, -1.5f}));
+    EXPECT_TRUE(places(0).empty());
+    // The second cell is worth 6 and the first 5; a split leaves 3. Then 20, of which 10 are left.
+    picks.nearest = {0, 1, 1, 1, 1, CACHE_NONE};
+    picks.places = {at(1), at(9), at(8), at(11), at(12), {}};
+    picks.worth = {5.0f, 2.0f, 4.0f, 0.0f, 0.0f, 0.0f};
+    EXPECT_EQ(places(2), (std::vector<float>{8, 1}));
+    picks.worth = {5.0f, 2.0f, 18.0f, 0.0f, 0.0f, 0.0f};
+    EXPECT_EQ(places(2), (std::vector<float>{8, 9}));
+}
+
 }  // namespace
 }  // namespace clgi

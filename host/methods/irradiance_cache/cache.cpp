@@ -49,9 +49,9 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     const IrradianceCacheOptions o = checked(options, scene);
     const auto most = static_cast<double>(most_records(o)), face = static_cast<double>(o.face);
     const double records = 1.6 * o.seen + o.met + o.refined;  // as many as a room has
-    const double per_record = 5.0 * sizeof(View) + 24.0 * face * face + 12.0 * most +
-                              36.0 * (1 + picks_per_record) + 64.0;
-    constexpr double pairs = 25.0, drawn = 1e-8;  // a pixel; a triangle in a hemicube, seconds
+    const double per_record = 5.0 * sizeof(View) + 24.0 * face * face + 12.0 * most + 36.0 +
+                              48.0 * picks_per_record + 64.0;
+    constexpr double pairs = 32.0, drawn = 1e-8;  // a pixel; a triangle in a hemicube, seconds
     const double milliseconds = 1e3 * records *
                                 (3.0 * face * face * pairs / pairs_per_second(device) +
                                  drawn * static_cast<double>(scene.info().triangle_count));
@@ -72,7 +72,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     add_to(all);
     picture.allocate(all);
     passes.build({"link", "bounce", "show"});
-    if (options.met > 0) passes.build({"pick"});
+    if (options.met > 0) passes.build({"pick", "weigh"});
     cubes.build({"cubes", "raster_views"});
 }
 
@@ -90,7 +90,8 @@ void IrradianceCache::State::add_to(BufferTable& table) {
         table.add(*light, "light", lower, 3 * plane);
     table.add(chosen, "records", lower, plane);
     table.add(doubt, "doubt", "width or height", word * picture.stride());
-    table.add(places, "places", lower, RECORD_PLANES * pick_stride * word);
+    table.add(places, "places", lower, PICK_PLANES * pick_stride * word);
+    for (cl::Buffer* of : {&worth, &nearest}) table.add(*of, "places", lower, pick_stride * word);
     table.add(b.sky, "the sky", "the environment",
               std::max<std::size_t>(16, sky.texels.size() * word));
 }
@@ -112,6 +113,7 @@ CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count)
     out.emission = options.emission ? CACHE_EMISSION_ALL : CACHE_EMISSION_BEYOND;
     out.focus = scene.frame().detail * scene.frame().detail;
     out.picks = picks_per_record;
+    out.thin = 1;
     out.pick_stride = static_cast<std::uint32_t>(pick_stride);
     const std::vector<Emitter>& emitters = picture.emitters().emitters;
     const auto whole = std::count_if(emitters.begin(), emitters.end(),
@@ -142,7 +144,7 @@ cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
         s.picture.record().fill(s.picture.irradiance(), 0);
     } else {
         s.link(0);
-        s.light();
+        s.light(s.options.bounces);
         s.show();
         s.refine(view);
     }

@@ -29,7 +29,7 @@ void IrradianceCache::State::plant(CacheTree& planted, cl::Buffer& nodes, cl::Bu
     record.write(lists, made.lists.data(), made.lists.size() * sizeof(std::uint32_t));
 }
 
-void IrradianceCache::State::link(std::size_t first) {
+void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
     Recorder& record = picture.record();
     if (first == 0) {
         plant(tree, b.nodes, b.lists);
@@ -40,9 +40,10 @@ void IrradianceCache::State::link(std::size_t first) {
             record.write(b.sky, sky.texels.data(), sky.texels.size() * sizeof(float));
     }
     const std::size_t count = records.size() - first;
+    CacheParams of = params(first, count);
+    of.thin = thin;
     record("cache.link", count, [&](const WaitList& wait) {
-        return passes.link(record.queue(), params(first, count), tree, scene,
-                           picture.emitter_buffers(), b, wait);
+        return passes.link(record.queue(), of, tree, scene, picture.emitter_buffers(), b, wait);
     });
 }
 
@@ -53,7 +54,7 @@ void IrradianceCache::State::grow(cl::Buffer& buffer, std::size_t size) {
                             size + size / 4);
 }
 
-void IrradianceCache::State::light() {
+void IrradianceCache::State::light(int limit) {
     Recorder& record = picture.record();
     const auto count = static_cast<std::uint32_t>(records.size());
     record("cache.begin", count, [&](const WaitList& wait) {
@@ -62,16 +63,17 @@ void IrradianceCache::State::light() {
                                          3 * std::size_t{stride} * sizeof(float), &wait, &copied);
         return copied;
     });
-    const int limit = options.bounces > 0 ? options.bounces : most_steps;
+    const bool until_it_rests = limit == 0;
+    if (until_it_rests) limit = most_steps;
     found.converged = false;
     int step = 0;
     while (step < limit && !found.converged) {
         const int last = std::min(limit, step + steps_a_look);
         for (; step < last; ++step) bounce(0);
-        if (options.bounces == 0) found.converged = rests();
+        if (until_it_rests) found.converged = rests();
     }
     found.bounces = step;
-    if (options.bounces > 0) found.converged = true;
+    if (!until_it_rests) found.converged = true;
 }
 
 void IrradianceCache::State::bounce(std::size_t first) {

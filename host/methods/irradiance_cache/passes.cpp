@@ -41,11 +41,12 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     pick_ = few("pick");
     link_ = few("link");
     bounce_ = few("bounce");
+    weigh_ = few("weigh");
     show_ = programs.kernel("cache", "show", options);
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
-    build_named({pick_, link_, bounce_, show_}, passes);
+    build_named({pick_, link_, bounce_, weigh_, show_}, passes);
 }
 
 cl::Event CachePasses::pick(const cl::CommandQueue& queue, const CacheParams& params,
@@ -53,8 +54,8 @@ cl::Event CachePasses::pick(const cl::CommandQueue& queue, const CacheParams& pa
                             const cl::Buffer& places, const WaitList& wait) const {
     need_records(pick_, params, b);
     const std::size_t picks = std::size_t{params.count} * params.picks;
-    need_stride(pick_, "pick_stride", params.pick_stride, params.first_pick + picks);
-    need(pick_, "places", places, RECORD_PLANES * word * params.pick_stride);
+    need_stride(pick_, "pick_stride", params.pick_stride, picks);
+    need(pick_, "places", places, PICK_PLANES * word * params.pick_stride);
     return launch(pick_, queue, picks, wait, params, scene.info(), b.views, b.visibility, scene,
                   places);
 }
@@ -71,6 +72,7 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
          3 * word * params.stride * (std::size_t{params.first} + params.count));
     need(link_, "base", b.base, 3 * word * params.stride);
     need(link_, "reflected", b.reflected, 3 * word * params.stride);
+    need_range("cache.link", "thin", params.thin, 1u, 1u << 20);
     need_range("cache.link", "emitter_step", params.emitter_step, 1u, 1u << 20);
     need_range("cache.link", "whole_emitters", params.whole_emitters, 0u, params.emitter_count);
     need_depth_words(link_, 1, emitters.kind);
@@ -90,6 +92,21 @@ cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBouncePa
         need(bounce_, "light", *light, 3 * plane);
     return launch(bounce_, queue, std::size_t{3} * params.record_count, wait, params, b.rows,
                   b.base, b.reflected, b.light, b.next);
+}
+
+cl::Event CachePasses::weigh(const cl::CommandQueue& queue, const CacheParams& params,
+                             const CacheTree& tree, const CacheBuffers& b, const cl::Buffer& places,
+                             const cl::Buffer& worth, const cl::Buffer& nearest,
+                             const WaitList& wait) const {
+    need_tree(weigh_, tree, b);
+    const std::size_t picks = std::size_t{params.count} * params.picks;
+    need_stride(weigh_, "pick_stride", params.pick_stride, picks);
+    need(weigh_, "light", b.light, 3 * word * tree.stride);
+    need(weigh_, "places", places, PICK_PLANES * word * params.pick_stride);
+    need(weigh_, "worth", worth, word * params.pick_stride);
+    need(weigh_, "nearest", nearest, word * params.pick_stride);
+    return launch(weigh_, queue, picks, wait, params, tree, b.nodes, b.lists, b.planes, b.light,
+                  places, worth, nearest);
 }
 
 cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams& params,

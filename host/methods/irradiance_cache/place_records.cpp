@@ -7,7 +7,9 @@
 namespace clgi {
 namespace {
 
-constexpr int refinements = 2;
+constexpr int refinements = 2, weighings = 3;
+constexpr std::uint32_t thin = 8;
+constexpr int first_steps = 8;
 constexpr float lift_share = 4e-6f;  // of the focus's radius
 
 }  // namespace
@@ -96,6 +98,40 @@ void IrradianceCache::State::meet(std::size_t first, std::size_t count) {
     draw(before);
 }
 
+void IrradianceCache::State::weigh(std::size_t count) {
+    if (count == 0) return;
+    link(0, thin);
+    light(options.bounces > 0 ? std::min(options.bounces, first_steps) : first_steps);
+    Recorder& record = picture.record();
+    CacheParams of = params(0, records.size());
+    of.first_sample = static_cast<std::uint32_t>(records.size());  // others than were met
+    const std::size_t picks = records.size() * picks_per_record;
+    record("cache.pick", picks, [&](const WaitList& wait) {
+        return passes.pick(record.queue(), of, scene, b, places, wait);
+    });
+    record("cache.weigh", picks, [&](const WaitList& wait) {
+        return passes.weigh(record.queue(), of, tree, b, places, worth, nearest, wait);
+    });
+    WeighedPicks seen;
+    seen.by_each = picks_per_record;
+    seen.places = read_records(places, pick_stride, picks);
+    seen.reflectance.resize(picks);
+    seen.worth.resize(picks);
+    seen.nearest.resize(picks);
+    const auto read = [&](const cl::Buffer& from, std::size_t first, void* to) {
+        record.queue().enqueueReadBuffer(from, CL_TRUE, first * sizeof(float),
+                                         picks * sizeof(float), to);
+    };
+    read(places, PICK_REFLECTANCE * pick_stride, seen.reflectance.data());
+    read(worth, 0, seen.worth.data());
+    read(nearest, 0, seen.nearest.data());
+    const std::size_t before = records.size();
+    split_cells(records, found.seen, seen, count);
+    if (records.size() == before) return;
+    write_records();
+    draw(before);
+}
+
 void IrradianceCache::State::choose(const View& view) {
     Recorder& record = picture.record();
     record.wait();
@@ -111,8 +147,10 @@ void IrradianceCache::State::choose(const View& view) {
     write_records();
     draw(0);
     const auto met = static_cast<std::size_t>(options.met);
-    meet(0, met - met / 3);
-    meet(found.seen, met / 3);
+    const std::size_t weighed = 2 * met / 3, spread = met - weighed;
+    meet(0, spread - spread / 3);
+    meet(found.seen, spread / 3);
+    for (int round = 0; round < weighings; ++round) weigh(weighed / weighings);
     found.met = records.size() - found.seen;
 }
 

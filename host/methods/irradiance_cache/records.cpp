@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <queue>
 
 namespace clgi {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 constexpr std::size_t most_in_block = 4;
 constexpr float alike = 0.9f;      // cosine between normals that one record stands in for
 constexpr float off_plane = 0.3f;  // distance off the plane, of the distance
+constexpr int importance_steps = 8;
 constexpr float widest = 0.6f, narrowest = 0.01f, narrower = 0.75f;  // spacing by distance
 
 bool exists(const CacheRecord& record) { return glm::dot(record.normal, record.normal) > 0.0f; }
@@ -98,6 +100,67 @@ void add_records(std::vector<CacheRecord>& records, const std::vector<CacheRecor
             records.push_back(candidate);
             taken[i] = 1;
         }
+}
+
+std::vector<double> importance_of(std::size_t records, std::size_t seen,
+                                  const WeighedPicks& picks) {
+    std::vector<double> first(records, 0.0);
+    std::fill_n(first.begin(), seen, 1.0 / static_cast<double>(seen));
+    std::vector<double> out = first;
+    for (int step = 0; step < importance_steps; ++step) {
+        std::vector<double> next = first;
+        for (std::size_t i = 0; i < picks.nearest.size(); ++i)
+            if (picks.nearest[i] < records)
+                next[picks.nearest[i]] += out[i / picks.by_each] * double{picks.reflectance[i]} /
+                                          static_cast<double>(picks.by_each);
+        out.swap(next);
+    }
+    return out;
+}
+
+void split_cells(std::vector<CacheRecord>& records, std::size_t seen, const WeighedPicks& picks,
+                 std::size_t count) {
+    struct Candidate {
+        const CacheRecord* place;
+        double worth, apart;  // square of its distance to the cell's records
+    };
+    struct Cell {
+        double worth = 0.0;
+        std::vector<Candidate> candidates;
+    };
+    const auto apart = [](const CacheRecord& a, const CacheRecord& b) {
+        const glm::dvec3 d = glm::dvec3(a.position) - glm::dvec3(b.position);
+        return glm::dot(d, d);
+    };
+    const std::vector<double> importance = importance_of(records.size(), seen, picks);
+    std::vector<Cell> cells(records.size());
+    for (std::size_t i = 0; i < picks.places.size(); ++i) {
+        const double worth = double{picks.worth[i]} * importance[i / picks.by_each];
+        if (!(worth > 0.0) || !std::isfinite(worth) || picks.nearest[i] >= cells.size()) continue;
+        Cell& cell = cells[picks.nearest[i]];
+        cell.worth += worth;
+        cell.candidates.push_back(
+            {&picks.places[i], worth, apart(picks.places[i], records[picks.nearest[i]])});
+    }
+    const auto less = [&](std::size_t a, std::size_t b) { return cells[a].worth < cells[b].worth; };
+    std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(less)> next(less);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        if (!cells[k].candidates.empty()) next.push(k);
+    for (const std::size_t most = records.size() + count; records.size() < most && !next.empty();) {
+        const std::size_t at = next.top();
+        next.pop();
+        Cell& cell = cells[at];
+        const auto best = std::max_element(cell.candidates.begin(), cell.candidates.end(),
+                                           [](const Candidate& a, const Candidate& b) {
+                                               return a.worth * a.apart < b.worth * b.apart;
+                                           });
+        if (!(best->worth * best->apart > 0.0)) continue;
+        records.push_back(*best->place);
+        for (Candidate& other : cell.candidates)
+            other.apart = std::min(other.apart, apart(*other.place, records.back()));
+        cell.worth *= 0.5;
+        next.push(at);
+    }
 }
 
 }  // namespace clgi

@@ -29,4 +29,25 @@ std::vector<CacheRecord> doubtful_records(const std::vector<CacheRecord>& pixels
 void add_records(std::vector<CacheRecord>& records, const std::vector<CacheRecord>& candidates,
                  const std::vector<std::size_t>& viewers, std::size_t count);
 
+// Surfaces that records see, by directions of a cosine lobe, the same number for each.
+struct WeighedPicks {
+    std::size_t by_each = 1;
+    std::vector<CacheRecord> places;  // a normal of 0: nothing
+    std::vector<float> reflectance;
+    std::vector<float> worth;            // doubt about what is sent, exposed lux
+    std::vector<std::uint32_t> nearest;  // record that counts most there
+};
+
+// How much of the picture the light of each record reaches, by way of others too, of which the
+// first `seen` light it directly.          [Smits92, importance; by particles, as in Veach's
+// thesis, 4.5]
+std::vector<double> importance_of(std::size_t records, std::size_t seen, const WeighedPicks& picks);
+
+// Adds up to `count` of the picks to the records. A pick is worth its doubt times the importance of
+// the record that sees it, and lies in the cell of the record that counts most there. The cell that
+// is worth most is split first, at the pick that is worth most times the square of its distance to
+// the cell's records; that leaves half of its worth.
+void split_cells(std::vector<CacheRecord>& records, std::size_t seen, const WeighedPicks& picks,
+                 std::size_t count);
+
 }  // namespace clgi

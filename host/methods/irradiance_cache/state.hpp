@@ -30,11 +30,15 @@ struct IrradianceCache::State {
     void choose(const View& view);
     // A tree of all records, for one of two uses.
     void plant(CacheTree& planted, cl::Buffer& nodes, cl::Buffer& lists);
-    // The transport of the records from `first` on, from those that light goes between.
-    void link(std::size_t first);
+    // More records where others see light that is in doubt and that reaches the picture.
+    void weigh(std::size_t count);
+    // The transport of the records from `first` on, from those that light goes between, by one
+    // block of pixels in `thin`.
+    void link(std::size_t first, std::uint32_t thin = 1);
     // How many nodes a tree has is known when it is made.
     void grow(cl::Buffer& buffer, std::size_t size);
-    void light();
+    // Until the light rests, or so many reflections.
+    void light(int limit);
     void bounce(std::size_t first);
     // More records where the light changes between those that are there, in rounds of ever smaller
     // blocks. They gather what the last reflection did for the others, which have no light of
@@ -54,7 +58,7 @@ struct IrradianceCache::State {
     CacheTree tree{}, all_tree{};  // of those that light goes between, of these and refined ones
     CoarseSky sky;
     cl::Buffer all_nodes, all_lists;  // of all_tree
-    cl::Buffer chosen, places, doubt;
+    cl::Buffer chosen, places, worth, nearest, doubt;
     std::vector<CacheRecord> records;
     std::vector<CacheRecord> shown;  // what each pixel shows
     std::size_t capacity = 0, pick_stride = 0;

@@ -30,7 +30,7 @@ class CLGI_API CachePasses {
 public:
     explicit CachePasses(const Programs& programs, const BuildOptions& options = {});
 
-    // Surfaces that the hemicubes of params.count records see -> places [RECORD_PLANES]
+    // Surfaces that the hemicubes of params.count records see -> places [PICK_PLANES]
     // [pick_stride], params.picks for each record.
     cl::Event pick(const cl::CommandQueue& queue, const CacheParams& params,
                    const DeviceScene& scene, const CacheBuffers& buffers, const cl::Buffer& places,
@@ -46,6 +46,12 @@ public:
     cl::Event bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
                      const CacheBuffers& buffers, const WaitList& wait = {}) const;
 
+    // buffers.light at places that were picked -> worth [pick_stride] float, how much of what each
+    // sends is in doubt, and nearest [pick_stride] uint, the record that counts most there.
+    cl::Event weigh(const cl::CommandQueue& queue, const CacheParams& params, const CacheTree& tree,
+                    const CacheBuffers& buffers, const cl::Buffer& places, const cl::Buffer& worth,
+                    const cl::Buffer& nearest, const WaitList& wait = {}) const;
+
     // buffers.light -> irradiance [IRRADIANCE_PLANES][params.stride] of the points of a G-buffer,
     // in the storage of these passes, and how much the records of each differ, doubt
     // [params.stride] float.
@@ -58,7 +64,7 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel pick_, link_, bounce_, show_;
+    PassKernel pick_, link_, bounce_, weigh_, show_;
 };
 
 }  // namespace clgi

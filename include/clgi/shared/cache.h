@@ -12,6 +12,10 @@ CLGI_SHARED_BEGIN
 // lights light them.
 enum { RECORD_POSITION = 0, RECORD_NORMAL = 3, RECORD_GEOMETRIC = 6, RECORD_PLANES = 9 };
 
+// Planes of places that may become records: those of a record, and the luminance that the surface
+// reflects of white light.
+enum { PICK_REFLECTANCE = RECORD_PLANES, PICK_PLANES };
+
 // A tree over space that names the records near each place: eight children a node, and in leaves a
 // list for each of the six ways that a surface can face, +x, -x, +y and so on.
 enum { CACHE_LISTED = 16, CACHE_WAYS = 6 };
@@ -42,13 +46,13 @@ typedef struct {
     float sky_turn;  // in turns, as in EnvironmentParams
     uint emission;   // which emissive surfaces count, a CACHE_EMISSION
     uint picks;     // surfaces of each record that pick takes
-    uint first_pick;  // place of the first record's
+    uint first_sample;  // of the sequence of directions that pick takes
     uint pick_stride;
     uint emitter_count;  // with shadow maps of depth alone
     float focus;         // square of its radius, local units
     uint whole_emitters;  // so many light every pixel of a hemicube
     uint emitter_step;    // of the others each lights one block of 16 pixels in so many, at least 1
-    uint pad_;
+    uint thin;  // of the blocks of 16 pixels one in so many counts, at least 1
 } CacheParams;
 
 typedef struct {
