@@ -28,6 +28,8 @@ void operator+=(Amount& a, const Amount& b) {
 // other methods take less than their pictures.
 constexpr double loading = 110.0;
 
+constexpr double touch = 0.8;  // ms a megabyte
+
 constexpr double scene_bytes = 200.0;  // of a triangle of the static part, which is there twice
 
 double triangles(const Plan& plan) { return static_cast<double>(plan.analysis.surfaces.triangles); }
@@ -59,7 +61,7 @@ Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment
 Amount shadow_maps(const Plan& plan, const Lamps& lamps, bool drawn) {
     if (!drawn) return {};
     // Fine triangles cover pixels several times.
-    const double pixel = 6e-7 + 1e-11 * triangles(plan);
+    const double pixel = 1.2e-6 + 1e-11 * triangles(plan);
     return {lamps.views * (0.05 + 2e-5 * triangles(plan)) + pixel * lamps.pixels,
             4.0 * lamps.pixels};
 }
@@ -171,7 +173,7 @@ PlanCost irradiance_cache(const Plan& plan) {
         plan.on(Effect::area_light) ? static_cast<double>(plan.picture.emitters.area_samples) : 0.0;
     const double lit = lamps.emitters - samples + std::min(samples, samples_at_once);
     Amount frame = picture(plan, false);
-    frame += {records * (0.1 + 1.5e-5 * triangles(plan) + weighed * (4e-5 + 1e-5 * lit) * pixels) +
+    frame += {records * (0.1 + 2.5e-5 * triangles(plan) + weighed * (4e-5 + 1e-5 * lit) * pixels) +
                   2e-6 * records * records,
               records * (8.0 * pixels + 12.0 * records)};
     return {0.0, frame.ms, 1e-6 * frame.bytes};
@@ -208,6 +210,9 @@ PlanCost cost_of(const cl::Device& device, const Plan& plan) {
     out.once_ms *= slower;
     out.frame_ms *= slower;
     if (plan.method == Method::light_atlas) out.once_ms += loading;
+    // The first touch of memory, which a system hands out in pages.
+    if (device.getInfo<CL_DEVICE_TYPE>() == CL_DEVICE_TYPE_CPU)
+        out.once_ms += touch * out.megabytes;
     return out;
 }
 

@@ -40,8 +40,9 @@ std::optional<double> as_checked(const Plan& plan, std::optional<double> expecte
     if (!expected) return expected;
     double factor = 1.0;
     for (const PlanCheck& check : plan.checks)
-        if (check.method == plan.method && check.expected && *check.expected > 0.0)
-            factor = std::max(factor, check.measured / *check.expected);
+        if (check.method == plan.method && check.found.error && check.expected &&
+            *check.expected > 0.0)
+            factor = std::max(factor, *check.found.error / *check.expected);
     return factor * *expected;
 }
 
@@ -52,7 +53,7 @@ void drop_checked(std::vector<Candidate>& candidates) {
         const auto& checks = one.plan.checks;
         return std::any_of(checks.begin(), checks.end(), [&](const PlanCheck& check) {
             return check.method == one.plan.method &&
-                   one.plan.cost.total_ms() < finer * check.predicted_ms;
+                   one.plan.cost.total_ms() < finer * pace_of(one.plan) * check.predicted_ms;
         });
     };
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), checked),
@@ -75,6 +76,25 @@ void drop_too_slow_to_begin(std::vector<Candidate>& candidates) {
 
 }  // namespace
 
+double pace_of(const Plan& plan) {
+    double own = 0.0, others = 1.0;
+    for (const PlanCheck& check : plan.checks) {
+        if (!check.found.took_ms || !(check.predicted_ms > 0.0)) continue;
+        const double pace = *check.found.took_ms / check.predicted_ms;
+        if (check.method == plan.method) own = pace;
+        others = std::max(others, pace);
+    }
+    return own > 0.0 ? own : others;
+}
+
+PlanCost paced_cost(const cl::Device& device, const Plan& plan) {
+    const double pace = pace_of(plan);
+    PlanCost out = cost_of(device, plan);
+    out.once_ms *= pace;
+    out.frame_ms *= pace;
+    return out;
+}
+
 bool choose_method(const cl::Device& device, Plan& plan) {
     const Choice choice = methods_for(plan);
     const EffectChoices effects = plan.effects;
@@ -87,7 +107,7 @@ bool choose_method(const cl::Device& device, Plan& plan) {
         for (const int fineness : {1, 2, 4, 8, 16}) {
             Candidate one{plan, std::nullopt};
             set(one.plan, preset, fineness);
-            one.plan.cost = cost_of(device, one.plan);
+            one.plan.cost = paced_cost(device, one.plan);
             one.error = as_checked(one.plan, expected_error(one.plan, preset));
             candidates.push_back(std::move(one));
         }

@@ -12,6 +12,13 @@ bool choose_method(const cl::Device& device, Plan& plan);
 // Of the plan's method with its settings and effects.
 PlanCost cost_of(const cl::Device& device, const Plan& plan);
 
+// How many times as long as predicted for its class of machines pictures took here: the last of the
+// plan's method, or else the slowest of others, and no less than 1.
+double pace_of(const Plan& plan);
+
+// cost_of at that pace.
+PlanCost paced_cost(const cl::Device& device, const Plan& plan);
+
 // Of all shadow maps of direct light in the picture, predicted.
 double shadow_pixels(const Plan& plan);
 

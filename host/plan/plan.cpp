@@ -87,7 +87,7 @@ double largest_bound(const EffectChoices& effects) {
 void price(const cl::Device& device, Plan& plan) {
     for (EffectChoice& choice : plan.effects) {
         if (!choice.on) continue;
-        const PlanCost less = cost_of(device, without_effect(plan, choice.effect));
+        const PlanCost less = paced_cost(device, without_effect(plan, choice.effect));
         choice.milliseconds = std::max(0.0, plan.cost.total_ms() - less.total_ms());
         choice.megabytes = std::max(0.0, plan.cost.megabytes - less.megabytes);
     }
@@ -146,17 +146,38 @@ Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Sc
     return with(probe(queue, programs, uploaded, camera, unprobed));
 }
 
-std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, double measured) {
+Plan trial_plan(const cl::Device& device, const Plan& plan, double seconds) {
+    need(seconds > 0.0 && std::isfinite(seconds), "the seconds of a trial are not above 0");
+    Plan out = plan;
+    out.request.method = plan.method;
+    out.request.seconds = seconds;
+    choose_method(device, out);
+    price(device, out);
+    out.request = plan.request;
+    out.why = plan.why;
+    out.meets_time = plan.meets_time;
+    return out;
+}
+
+std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, const PlanOutcome& found,
+                              std::optional<double> seconds) {
     constexpr double less = 0.95;     // of the error; otherwise it does not pay
     constexpr double patience = 1e4;  // ms, where no time was requested
-    if (!(measured >= 0.0)) throw Error("plan: the measured error is negative or not a number");
+    const auto is_amount = [](std::optional<double> value) {
+        return !value || (*value >= 0.0 && std::isfinite(*value));
+    };
+    need(is_amount(found.error) && is_amount(found.took_ms) && is_amount(seconds),
+         "the measured error or the time is negative or not a number");
     Plan out = plan;
-    out.checks.push_back({plan.method, plan.error, measured, plan.cost.total_ms()});
+    if (seconds) out.request.seconds = seconds;
+    out.checks.push_back({plan.method, plan.error, plan.cost.total_ms() / pace_of(plan), found});
     if (!choose_method(device, out)) return std::nullopt;
     price(device, out);
-    const double most = plan.request.seconds ? 1e3 * *plan.request.seconds : patience;
-    if (out.cost.total_ms() > most || (out.error && *out.error > less * measured))
+    const double most = out.request.seconds ? 1e3 * *out.request.seconds : patience;
+    const std::optional<double> error = found.error ? found.error : plan.error;
+    if (out.cost.total_ms() > most || (out.error && error && *out.error > less * *error))
         return std::nullopt;
+    out.request.seconds = plan.request.seconds;
     return out;
 }
 

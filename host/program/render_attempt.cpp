@@ -142,12 +142,14 @@ void RenderAttempt::check(const Scene& truth, double decide) {
                });
 }
 
-void RenderAttempt::finish(const std::vector<RenderedAttempt>& attempts, bool meets_target) {
+void RenderAttempt::finish(const std::vector<RenderedAttempt>& attempts, bool meets_target,
+                           std::optional<double> used) {
     if (record_.verified) add_verified(picture_, *record_.verified);
     if (!flags_.fps) save_picture(picture_, flags_.picture);
     motion_.report();
     record_.attempts = attempts;
     record_.meets_target = meets_target;
+    record_.budget_used = used;
     tell();
 }
 

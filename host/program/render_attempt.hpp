@@ -31,8 +31,9 @@ public:
     // Measures the error against all light of a scene. decide: as in VerifyOptions.
     void check(const Scene& truth, double decide);
     // Saves the picture of the last frame; warnings, a line of the result and --stats. attempts:
-    // all for an error that was asked for.
-    void finish(const std::vector<RenderedAttempt>& attempts = {}, bool meets_target = true);
+    // all for an error or a time that was asked for; used: seconds of that time.
+    void finish(const std::vector<RenderedAttempt>& attempts = {}, bool meets_target = true,
+                std::optional<double> used = std::nullopt);
 
     const RenderRecord& record() const { return record_; }
     double seconds() const;  // that the picture took, with all before it

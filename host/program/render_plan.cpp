@@ -45,10 +45,26 @@ std::optional<Planned> go_on(const cl::Device& device, const Planned& planned,
     constexpr std::size_t most = 4;  // attempts
     const Plan& plan = planned.plan;
     if (error.value < nearly * target || plan.checks.size() + 1 >= most) return std::nullopt;
-    const std::optional<Plan> next = next_plan(device, plan, error.value);
+    const std::optional<Plan> next = next_plan(device, plan, {error.value, std::nullopt});
     if (!next) return std::nullopt;
     if (plan.request.seconds && spent + 1e-3 * next->cost.total_ms() > *plan.request.seconds)
         return std::nullopt;
+    return Planned{*next, planned.milliseconds};
+}
+
+// Where a time is asked for all of a picture, a first one that takes a part of it shows how long
+// things take on this machine.
+std::optional<double> time_budget(const RenderFlags& flags, const PlanRequest& request) {
+    return renders_once(flags) && !request.error ? request.seconds : std::nullopt;
+}
+
+// Plans for what is left of it.
+std::optional<Planned> use_rest(const cl::Device& device, const Planned& planned, double took,
+                                double left) {
+    constexpr double margin = 0.9;  // predictions from one picture to the next
+    const std::optional<Plan> next =
+        next_plan(device, planned.plan, {std::nullopt, 1e3 * took}, std::max(0.0, margin * left));
+    if (!next) return std::nullopt;
     return Planned{*next, planned.milliseconds};
 }
 
@@ -93,22 +109,25 @@ PlanRequest plan_request(const RenderFlags& flags) {
 
 void render_planned(const RenderFlags& flags, const Session& session, const Programs& programs,
                     const Scene& scene) {
+    constexpr double trial = 0.15;  // of a time budget
+    const PlanRequest request = plan_request(flags);
+    const std::optional<double> budget = time_budget(flags, request);
     Planned first;
-    first.plan =
-        make_plan(session.queue, programs, scene,
-                  scene.cameras[static_cast<std::size_t>(flags.camera)], plan_request(flags));
+    first.plan = make_plan(session.queue, programs, scene,
+                           scene.cameras[static_cast<std::size_t>(flags.camera)], request);
+    const std::optional<double> target = checked_target(flags, first.plan);
+    const std::string warning = unmet(first.plan, target.has_value());
     first.milliseconds = first.plan.analysis.milliseconds;
     if (first.plan.reach) first.milliseconds += first.plan.reach->milliseconds;
     if (first.plan.probe) first.milliseconds += first.plan.probe->milliseconds;
-    const std::optional<double> target = checked_target(flags, first.plan);
-    const std::string warning = unmet(first.plan, target.has_value());
+    if (budget) first.plan = trial_plan(session.device, first.plan, trial * *budget);
     if (!warning.empty()) notice(false, "warning: " + warning);
     catch_interrupts();
 
     std::vector<RenderedAttempt> attempts;
     std::unique_ptr<RenderAttempt> best;
     std::optional<Planned> next = first;
-    double spent = 0.0;
+    double spent = budget ? 1e-3 * first.milliseconds : 0.0;  // of a budget, with the plan
     bool found = false;
     while (next) {
         const auto planned = std::make_shared<const Planned>(*next);
@@ -123,18 +142,19 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
             flags, session, programs, nullptr, planned_scene(scene, plan), options, planned);
         attempt->draw();
         spent += attempt->seconds();
-        if (target || flags.verify.on) attempt->check(scene, target.value_or(0.0));
+        if (budget) next = use_rest(session.device, *planned, attempt->seconds(), *budget - spent);
+        if (target || (flags.verify.on && !next)) attempt->check(scene, target.value_or(0.0));
         const auto& verified = attempt->record().verified;
         attempts.push_back({plan_settings(plan), plan.error, verified, attempt->seconds()});
         found = target && verified && verified->error.high <= *target;
         if (target && verified && !found && !interrupted())
             next = go_on(session.device, *planned, verified->error, *target, spent);
-        if (!best || (verified && is_better(*verified, best->record().verified)))
+        if (!best || budget || (verified && is_better(*verified, best->record().verified)))
             best = std::move(attempt);
     }
-    if (!target) attempts.clear();
+    if (!target && !budget) attempts.clear();
     if (target && !found) notice(false, "warning: " + missed(*target, best->record().verified));
-    best->finish(attempts, found || !target);
+    best->finish(attempts, found || !target, budget ? std::optional<double>(spent) : std::nullopt);
     if ((target || flags.verify.on) && interrupted()) throw Interrupted();
 }
 

@@ -37,17 +37,14 @@ ordered_json passes_json(const std::vector<std::vector<lab::PassTime>>& frames) 
     return out;
 }
 
-// All attempts for an error that was asked for.
-ordered_json target_json(const RenderRecord& record) {
+ordered_json attempts_json(const RenderRecord& record) {
     ordered_json attempts = ordered_json::array();
     for (const RenderedAttempt& one : record.attempts) {
         attempts.push_back({{"settings", one.settings}, {"seconds", one.seconds}});
         if (one.expected) attempts.back()["expected"] = *one.expected;
         if (one.verified) attempts.back()["measured_error"] = verify_json(*one.verified);
     }
-    return {{"error", *record.planned->plan.request.error},
-            {"met", record.meets_target},
-            {"attempts", attempts}};
+    return attempts;
 }
 
 }  // namespace
@@ -115,7 +112,14 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         out["plan"] = plan_json(record.planned->plan);
         out["plan"]["ms"] = record.planned->milliseconds;
     }
-    if (!record.attempts.empty()) out["target"] = target_json(record);
+    if (record.budget_used)
+        out["time_budget"] = {{"seconds", *record.planned->plan.request.seconds},
+                              {"used", *record.budget_used},
+                              {"attempts", attempts_json(record)}};
+    else if (!record.attempts.empty())
+        out["target"] = {{"error", *record.planned->plan.request.error},
+                         {"met", record.meets_target},
+                         {"attempts", attempts_json(record)}};
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
     if (record.verified) out["measured_error"] = verify_json(*record.verified);
     io::AtomicFile file(path);

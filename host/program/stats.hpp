@@ -76,7 +76,8 @@ struct RenderRecord {
     std::optional<IrradianceCacheStatus> cache;
     std::optional<AntiradianceSummary> antiradiance;
     std::shared_ptr<const Planned> planned;  // of --method auto
-    std::vector<RenderedAttempt> attempts;   // for an error that was asked for: all of them
+    std::vector<RenderedAttempt> attempts;   // for an error or a time that was asked for: all
+    std::optional<double> budget_used;       // seconds of a time that was asked for
     bool meets_target = true;                // the last check's upper bound does
     std::vector<std::string> warnings;
     AntiradianceFrames exchanges;  // of antiradiance

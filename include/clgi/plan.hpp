@@ -47,12 +47,17 @@ struct PlanCost {
     double total_ms() const { return once_ms + frame_ms; }
 };
 
-// What a check found of a picture that was rendered by a plan.
+// What is known of a picture that was rendered by a plan.
+struct PlanOutcome {
+    std::optional<double> error;    // that a check measured
+    std::optional<double> took_ms;  // with all before it
+};
+
 struct PlanCheck {
     Method method = Method::direct;
     std::optional<double> expected;  // error, before it
-    double measured = 0.0;           // error
-    double predicted_ms = 0.0;       // of all that the plan does
+    double predicted_ms = 0.0;       // of all that the plan does, by the machine's class alone
+    PlanOutcome found;
 };
 
 // The options of a Renderer, and the reasons for them.
@@ -94,11 +99,20 @@ CLGI_API Plan make_plan(const cl::Device& device, const SceneAnalysis& analysis,
 CLGI_API Plan make_plan(const cl::CommandQueue& queue, const Programs& programs, const Scene& scene,
                         const Camera& camera, const PlanRequest& request);
 
-// The plan to go on with after a check of the picture by `plan` measured this error, above the one
-// that was requested. Settings of a method are expected to err by as many times more as it did;
-// what was tried, and what is coarser, is not tried again. None if nothing is expected to err less
-// than what was measured, within the time.
-CLGI_API std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, double measured);
+// The method of a plan with settings for so many seconds, or with its quickest: how long that
+// picture takes tells next_plan what to expect of this machine.
+CLGI_API Plan trial_plan(const cl::Device& device, const Plan& plan, double seconds);
+
+// The plan to go on with after a picture by `plan`. Settings of a method are expected to err by as
+// many times more as a check measured, and to take as many times as long as pictures of the plan
+// and of those before it did; if another method was quicker than predicted, that says nothing of a
+// method. What was tried, and what is coarser, is not tried again. None if nothing is expected to
+// err less than what was measured, or else expected of `plan`, within the seconds that are left;
+// without them, those that were requested. Throws Error for an error or a time that is negative or
+// not a number.
+CLGI_API std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan,
+                                       const PlanOutcome& found,
+                                       std::optional<double> seconds = std::nullopt);
 
 // Whether the picture reaches so little of the scene that methods that share their work out over
 // all of it, and a probe by them, tell little of the picture.

@@ -10,15 +10,17 @@
 namespace clgi {
 namespace {
 
-Plan plan_of(std::optional<double> error, std::optional<double> seconds) {
+Plan plan_of(std::optional<double> error, std::optional<double> seconds,
+             std::optional<Method> method = std::nullopt) {
     PlanRequest request;
+    request.method = method;
     request.error = error;
     request.seconds = seconds;
     return make_plan(test::device().device, scene_analysis(test::furnished_room(3)), request);
 }
 
 std::optional<Plan> next(const Plan& plan, double measured) {
-    return next_plan(test::device().device, plan, measured);
+    return next_plan(test::device().device, plan, {measured, std::nullopt});
 }
 
 TEST(PlanChecks, GoOnToSettingsThatTakeLonger) {
@@ -31,7 +33,7 @@ TEST(PlanChecks, GoOnToSettingsThatTakeLonger) {
     ASSERT_EQ(second->checks.size(), 1u);
     EXPECT_EQ(second->checks[0].method, first.method);
     EXPECT_EQ(second->checks[0].expected, first.error);
-    EXPECT_EQ(second->checks[0].measured, measured);
+    EXPECT_EQ(second->checks[0].found.error, measured);
     EXPECT_EQ(second->checks[0].predicted_ms, first.cost.total_ms());
     EXPECT_TRUE(second->method != first.method ||
                 second->cost.total_ms() >= 1.2 * first.cost.total_ms());
@@ -78,6 +80,64 @@ TEST(PlanChecks, KeepToTheTimeThatWasRequested) {
     }
     EXPECT_THROW(next(first, -1.0), Error);
     EXPECT_THROW(next(first, std::numeric_limits<double>::quiet_NaN()), Error);
+}
+
+// A machine that took three times as long as predicted has a third of the time, so to speak.
+TEST(PlanPace, IsThatOfThePictureBefore) {
+    const cl::Device& device = test::device().device;
+    const Plan first = plan_of(std::nullopt, 3.0, Method::irradiance_cache);
+    const Plan trial = trial_plan(device, first, 0.05);
+    EXPECT_EQ(trial.method, first.method);
+    EXPECT_EQ(trial.request.method, first.request.method);
+    EXPECT_EQ(trial.request.seconds, 3.0);
+    EXPECT_EQ(trial.why, first.why);
+    EXPECT_LT(trial.cost.total_ms(), first.cost.total_ms());
+    const auto after = [&](double slower, double seconds) {
+        return next_plan(device, trial, {std::nullopt, slower * trial.cost.total_ms()}, seconds);
+    };
+    const std::optional<Plan> same = after(1.0, 3.0), slow = after(3.0, 3.0),
+                              third = after(1.0, 1.0);
+    ASSERT_TRUE(same && slow && third);
+    EXPECT_EQ(same->method, first.method);
+    EXPECT_NEAR(same->cost.total_ms(), first.cost.total_ms(), 1e-6);
+    EXPECT_EQ(slow->method, third->method);
+    EXPECT_NEAR(slow->cost.total_ms(), 3.0 * third->cost.total_ms(), 1e-6 * slow->cost.total_ms());
+    EXPECT_LE(slow->cost.total_ms(), 3000.0);
+    EXPECT_EQ(slow->request.seconds, 3.0);
+    ASSERT_EQ(slow->checks.size(), 1u);
+    EXPECT_NEAR(slow->checks[0].predicted_ms, trial.cost.total_ms(), 1e-9);
+    // The next one is told from what was predicted at first: half of that pace is 1.5.
+    const std::optional<Plan> rest =
+        next_plan(device, *slow, {std::nullopt, 0.5 * slow->cost.total_ms()}, 30.0);
+    ASSERT_TRUE(rest);
+    EXPECT_NEAR(rest->checks[1].predicted_ms, slow->cost.total_ms() / 3.0, 1e-6);
+    const std::optional<Plan> at_once = after(1.5, 30.0);
+    ASSERT_TRUE(at_once);
+    EXPECT_NEAR(rest->cost.total_ms(), at_once->cost.total_ms(), 1e-6 * rest->cost.total_ms());
+    EXPECT_FALSE(after(3.0, 1e-3)) << "nothing is left";
+    EXPECT_THROW(after(-1.0, 1.0), Error);
+    EXPECT_THROW(after(1.0, std::numeric_limits<double>::quiet_NaN()), Error);
+    EXPECT_THROW(trial_plan(device, first, 0.0), Error);
+}
+
+// That one method was quick says nothing of another, that it was slow does.
+TEST(PlanPace, OfAnotherMethodIsNeverQuicker) {
+    const cl::Device& device = test::device().device;
+    EXPECT_FALSE(trial_plan(device, plan_of(std::nullopt, 3.0), 0.05).request.method);
+    const Plan quick = plan_of(std::nullopt, 0.02), usual = plan_of(std::nullopt, 3.0);
+    ASSERT_NE(quick.method, usual.method);
+    const double predicted = quick.cost.total_ms();
+    const auto after = [&](double slower) {
+        return next_plan(device, quick, {std::nullopt, slower * predicted}, 3.0);
+    };
+    const std::optional<Plan> lucky = after(0.01), slow = after(2.0);
+    ASSERT_TRUE(lucky && slow);
+    ASSERT_EQ(lucky->method, usual.method);
+    EXPECT_NEAR(lucky->cost.total_ms(), usual.cost.total_ms(), 1e-6);
+    EXPECT_LE(slow->cost.total_ms(), 3000.0);
+    const std::optional<Plan> half = next_plan(device, quick, {std::nullopt, predicted}, 1.5);
+    ASSERT_TRUE(half);
+    EXPECT_NEAR(slow->cost.total_ms(), 2.0 * half->cost.total_ms(), 1e-6 * slow->cost.total_ms());
 }
 
 }  // namespace
