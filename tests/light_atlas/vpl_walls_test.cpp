@@ -44,12 +44,23 @@ TEST(VplWalls, AreFoundAsByTryingAll) {
             const glm::dvec3 from = there + point(1.2);
             glm::dvec3 to = from + point(i % 2 ? 0.3 : 2.0);
             if (i % 5 == 0) to[i % 3] = from[i % 3];  // along an axis' plane
-            bool expected = false;
-            for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
-                expected |= t % 7 != 0 && meets(scene, t, from, to);
-            const bool found = walls.between(from, to, [](std::uint32_t t) { return t % 7 != 0; });
-            EXPECT_EQ(found, expected) << away << ", " << i;
-            (expected ? met : open)++;
+            const auto counts = [](std::uint32_t t) { return t % 7 != 0; };
+            Walls::Met expected;
+            for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+                if (!counts(t) || !meets(scene, t, from, to)) continue;
+                const glm::dvec3 across = test::normal_of(scene, t);
+                const double share =
+                    glm::dot(corner(scene, t, 0) - from, across) / glm::dot(to - from, across);
+                if (share < expected.share)
+                    expected = {share, t, glm::dot(to - from, across) > 0.0};
+            }
+            const bool any = expected.triangle != no_index;
+            EXPECT_EQ(walls.between(from, to, counts), any) << away << ", " << i;
+            const Walls::Met nearest = walls.nearest(from, to, counts);
+            EXPECT_EQ(nearest.triangle, expected.triangle) << away << ", " << i;
+            EXPECT_EQ(nearest.back, expected.back);
+            EXPECT_NEAR(nearest.share, expected.share, away > 0.0 ? 1e-6 : 1e-9);
+            (any ? met : open)++;
         }
         EXPECT_GT(met, 200);
         EXPECT_GT(open, 300);

@@ -15,10 +15,10 @@ constexpr int deepest = 60;        // so many nodes may wait in a search
 // Of the weights of a triangle's corners: what rounding may put beside an edge.
 constexpr double edge = 1e-9;
 
-// Does from + t way, 0 <= t <= 1, meet the box?
+// Does from + t way, 0 <= t <= last, meet the box?
 bool enters(const glm::vec3& low, const glm::vec3& high, const glm::dvec3& from,
-            const glm::dvec3& per_way) {
-    double first = 0.0, last = 1.0;
+            const glm::dvec3& per_way, double last) {
+    double first = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
         double a = (double{low[axis]} - from[axis]) * per_way[axis];
         double b = (double{high[axis]} - from[axis]) * per_way[axis];
@@ -88,7 +88,9 @@ void Walls::build(std::vector<Box>& boxes, std::uint32_t first, std::uint32_t la
     build(boxes, middle, last, depth + 1);
 }
 
-bool Walls::meets(const glm::dvec3& from, const glm::dvec3& way, std::uint32_t triangle) const {
+// Whether it meets a triangle nearer than `met`, which it then becomes.
+bool Walls::meets(const glm::dvec3& from, const glm::dvec3& way, std::uint32_t triangle,
+                  Met& met) const {
     const auto& vertex = scene_.triangles[triangle].vertex;
     const glm::dvec3 first = scene_.positions[vertex[0]];
     const glm::dvec3 edge1 = scene_.positions[vertex[1]] - first;
@@ -98,15 +100,18 @@ bool Walls::meets(const glm::dvec3& from, const glm::dvec3& way, std::uint32_t t
     if (volume == 0.0) return false;  // along it, or no triangle
     const glm::dvec3 to = from - first;
     const double at = glm::dot(to, across) / volume;
-    if (!(at >= 0.0 && at <= 1.0)) return false;
+    if (!(at >= 0.0 && at <= met.share)) return false;
     const glm::dvec3 turned = glm::cross(way, to);
     const double b1 = -glm::dot(edge2, turned) / volume, b2 = glm::dot(edge1, turned) / volume;
-    return b1 >= -edge && b2 >= -edge && b1 + b2 <= 1.0 + edge;
+    if (!(b1 >= -edge && b2 >= -edge && b1 + b2 <= 1.0 + edge)) return false;
+    met = {at, triangle, volume < 0.0};
+    return true;
 }
 
-bool Walls::between(const glm::dvec3& from, const glm::dvec3& to,
-                    const std::function<bool(std::uint32_t)>& counts) const {
-    if (nodes_.empty()) return false;
+Walls::Met Walls::first_met(const glm::dvec3& from, const glm::dvec3& to,
+                            const std::function<bool(std::uint32_t)>& counts, bool any) const {
+    Met met;
+    if (nodes_.empty()) return met;
     const glm::dvec3 way = to - from, start = from - middle_;
     // Not infinite, which times 0 is no number.
     glm::dvec3 per_way;
@@ -117,16 +122,16 @@ bool Walls::between(const glm::dvec3& from, const glm::dvec3& to,
     std::uint32_t next = 0;
     for (;;) {
         const Node& node = nodes_[next];
-        if (enters(node.box.low, node.box.high, start, per_way)) {
+        if (enters(node.box.low, node.box.high, start, per_way, met.share)) {
             if (node.count == 0) {
                 waiting[count++] = node.first;
                 ++next;
                 continue;
             }
             for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-                if (counts(order_[i]) && meets(from, way, order_[i])) return true;
+                if (counts(order_[i]) && meets(from, way, order_[i], met) && any) return met;
         }
-        if (count == 0) return false;
+        if (count == 0) return met;
         next = waiting[--count];
     }
 }

@@ -1,7 +1,8 @@
-// Whether a surface stands between two points of a patch.
+// What stands between two points: of a patch, or in space.
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/advanced/adjacency.hpp>
 #include <clgi/scene.hpp>
 #include <cstdint>
 #include <functional>
@@ -17,7 +18,21 @@ public:
     // Does a triangle that counts meet the segment? Metres. A triangle's edges belong to it, so
     // nothing passes between two that share one.
     bool between(const glm::dvec3& from, const glm::dvec3& to,
-                 const std::function<bool(std::uint32_t triangle)>& counts) const;
+                 const std::function<bool(std::uint32_t triangle)>& counts) const {
+        return first_met(from, to, counts, true).triangle != no_index;
+    }
+
+    struct Met {
+        double share = 1.0;  // of the way from one end to the other, 0 to 1
+        std::uint32_t triangle = no_index;
+        bool back = false;  // its back was met
+    };
+
+    // The nearest triangle that counts; no_index: none meets the segment.
+    Met nearest(const glm::dvec3& from, const glm::dvec3& to,
+                const std::function<bool(std::uint32_t triangle)>& counts) const {
+        return first_met(from, to, counts, false);
+    }
 
 private:
     struct Box {
@@ -32,7 +47,10 @@ private:
 
     Box box_of(std::uint32_t triangle) const;
     void build(std::vector<Box>& boxes, std::uint32_t first, std::uint32_t last, int depth);
-    bool meets(const glm::dvec3& from, const glm::dvec3& way, std::uint32_t triangle) const;
+    bool meets(const glm::dvec3& from, const glm::dvec3& way, std::uint32_t triangle,
+               Met& met) const;
+    Met first_met(const glm::dvec3& from, const glm::dvec3& to,
+                  const std::function<bool(std::uint32_t)>& counts, bool any) const;
 
     const Scene& scene_;
     glm::dvec3 middle_ = glm::dvec3(0.0);
