@@ -283,11 +283,21 @@ TEST(BakePoints, AreRefusedWhereTheyAreNone) {
         LightAtlasView(test::programs(), test::device().queue, bakery.on_device, bakery.atlas,
                        small, volume);
     };
-    EXPECT_NO_THROW(view({}));
-    EXPECT_THROW(view({.spacing = 0.0}), Error);
-    EXPECT_THROW(view({.spacing = nan}), Error);
-    EXPECT_THROW(view({.first = glm::dvec3(nan)}), Error);
-    EXPECT_THROW(view({.count = glm::ivec3(1, 0, 1)}), Error);
+    const IrradianceVolume usual = make_irradiance_volume({glm::dvec3(0.0), glm::dvec3(1.0)}, 8);
+    EXPECT_NO_THROW(view(usual));
+    const auto changed = [&](auto&& change) {
+        IrradianceVolume out = usual;
+        change(out);
+        EXPECT_THROW(view(out), Error);
+    };
+    changed([](IrradianceVolume& v) { v.spacing = 0.0; });
+    changed([&](IrradianceVolume& v) { v.spacing = nan; });
+    changed([&](IrradianceVolume& v) { v.first = glm::dvec3(nan); });
+    changed([](IrradianceVolume& v) { v.count.y = 0; });
+    changed([](IrradianceVolume& v) { v.places.pop_back(); });
+    changed([](IrradianceVolume& v) { v.distances.pop_back(); });
+    changed([](IrradianceVolume& v) { ++v.open_count; });
+    changed([](IrradianceVolume& v) { v.places[3].w = 8.0f; });
     LightAtlasOptions projected;
     projected.filling = Filling::project;
     EXPECT_THROW(make({{0, 1, 0}, {0, 1, 0}}, projected), Error);

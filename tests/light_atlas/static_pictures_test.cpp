@@ -50,7 +50,7 @@ TEST_P(StillPicture, IsThatOfThePathTracer) {
         const test::Radiances found = by_atlas(scene, camera, seconds);
         EXPECT_NEAR(test::mean(found) / test::mean(truth), 1.0, 0.04) << seconds;
         EXPECT_LT(test::distance(found, truth), 0.12 * test::mean(truth)) << seconds;
-        const std::vector<bool> box = test::seen_of_box(posed_scene, camera);
+        const std::vector<bool> box = test::seen_of(posed_scene, camera);
         glm::dvec3 got(0.0), wanted(0.0);
         int pixels = 0;
         for (std::size_t i = 0; i < box.size(); ++i) {

@@ -58,11 +58,12 @@ inline Scene moving_box_room() {
     return scene;
 }
 
-// Which pixels of a plan's picture see nothing but the box: where it glows all of the pixel does.
-inline std::vector<bool> seen_of_box(Scene scene, const Camera& camera) {
+// Which pixels of a plan's picture see nothing but what has the material of a triangle, such as the
+// box: where it glows all of the pixel does.
+inline std::vector<bool> seen_of(Scene scene, const Camera& camera, std::size_t triangle = 24) {
     scene.lights.clear();
     for (Material& material : scene.materials) material.base_color = glm::vec4(0, 0, 0, 1);
-    scene.materials[scene.triangles[24].material].emission = glm::vec3(1.0f);
+    scene.materials[scene.triangles[triangle].material].emission = glm::vec3(1.0f);
     std::vector<bool> out;
     for (const glm::vec3& pixel : traced(scene, camera, 64)) out.push_back(pixel.x > 0.999f);
     return out;

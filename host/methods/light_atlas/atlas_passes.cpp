@@ -248,25 +248,28 @@ cl::Event AtlasPasses::show(const cl::CommandQueue& queue, const ShowParams& par
 
 cl::Event AtlasPasses::volume(const cl::CommandQueue& queue, const VolumeParams& params,
                               const GBuffer& points, const cl::Buffer& charts,
-                              const cl::Buffer& light, const cl::Buffer& irradiance,
-                              const WaitList& wait) const {
+                              const VolumeBuffers& grid, const cl::Buffer& light,
+                              const cl::Buffer& irradiance, const WaitList& wait) const {
     need_stride(volume_, "stride", params.stride, params.point_count);
-    const std::size_t grid = std::size_t{params.columns} * params.rows * params.layers;
-    if (grid == 0) throw Error(volume_.name + ": the grid has no point");
+    const std::size_t places = std::size_t{params.columns} * params.rows * params.layers;
+    if (places == 0) throw Error(volume_.name + ": the grid has no point");
     const float4& origin = params.origin;
     if (!std::isfinite(origin.x + origin.y + origin.z + origin.w))
         throw Error(volume_.name + ": the grid's origin or spacing is not finite");
-    if (params.light_stride < params.first + VOLUME_DIRECTIONS * grid)
+    const std::size_t lit = VOLUME_DIRECTIONS * std::size_t{params.open_count};
+    if (params.light_stride < params.first + lit)
         throw Error(volume_.name + ": light_stride is " + std::to_string(params.light_stride) +
-                    ", at least " + std::to_string(params.first + VOLUME_DIRECTIONS * grid) +
-                    " needed");
+                    ", at least " + std::to_string(params.first + lit) + " needed");
     need(volume_, "planes", points.planes, gbuffer_bytes(storage_, params.stride));
     need(volume_, "ids", points.ids, GBUFFER_ID_PLANES * word * params.stride);
     need(volume_, "charts", charts, std::size_t{params.triangle_count} * 2 * word);
+    need(volume_, "places", grid.places, places * sizeof(float4));
+    need(volume_, "distances", grid.distances,
+         2 * word * VOLUME_TEXELS * std::size_t{params.open_count});
     need(volume_, "light", light, 3 * word * params.light_stride);
     need(volume_, "irradiance", irradiance, irradiance_bytes(storage_, params.stride));
     return launch(volume_, queue, params.point_count, wait, params, points.planes, points.ids,
-                  charts, light, irradiance);
+                  charts, grid.places, grid.distances, light, irradiance);
 }
 
 }  // namespace clgi

@@ -30,7 +30,7 @@ StaticBake make_static_bake(const Scene& scene, const VplOptions& vpls, const At
     out.layout = make_bake_layout(out.static_scene.scene, vpls, atlas);
     out.whole =
         atlas_of_whole(out.layout.atlas, out.static_scene.triangles, scene.triangles.size());
-    out.volume = make_irradiance_volume(box_of_motion(scene), most_points);
+    out.volume = make_irradiance_volume(box_of_motion(scene), most_points, out.static_scene.scene);
     return out;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/advanced/light_atlas_view.hpp>
 #include <clgi/passes/atlas.hpp>
 #include <cmath>
@@ -11,6 +12,15 @@ void check_volume(const IrradianceVolume& volume) {
     if (!std::isfinite(at.x + at.y + at.z) || !std::isfinite(volume.spacing) ||
         !(volume.spacing > 0.0) || glm::any(glm::lessThan(volume.count, glm::ivec3(1))))
         throw Error("light-atlas-view: the volume is not finite, or has no points");
+    const glm::dvec3 count(volume.count);
+    const auto open = static_cast<float>(volume.open_count);
+    if (double(volume.places.size()) != count.x * count.y * count.z ||
+        volume.distances.size() != std::size_t{volume.open_count} * VOLUME_TEXELS ||
+        !std::all_of(volume.places.begin(), volume.places.end(),
+                     [&](const glm::vec4& place) { return place.w < open; }))
+        throw Error("light-atlas-view: the volume has " + std::to_string(volume.places.size()) +
+                    " places and " + std::to_string(volume.distances.size()) +
+                    " distances, or numbers of points, that are not those of its points");
 }
 
 void check_layout(const AtlasLayout& atlas, const DeviceScene& scene) {
@@ -42,6 +52,7 @@ struct LightAtlasView::State {
         if (volume) check_volume(*volume);
         BufferTable all = picture.table();
         add_to(all, layout);
+        if (volume) add_to(all, *volume);
         picture.allocate(all);
         atlas.build({"show"});
         if (volume) atlas.build({"volume"});
@@ -60,6 +71,14 @@ struct LightAtlasView::State {
         table.add(map.map, "the atlas's map", size,
                   std::size_t{map.pages} * map.size * map.size * word);
         table.add(map.chart_of, "charts of texels", size, map.texel_count * word);
+    }
+
+    void add_to(BufferTable& table, const IrradianceVolume& grid) {
+        const char* points = "the number of points";
+        table.add(grid_buffers.places, "places of the volume", points,
+                  grid.places.size() * sizeof(glm::vec4));
+        table.add(grid_buffers.distances, "distances around its points", points,
+                  grid.distances.size() * sizeof(glm::vec2));
     }
 
     void upload(const AtlasLayout& layout) {
@@ -84,6 +103,9 @@ struct LightAtlasView::State {
         write(map.charts, charts);
         write(map.map, listed);
         write(map.chart_of, chart_of);
+        if (!volume) return;
+        write(grid_buffers.places, volume->places);
+        write(grid_buffers.distances, volume->distances);
     }
 
     void show(const cl::Buffer& light, std::uint32_t light_stride) {
@@ -114,10 +136,12 @@ struct LightAtlasView::State {
                                   static_cast<std::uint32_t>(volume->count.y),
                                   static_cast<std::uint32_t>(volume->count.z),
                                   first_bake_point(map.texel_count),
-                                  light_stride};
+                                  light_stride,
+                                  volume->open_count,
+                                  {}};
         picture.record()("atlas.volume", picture.pixels(), [&](const WaitList& wait) {
             return atlas.volume(picture.record().queue(), params, picture.gbuffer(), map.charts,
-                                light, picture.irradiance(), wait);
+                                grid_buffers, light, picture.irradiance(), wait);
         });
     }
 
@@ -125,6 +149,7 @@ struct LightAtlasView::State {
     Picture picture;
     AtlasPasses atlas;
     AtlasMap map;
+    VolumeBuffers grid_buffers;
     std::optional<IrradianceVolume> volume;
 };
 

@@ -18,7 +18,8 @@ constexpr int most_volume_points = 512;
 // Light counts once: direct light, with the shadows of all that moves, is the view's; indirect
 // light of what stands still is the atlas's, of what moves the volume's. What moves casts no
 // indirect shadow, and reflects and emits nothing onto the rest; where it hides itself its indirect
-// light is too much.
+// light is too much. So what closes an opening, such as a door, leaves the indirect light behind it
+// as it was baked: the error there is up to all of that light.
 struct StaticBake {
     StaticScene static_scene;
     BakeLayout layout;  // of still.scene

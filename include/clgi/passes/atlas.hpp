@@ -44,6 +44,12 @@ struct BlockBuffers {
     cl::Buffer blocks;  // [block_count] AtlasBlock
 };
 
+// What an irradiance volume has beside its light (clgi/advanced/irradiance_volume.hpp).
+struct VolumeBuffers {
+    cl::Buffer places;     // [layers][rows][columns] float4: IrradianceVolume::places
+    cl::Buffer distances;  // [open_count][VOLUME_TEXELS] float2: IrradianceVolume::distances
+};
+
 // Rows of bits for so many VPLs.
 constexpr std::size_t seen_rows(std::size_t vpls) { return (vpls + SEEN_VPLS - 1) / SEEN_VPLS; }
 
@@ -137,8 +143,9 @@ public:
     // The light of a volume at points of a G-buffer whose triangles have no chart; writes nothing
     // elsewhere. charts: AtlasMap::charts; light: [3][params.light_stride] float, exposed lux.
     cl::Event volume(const cl::CommandQueue& queue, const VolumeParams& params,
-                     const GBuffer& points, const cl::Buffer& charts, const cl::Buffer& light,
-                     const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+                     const GBuffer& points, const cl::Buffer& charts, const VolumeBuffers& grid,
+                     const cl::Buffer& light, const cl::Buffer& irradiance,
+                     const WaitList& wait = {}) const;
 
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
