@@ -30,6 +30,11 @@ constexpr double loading = 110.0;
 
 constexpr double touch = 0.8;  // ms a megabyte
 
+// Of a point of an irradiance volume: ms that rays around it take, and what it has beside its
+// light.
+constexpr double around_point = 0.35;
+constexpr double point_bytes = 2.0 * sizeof(float) * int{VOLUME_TEXELS};
+
 constexpr double scene_bytes = 200.0;  // of a triangle of the static part, which is there twice
 
 double triangles(const Plan& plan) { return static_cast<double>(plan.analysis.surfaces.triangles); }
@@ -112,8 +117,13 @@ PlanCost atlas(const Plan& plan) {
         before += maps;
         moved = {};
     }
-    if (bakes_static_part(plan)) before.bytes += scene_bytes * triangles(plan);
-    return added(plan, before, moved, picture(plan, environment));
+    Amount frame = picture(plan, environment);
+    if (bakes_static_part(plan)) {
+        before.bytes += scene_bytes * triangles(plan);
+        before += {most_volume_points * around_point, most_volume_points * point_bytes};
+        frame.ms += 2e-5 * plan.request.width * plan.request.height;
+    }
+    return added(plan, before, moved, frame);
 }
 
 PlanCost antiradiance(const Plan& plan) {

@@ -15,7 +15,8 @@ namespace {
 constexpr double usual_direct_error = 0.03;
 
 // Geometry that moves through a bake casts no indirect shadow and is lit by a few points of a
-// volume: by how much that changes a picture, as measured (docs/results/plans.md).
+// volume: by how much that changes a picture, as measured (docs/results/plans.md). What closes an
+// opening does not darken what lies behind, which is not measured.
 constexpr double moving_error = 0.05;
 
 double direct_error(const Plan& plan) {
@@ -77,7 +78,11 @@ std::string evidence_of_error(const Plan& plan) {
                                                             : "direct light as in closed rooms";
     if (!plan.on(Effect::first_bounce)) return direct;
     return "indirect light as measured in " + kind + " scenes, " +
-           (is_composed(plan) ? "of what moves as in an office, " : "") + direct;
+           (is_composed(plan)
+                ? "of what moves as in an office (behind a closing door it is up to all "
+                  "of the light there), "
+                : "") +
+           direct;
 }
 
 }  // namespace clgi
