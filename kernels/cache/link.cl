@@ -4,7 +4,7 @@
 //   E_i = B_i + R_i + sum_j T_ij E_j
 //   T_ij = sum over pixels w rho W_j,   B_i = sum w pi L,   R_i = sum w rho D
 //
-// w: form factor of a pixel, rho: reflectance of the surface in it, W_j: share of record j in it
+// w: form factor of a pixel, rho: albedo of the surface in it, lobes taken for diffuse, W_j: share of record j in it
 // (lookup.clh), D: direct light there, by shadow maps (lights/direct.clh). E has no direct light.
 // Sample points of emissive surfaces, of which there may be hundreds, take turns from one block of
 // 16 pixels to the next.        [derived: radiosity of points, gathered by hemicubes]
@@ -112,9 +112,9 @@ kernel void cache_link(
                 lit[2] = fma(arriving, packet_splat(counts * emitter->intensity.z), lit[2]);
             }
             float direct[3][CLGI_WIDTH];
-            packet_store(lit[0] * surface.base_r, direct[0]);
-            packet_store(lit[1] * surface.base_g, direct[1]);
-            packet_store(lit[2] * surface.base_b, direct[2]);
+            packet_store(lit[0], direct[0]);
+            packet_store(lit[1], direct[1]);
+            packet_store(lit[2], direct[2]);
             float at[9][CLGI_WIDTH];
             int front[CLGI_WIDTH];
             packet_store(surface.x, at[0]);
@@ -143,14 +143,15 @@ kernel void cache_link(
                 CacheShare share = cache_lookup(&tree, nodes, lists, planes,
                                                 (float3)(at[0][k], at[1][k], at[2][k]),
                                                 (float3)(at[3][k], at[4][k], at[5][k]), CACHE_FEW);
-                float diffuse = factors[k] * materials[words & TRIANGLE_MATERIAL].reflectance.x;
-                once += diffuse * (float3)(direct[0][k], direct[1][k], direct[2][k]);
+                float4 shares = materials[words & TRIANGLE_MATERIAL].reflectance;
+                float3 rho = factors[k] *
+                             ((shares.x + shares.z) * (float3)(at[6][k], at[7][k], at[8][k]) + shares.y);
+                once += rho * (float3)(direct[0][k], direct[1][k], direct[2][k]);
                 for (uint i = 0; i < share.count; ++i) {
                     global float* to = row + share.record[i];
-                    float weight = diffuse * share.weight[i];
-                    to[0] += weight * at[6][k];
-                    to[stride] += weight * at[7][k];
-                    to[2 * stride] += weight * at[8][k];
+                    to[0] += share.weight[i] * rho.x;
+                    to[stride] += share.weight[i] * rho.y;
+                    to[2 * stride] += share.weight[i] * rho.z;
                 }
             }
         }

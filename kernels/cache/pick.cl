@@ -57,9 +57,10 @@ kernel void cache_pick(
                                     surface.normal_x,    surface.normal_y,    surface.normal_z,
                                     surface.geometric_x, surface.geometric_y, surface.geometric_z,
                                    luminance(surface.base_r, surface.base_g, surface.base_b)};
-    if (sends)
-        values[PICK_REFLECTANCE] *=
-            materials[triangles[triangle].w & TRIANGLE_MATERIAL].reflectance.x;
+    if (sends) {
+        float4 shares = materials[triangles[triangle].w & TRIANGLE_MATERIAL].reflectance;
+        values[PICK_REFLECTANCE] = (shares.x + shares.z) * values[PICK_REFLECTANCE] + shares.y;
+    }
     for (uint plane = 0; plane < PICK_PLANES; ++plane) {
         float lanes[CLGI_WIDTH];
         packet_store(values[plane], lanes);

@@ -4,7 +4,8 @@
 //   rho = diffuse share * base colour,  k_s = coat + lobe share * base colour
 //                                                              [Cochran07, section 3.4]
 //
-// The lobe is the normalised modified Phong lobe of docs/materials.md, lit by the emitters only.
+// The lobe is the normalised modified Phong lobe of docs/materials.md, lit by the emitters only. With
+// COMBINE_SPREAD_LOBES the indirect light has rho + k_s in place of rho.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
@@ -125,7 +126,10 @@ kernel void image_combine(
         if (params.effects & COMBINE_INDIRECT) {
             floatp indirect = row_load(irradiance_row(irradiance, c, stride), pixel);
             worst = max(worst, packet_magnitude(indirect));  // packet_max would hide it
-            light += packet_max(indirect, zero);
+            indirect = packet_max(indirect, zero);
+            light += indirect;
+            if (params.effects & COMBINE_SPREAD_LOBES)
+                glossy[c] = fma(fma(share, base[c], coat) * (1.0f / CLGI_PI), indirect, glossy[c]);
         }
         out[c] = fma(base[c] * diffuse * (1.0f / CLGI_PI), light, glossy[c]);
         if (params.effects & COMBINE_EMISSION)

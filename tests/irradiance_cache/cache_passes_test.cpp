@@ -196,9 +196,9 @@ TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
         std::vector<float>& found = picked[sample / 5];
         found.resize(PICK_PLANES * plane);
         queue.enqueueReadBuffer(places, CL_TRUE, 0, found.size() * sizeof(float), found.data());
-        // (1 - m) (1 - 0.04 (1 - a)) + m a, with a the square of the roughness.
-        const float diffuse = 0.5f * (1.0f - 0.04f * 0.75f) + 0.5f * 0.25f;
-        const float reflects = diffuse * (0.2126f * 0.2f + 0.7152f * 0.5f + 0.0722f * 0.7f);
+        const float coat = 0.04f * 0.75f * 0.5f;  // the rest reflects with the base colour
+        const float reflects =
+            (1.0f - coat) * (0.2126f * 0.2f + 0.7152f * 0.5f + 0.0722f * 0.7f) + coat;
         for (std::size_t i = 0; i < 8; ++i)
             EXPECT_NEAR(found[PICK_REFLECTANCE * plane + i], reflects, 1e-5f);
     }

@@ -127,6 +127,27 @@ TEST_P(IrradianceCachePictures, HaveAllReflectionsOfASphere) {
     }
 }
 
+// Lobes count with their albedo (docs/materials.md): of a wall that is half metal, p is the sum of
+// coat and the other shares times the base colour.
+TEST_P(IrradianceCachePictures, HaveReflectionsByLobesInASphere) {
+    Scene scene = furnace({.light = LightSource::point, .subdivisions = 3});
+    const glm::vec3 base(0.6f, 0.3f, 0.75f);
+    scene.materials[0].base_color = glm::vec4(base, 1.0f);
+    scene.materials[0].metallic = 0.5f;
+    scene.materials[0].roughness = 0.4f;
+    scene.lights[0].intensity = {1.0f, 2.0f, 5.0f};
+    scene.cameras = {test::camera_at({0, 0, 0.2}, {0.3, 0.2, -1}, 1.2f)};
+    IrradianceCacheOptions options = cache_options();
+    options.picture.direct = false;
+    const CachePicture found = pictured(scene, options);
+    const double coat = 0.04 * 0.84 * 0.5;
+    for (int c = 0; c < 3; ++c) {
+        const double p = base[c] * (1.0 - coat) + coat;
+        const double wanted = p / pi * scene.lights[0].intensity[c] * p / (1.0 - p);
+        EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.04 * wanted) << c;
+    }
+}
+
 // Below the middle of a square lamp: E = 4 L (a / A atan(b / A) + b / B atan(a / B)) / 2.
 TEST_P(IrradianceCachePictures, HaveALampByHemicubes) {
     Scene scene = below_a_lamp({0.5f, 0.5f, 0.5f});

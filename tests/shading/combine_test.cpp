@@ -192,7 +192,8 @@ TEST(Combine, FillsTheThinnestHardCone) {
 
 TEST(Combine, AddsAllSourcesAndTakesEachEffectAlone) {
     const std::vector<int> all = {spot, point, sun, wide_spot, lamp};
-    for (cl_uint effects = 0; effects < 16; ++effects) {
+    for (cl_uint which = 0; which < 32; ++which) {
+        const cl_uint effects = which < 16 ? which : which - 16 + COMBINE_SPREAD_LOBES;
         Shading in = oblique_shading(all, effects, 213);
         in.params.exposure = 3.7f;
         Random random(29);

@@ -182,8 +182,9 @@ inline ShadedTruth shaded_truth(const Shading& in, const ShadedPixel& pixel) {
         }
     }
     for (int c = 0; c < 3; ++c) {
+        const double spread = in.params.effects & COMBINE_SPREAD_LOBES ? gloss[c] : 0.0;
         if (in.params.effects & COMBINE_INDIRECT)
-            out.radiance[c] += rho[c] / pi * std::max(double{pixel.irradiance[c]}, 0.0);
+            out.radiance[c] += (rho[c] + spread) / pi * std::max(double{pixel.irradiance[c]}, 0.0);
         if (in.params.effects & COMBINE_EMISSION) out.radiance[c] += double{pixel.emission[c]};
         out.radiance[c] *= double{in.params.exposure};
         out.bound[c] = out.bound[c] * double{in.params.exposure} + 16 * u * out.radiance[c];

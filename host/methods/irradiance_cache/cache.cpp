@@ -31,6 +31,7 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     options.picture.build.textures = options.picture.build.textures && scene.needs_textures();
     if (options.emission) options.picture.emitters.area_samples = 0;
     options.picture.emitters.focused = true;
+    options.picture.spread_lobes = true;
     return options;
 }
 

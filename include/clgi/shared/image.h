@@ -48,7 +48,9 @@ enum {
     COMBINE_INDIRECT = 2,
     COMBINE_EMISSION = 4,
     COMBINE_SPECULAR = 8,    // with COMBINE_MATERIALS
-    COMBINE_MATERIALS = 16   // some material's diffuse share is not 1
+    COMBINE_MATERIALS = 16,  // some material's diffuse share is not 1
+    // Lobes reflect indirect light as diffuse surfaces of their albedo do; with COMBINE_MATERIALS.
+    COMBINE_SPREAD_LOBES = 32
 };
 
 // Radiance planes: rgb, stride apart.
