@@ -19,6 +19,7 @@
 #include "gbuffer/hit.clh"
 #include "gbuffer/window.clh"
 #include "lights/direct.clh"
+#include "lobe_mean.clh"
 
 // pi times the radiance that comes from a direction, without the sky's factor.
 static float3 cache_sky(const CacheParams* params, global const float* texels, float3 d) {
@@ -144,6 +145,7 @@ kernel void cache_link(
                                                 (float3)(at[0][k], at[1][k], at[2][k]),
                                                 (float3)(at[3][k], at[4][k], at[5][k]), CACHE_FEW);
                 float4 shares = materials[words & TRIANGLE_MATERIAL].reflectance;
+                shares.yz *= lobe_mean(shares.w);
                 float3 rho = factors[k] *
                              ((shares.x + shares.z) * (float3)(at[6][k], at[7][k], at[8][k]) + shares.y);
                 once += rho * (float3)(direct[0][k], direct[1][k], direct[2][k]);

@@ -5,13 +5,14 @@
 //                                                              [Cochran07, section 3.4]
 //
 // The lobe is the normalised modified Phong lobe of docs/materials.md, lit by the emitters only. With
-// COMBINE_SPREAD_LOBES the indirect light has rho + k_s in place of rho.
+// COMBINE_SPREAD_LOBES the indirect light has rho + m k_s in place of rho, m: lobe_mean.clh.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
 //              that were not
 // SPDX-License-Identifier: MIT
 #include "lights/direct.clh"
+#include "lobe_mean.clh"
 #include "planes.clh"
 #include "scene/buffers.clh"
 #include "clgi/shared/image.h"
@@ -129,7 +130,8 @@ kernel void image_combine(
             indirect = packet_max(indirect, zero);
             light += indirect;
             if (params.effects & COMBINE_SPREAD_LOBES)
-                glossy[c] = fma(fma(share, base[c], coat) * (1.0f / CLGI_PI), indirect, glossy[c]);
+                glossy[c] = fma(fma(share, base[c], coat) * lobe_mean(exponent) * (1.0f / CLGI_PI),
+                                indirect, glossy[c]);
         }
         out[c] = fma(base[c] * diffuse * (1.0f / CLGI_PI), light, glossy[c]);
         if (params.effects & COMBINE_EMISSION)

@@ -110,6 +110,9 @@ inline double range_share(double distance, double range) {
     return range > 0.0 ? std::max(1.0 - std::pow(distance / range, 4), 0.0) : 1.0;
 }
 
+// kernels/lobe_mean.clh
+inline double lobe_mean(double exponent) { return 2.0 / 3.0 + 1.0 / 6.0 / (1.3 * exponent + 1.0); }
+
 struct ShadedTruth {
     glm::dvec3 radiance{0};
     glm::dvec3 bound{0};    // what rounding may make of it
@@ -182,7 +185,8 @@ inline ShadedTruth shaded_truth(const Shading& in, const ShadedPixel& pixel) {
         }
     }
     for (int c = 0; c < 3; ++c) {
-        const double spread = in.params.effects & COMBINE_SPREAD_LOBES ? gloss[c] : 0.0;
+        const double spread =
+            in.params.effects & COMBINE_SPREAD_LOBES ? gloss[c] * lobe_mean(exponent) : 0.0;
         if (in.params.effects & COMBINE_INDIRECT)
             out.radiance[c] += (rho[c] + spread) / pi * std::max(double{pixel.irradiance[c]}, 0.0);
         if (in.params.effects & COMBINE_EMISSION) out.radiance[c] += double{pixel.emission[c]};

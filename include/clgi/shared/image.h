@@ -49,7 +49,7 @@ enum {
     COMBINE_EMISSION = 4,
     COMBINE_SPECULAR = 8,    // with COMBINE_MATERIALS
     COMBINE_MATERIALS = 16,  // some material's diffuse share is not 1
-    // Lobes reflect indirect light as diffuse surfaces of their albedo do; with COMBINE_MATERIALS.
+    // Lobes reflect indirect light as diffuse surfaces of their mean albedo do; with COMBINE_MATERIALS.
     COMBINE_SPREAD_LOBES = 32
 };
 
