@@ -23,15 +23,9 @@ import os
 import subprocess
 import sys
 
+from commands import run
+
 SIZE = "160x120"
-
-
-def run(*command):
-    """What a command printed; a failure ends the script with its error line."""
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
-    return done.stdout
 
 
 def picture_ms(stats):

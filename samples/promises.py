@@ -12,21 +12,13 @@ SPDX-License-Identifier: MIT
 import argparse
 import json
 import os
-import subprocess
-import sys
 import time
+
+from commands import run
 
 KINDS = ["room", "window", "slit", "courtyard", "terrain", "many-rooms", "dim-room", "dim-plain",
          "hidden-wall", "gloss"]
 SKY = {"window", "courtyard", "dim-plain"}  # those that nothing else lights
-
-
-def run(*command):
-    """What a command printed; a failure ends the script with its error line."""
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
-    return done.stdout
 
 
 def percent(value):

@@ -34,18 +34,6 @@ bool fits(const cl::Device& device, const Plan& plan) {
     return plan.cost.megabytes <= 1e-6 * share * device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
 }
 
-// What checks of earlier plans say of a candidate: errors of its method are as many times larger
-// than expected as they found.
-std::optional<double> as_checked(const Plan& plan, std::optional<double> expected) {
-    if (!expected) return expected;
-    double factor = 1.0;
-    for (const PlanCheck& check : plan.checks)
-        if (check.method == plan.method && check.found.error && check.expected &&
-            *check.expected > 0.0)
-            factor = std::max(factor, *check.found.error / *check.expected);
-    return factor * *expected;
-}
-
 // Removes what was checked, and what is as coarse or coarser.
 void drop_checked(std::vector<Candidate>& candidates) {
     constexpr double finer = 1.2;  // takes so many times as long, at least
@@ -75,6 +63,15 @@ void drop_too_slow_to_begin(std::vector<Candidate>& candidates) {
 }
 
 }  // namespace
+
+double error_factor(const Plan& plan) {
+    double factor = 1.0;
+    for (const PlanCheck& check : plan.checks)
+        if (check.method == plan.method && check.found.error && check.expected &&
+            *check.expected > 0.0)
+            factor = std::max(factor, *check.found.error / *check.expected);
+    return factor;
+}
 
 double pace_of(const Plan& plan) {
     double own = 0.0, others = 1.0;
@@ -108,7 +105,8 @@ bool choose_method(const cl::Device& device, Plan& plan) {
             Candidate one{plan, std::nullopt};
             set(one.plan, preset, fineness);
             one.plan.cost = paced_cost(device, one.plan);
-            one.error = as_checked(one.plan, expected_error(one.plan, preset));
+            one.error = expected_error(one.plan, preset);
+            if (one.error) *one.error *= error_factor(one.plan);
             candidates.push_back(std::move(one));
         }
     }

@@ -12,6 +12,9 @@ bool choose_method(const cl::Device& device, Plan& plan);
 // Of the plan's method with its settings and effects.
 PlanCost cost_of(const cl::Device& device, const Plan& plan);
 
+// How many times as large as expected errors of the plan's method were, by checks; at least 1.
+double error_factor(const Plan& plan);
+
 // How many times as long as predicted for its class of machines pictures took here: the last of the
 // plan's method, or else the slowest of others, and no less than 1.
 double pace_of(const Plan& plan);

@@ -170,13 +170,18 @@ std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, const 
          "the measured error or the time is negative or not a number");
     Plan out = plan;
     if (seconds) out.request.seconds = seconds;
-    out.checks.push_back({plan.method, plan.error, plan.cost.total_ms() / pace_of(plan), found});
+    std::optional<double> expected = plan.error;
+    if (expected) *expected /= error_factor(plan);
+    out.checks.push_back({plan.method, expected, plan.cost.total_ms() / pace_of(plan), found});
     if (!choose_method(device, out)) return std::nullopt;
     price(device, out);
     const double most = out.request.seconds ? 1e3 * *out.request.seconds : patience;
     const std::optional<double> error = found.error ? found.error : plan.error;
-    if (out.cost.total_ms() > most || (out.error && error && *out.error > less * *error))
-        return std::nullopt;
+    if (out.cost.total_ms() > most) return std::nullopt;
+    // Where errors are not known, finer settings of the same method are taken to err less.
+    const bool better =
+        out.error && error ? *out.error <= less * *error : found.error || out.method == plan.method;
+    if (!better) return std::nullopt;
     out.request.seconds = plan.request.seconds;
     return out;
 }

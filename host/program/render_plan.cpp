@@ -13,10 +13,10 @@
 namespace clgi::program {
 namespace {
 
-// checked: pictures will be, so that what is expected of their error does not matter.
-std::string unmet(const Plan& plan, bool checked) {
+// checked, timed: pictures will be, so that what is expected of them does not matter.
+std::string unmet(const Plan& plan, bool checked, bool timed) {
     std::string out;
-    if (!plan.meets_time)
+    if (!timed && !plan.meets_time)
         out = fmt::format(
             "the least that a picture takes is {:.3g} ms, more than the {:.3g} ms of {}",
             plan.request.animated ? plan.cost.frame_ms : plan.cost.total_ms(),
@@ -40,15 +40,16 @@ std::optional<double> checked_target(const RenderFlags& flags, const Plan& plan)
 
 // Plans once more where an error is above the target, and may be brought down in the time.
 std::optional<Planned> go_on(const cl::Device& device, const Planned& planned,
-                             const reference::Estimate& error, double target, double spent) {
+                             const reference::Estimate& error, double target, double took,
+                             double spent) {
     constexpr double nearly = 0.8;   // of the target: a better picture would not be told from it
     constexpr std::size_t most = 4;  // attempts
     const Plan& plan = planned.plan;
     if (error.value < nearly * target || plan.checks.size() + 1 >= most) return std::nullopt;
-    const std::optional<Plan> next = next_plan(device, plan, {error.value, std::nullopt});
+    std::optional<double> left = plan.request.seconds;
+    if (left) *left = std::max(0.0, *left - spent);
+    const std::optional<Plan> next = next_plan(device, plan, {error.value, 1e3 * took}, left);
     if (!next) return std::nullopt;
-    if (plan.request.seconds && spent + 1e-3 * next->cost.total_ms() > *plan.request.seconds)
-        return std::nullopt;
     return Planned{*next, planned.milliseconds};
 }
 
@@ -56,6 +57,13 @@ std::optional<Planned> go_on(const cl::Device& device, const Planned& planned,
 // things take on this machine.
 std::optional<double> time_budget(const RenderFlags& flags, const PlanRequest& request) {
     return renders_once(flags) && !request.error ? request.seconds : std::nullopt;
+}
+
+// The trial, or the plan itself where a trial would leave too little.
+Plan begun(const cl::Device& device, const Plan& plan, double budget) {
+    constexpr double share = 0.15, most = 0.3;  // of the budget
+    const Plan trial = trial_plan(device, plan, share * budget);
+    return trial.cost.total_ms() <= 1e3 * most * budget ? trial : plan;
 }
 
 // Plans for what is left of it.
@@ -109,18 +117,17 @@ PlanRequest plan_request(const RenderFlags& flags) {
 
 void render_planned(const RenderFlags& flags, const Session& session, const Programs& programs,
                     const Scene& scene) {
-    constexpr double trial = 0.15;  // of a time budget
     const PlanRequest request = plan_request(flags);
     const std::optional<double> budget = time_budget(flags, request);
     Planned first;
     first.plan = make_plan(session.queue, programs, scene,
                            scene.cameras[static_cast<std::size_t>(flags.camera)], request);
     const std::optional<double> target = checked_target(flags, first.plan);
-    const std::string warning = unmet(first.plan, target.has_value());
+    const std::string warning = unmet(first.plan, target.has_value(), budget.has_value());
     first.milliseconds = first.plan.analysis.milliseconds;
     if (first.plan.reach) first.milliseconds += first.plan.reach->milliseconds;
     if (first.plan.probe) first.milliseconds += first.plan.probe->milliseconds;
-    if (budget) first.plan = trial_plan(session.device, first.plan, trial * *budget);
+    if (budget) first.plan = begun(session.device, first.plan, *budget);
     if (!warning.empty()) notice(false, "warning: " + warning);
     catch_interrupts();
 
@@ -138,9 +145,19 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         options.animated = flags.options.animated;
         options.clip = flags.options.clip;
         options.transfer.coarse = flags.options.transfer.coarse;
-        auto attempt = std::make_unique<RenderAttempt>(
-            flags, session, programs, nullptr, planned_scene(scene, plan), options, planned);
-        attempt->draw();
+        std::unique_ptr<RenderAttempt> attempt;
+        try {
+            attempt = std::make_unique<RenderAttempt>(flags, session, programs, nullptr,
+                                                      planned_scene(scene, plan), options, planned);
+            attempt->draw();
+        } catch (const Interrupted&) {
+            if (!best) throw;
+            break;
+        } catch (const DeviceError& error) {
+            if (!best) throw;
+            notice(false, fmt::format("warning: another picture failed: {}", error.what()));
+            break;
+        }
         spent += attempt->seconds();
         if (budget) next = use_rest(session.device, *planned, attempt->seconds(), *budget - spent);
         if (target || (flags.verify.on && !next)) attempt->check(scene, target.value_or(0.0));
@@ -148,14 +165,18 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         attempts.push_back({plan_settings(plan), plan.error, verified, attempt->seconds()});
         found = target && verified && verified->error.high <= *target;
         if (target && verified && !found && !interrupted())
-            next = go_on(session.device, *planned, verified->error, *target, spent);
+            next = go_on(session.device, *planned, verified->error, *target, attempt->seconds(),
+                         spent);
         if (!best || budget || (verified && is_better(*verified, best->record().verified)))
             best = std::move(attempt);
     }
     if (!target && !budget) attempts.clear();
     if (target && !found) notice(false, "warning: " + missed(*target, best->record().verified));
+    if (budget && spent > *budget)
+        notice(false, fmt::format("warning: {:.3g} s of the {:.3g} s of --time-budget were used",
+                                  spent, *budget));
     best->finish(attempts, found || !target, budget ? std::optional<double>(spent) : std::nullopt);
-    if ((target || flags.verify.on) && interrupted()) throw Interrupted();
+    if ((target || budget || flags.verify.on) && interrupted()) throw Interrupted();
 }
 
 }  // namespace clgi::program

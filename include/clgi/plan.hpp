@@ -55,7 +55,7 @@ struct PlanOutcome {
 
 struct PlanCheck {
     Method method = Method::direct;
-    std::optional<double> expected;  // error, before it
+    std::optional<double> expected;  // error, by the kind of scene alone
     double predicted_ms = 0.0;       // of all that the plan does, by the machine's class alone
     PlanOutcome found;
 };
@@ -108,8 +108,8 @@ CLGI_API Plan trial_plan(const cl::Device& device, const Plan& plan, double seco
 // and of those before it did; if another method was quicker than predicted, that says nothing of a
 // method. What was tried, and what is coarser, is not tried again. None if nothing is expected to
 // err less than what was measured, or else expected of `plan`, within the seconds that are left;
-// without them, those that were requested. Throws Error for an error or a time that is negative or
-// not a number.
+// without them, those that were requested. Where no error is expected, finer settings of the same
+// method follow. Throws Error for an error or a time that is negative or not a number.
 CLGI_API std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan,
                                        const PlanOutcome& found,
                                        std::optional<double> seconds = std::nullopt);

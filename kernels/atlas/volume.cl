@@ -10,7 +10,8 @@
 // t: trilinear in x. y = x + VOLUME_LIFT n, off its own surface. d_k: distance of y from the point.
 // m, s^2: mean and variance of the distances of surfaces that the point sees along -to_k, so v_k is
 // Chebyshev's bound of the share of them beyond y. A sum of no weights is no light.
-//                             [Greger98; Majercik19, moment-based filtered queries; derived: w]
+//            [derived: interpolation of Greger98 with the weights of Majercik19, moment-based filtered
+//             queries; w by a spherical design]
 //
 // Unlike paper: points in solid matter have no light, and weights below 0.2 are not made smaller.
 //
@@ -86,7 +87,8 @@ kernel void atlas_volume(
     if (charts[triangle].x != ATLAS_NONE) return;
     float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, at);
     float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, at);
-    if (!is_finite3(point) || !is_finite3(normal)) {
+    float3 at_grid = (point - params.origin.xyz) * params.origin.w;
+    if (!is_finite3(at_grid) || !is_finite3(normal)) {
         for (int c = 0; c < 3; ++c)
             row_store_one(as_float(0x7fc00000u), irradiance_row(irradiance, c, stride), at);
         return;
@@ -94,7 +96,6 @@ kernel void atlas_volume(
     float weights[VOLUME_DIRECTIONS];
     volume_weights(normal, weights);
     float3 most = (float3)(params.columns, params.rows, params.layers) - 1.0f;
-    float3 at_grid = (point - params.origin.xyz) * params.origin.w;
     float3 lifted = fma(normal, VOLUME_LIFT, at_grid);
     float3 place = clamp(at_grid, 0.0f, most);
     float3 corner = min(floor(place), max(most - 1.0f, 0.0f));

@@ -73,7 +73,8 @@ kernel void cache_link(
         uint pixels = view.width * view.height;
         for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
             uint block = pixel / 16 + 5 * face + record;
-            if (block % params.thin != 0) continue;
+            // Shifted now and then, or rows of so many blocks would always have the same ones.
+            if ((block + pixel / (16 * params.thin)) % params.thin != 0) continue;
             floatp x, y;
             gbuffer_window(&view, pixel, &x, &y);
             floatp factor = cache_form_factor(face, params.size, x, y);

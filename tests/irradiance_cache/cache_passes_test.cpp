@@ -128,6 +128,74 @@ TEST(CachePasses, WeighWhatPicksSend) {
     EXPECT_EQ(cells[5], 77u);
 }
 
+EmitterBuffers no_emitters() {
+    EmitterBuffers out;
+    out.kind = Pixels::depth;
+    for (cl::Buffer* buffer : {&out.emitters, &out.views, &out.visibility})
+        *buffer = test::empty<float>(64);
+    return out;
+}
+
+// Two records at the origin that look up, their hemicubes, in which nothing is drawn, and what link
+// writes.
+void look_up(CacheBuffers& b, std::uint32_t size) {
+    const cl::CommandQueue& queue = test::device().queue;
+    b.views = test::empty<View>(10);
+    b.visibility = test::upload(std::vector<std::uint64_t>(6 * size * size, ~std::uint64_t{0}));
+    b.sky = test::empty<float>(4);
+    b.rows = test::empty<float>(6 * plane);
+    b.base = test::empty<float>(3 * plane);
+    b.reflected = test::empty<float>(3 * plane);
+    std::vector<float> records(RECORD_PLANES * plane, 0.0f);
+    for (std::uint32_t i = 0; i < 2; ++i)
+        for (const std::uint32_t normal : {RECORD_NORMAL, RECORD_GEOMETRIC})
+            records[(normal + 1) * plane + i] = 1.0f;
+    b.planes = test::upload(records);
+    CubeParams of{};
+    of.point_count = 2;
+    of.faces = 5;
+    of.size = size;
+    of.stride = plane;
+    of.near = 1e-4f;
+    of.turned = 1;
+    GBufferPasses(test::programs(), test::usual_build())
+        .cubes(queue, of, b.planes, test::upload(std::vector<std::uint32_t>{0, 1}), b.views);
+}
+
+// Below a sky that is lit on one side alone half of pi L arrives; a share of the blocks has as many
+// on both sides, though rows of 32 and 64 pixels have 2 and 4 blocks each.
+TEST(CachePasses, LinkByBlocksOnAllSides) {
+    const DeviceScene scene = test::on_device(furnace({.subdivisions = 1}));
+    const cl::CommandQueue& queue = test::device().queue;
+    const CachePasses passes(test::programs(), test::usual_build());
+    for (const std::uint32_t size : {16u, 32u, 64u}) {
+        TwoRecords two;
+        look_up(two.b, size);
+        two.b.sky = test::upload(std::vector<float>{0, 0, 0, 1, 2, 4});
+        CacheParams params{};
+        params.count = 2;
+        params.stride = plane;
+        params.size = size;
+        params.sky = {1.0f, 1.0f, 1.0f, 1.0f};
+        params.sky_width = 2;
+        params.sky_height = 1;
+        params.emitter_step = 1;
+        for (const std::uint32_t thin : {1u, 8u}) {
+            params.thin = thin;
+            passes.link(queue, params, two.tree, scene, no_emitters(), two.b);
+            std::vector<float> base(3 * plane);
+            queue.enqueueReadBuffer(two.b.base, CL_TRUE, 0, base.size() * sizeof(float),
+                                    base.data());
+            const double near = thin == 1 ? 0.02 : 0.2;
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t i = 0; i < 2; ++i) {
+                    const double wanted = glm::half_pi<double>() * (1 << c);
+                    EXPECT_NEAR(base[c * plane + i], wanted, near * wanted) << size << " " << thin;
+                }
+        }
+    }
+}
+
 // In a glowing sphere every part of a hemicube sees the same, so any share of its blocks finds
 // pi L; picks tell what surfaces reflect, in other directions from another sample on.
 TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
@@ -139,31 +207,12 @@ TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
     const DeviceScene scene = test::on_device(sphere);
     const cl::CommandQueue& queue = test::device().queue;
     const CachePasses passes(test::programs(), test::usual_build());
-    const GBufferPasses cubes(test::programs(), test::usual_build());
     constexpr std::uint32_t size = 16;
-    TwoRecords two;  // inside of it
-    two.b.views = test::empty<View>(10);
-    two.b.visibility = test::empty<std::uint64_t>(6 * size * size);
-    two.b.sky = test::empty<float>(4);
-    two.b.rows = test::empty<float>(6 * plane);
-    two.b.base = test::empty<float>(3 * plane);
-    two.b.reflected = test::empty<float>(3 * plane);
-    std::vector<float> records(RECORD_PLANES * plane, 0.0f);
-    for (std::uint32_t i = 0; i < 2; ++i)
-        for (const std::uint32_t normal : {RECORD_NORMAL, RECORD_GEOMETRIC})
-            records[(normal + 1) * plane + i] = 1.0f;
-    two.b.planes = test::upload(records);
-    CubeParams of{};
-    of.point_count = 2;
-    of.faces = 5;
-    of.size = size;
-    of.stride = plane;
-    of.near = 1e-4f;
-    of.turned = 1;
-    cubes.cubes(queue, of, two.b.planes, test::upload(std::vector<std::uint32_t>{0, 1}),
-                two.b.views);
-    cubes.raster_views(queue, {0, 10, size, size, 6 * size * size}, two.b.views, scene,
-                       two.b.visibility, Pixels::visibility);
+    TwoRecords two;
+    look_up(two.b, size);
+    GBufferPasses(test::programs(), test::usual_build())
+        .raster_views(queue, {0, 10, size, size, 6 * size * size}, two.b.views, scene,
+                      two.b.visibility, Pixels::visibility);
     CacheParams params{};
     params.count = 2;
     params.stride = plane;
@@ -172,10 +221,7 @@ TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
     params.picks = 4;
     params.pick_stride = plane;
     params.emitter_step = 1;
-    EmitterBuffers emitters;
-    emitters.kind = Pixels::depth;
-    for (cl::Buffer* buffer : {&emitters.emitters, &emitters.views, &emitters.visibility})
-        *buffer = test::empty<float>(64);
+    const EmitterBuffers emitters = no_emitters();
     const glm::dvec3 exposed = glm::dvec3(sphere.materials[0].emission) / scene.frame().exposure;
     for (const std::uint32_t thin : {1u, 3u, 8u}) {
         params.thin = thin;
@@ -284,10 +330,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     };
     const cl::Buffer places = test::empty<float>(PICK_PLANES * 16);
     const cl::Buffer worth = test::empty<float>(16);
-    EmitterBuffers emitters;
-    emitters.kind = Pixels::depth;
-    for (cl::Buffer* buffer : {&emitters.emitters, &emitters.views, &emitters.visibility})
-        *buffer = test::empty<float>(64);
+    const EmitterBuffers emitters = no_emitters();
     GBuffer points;
     points.stride = stride;
     points.planes = test::empty<float>(GBUFFER_PLANES * stride);

@@ -298,6 +298,8 @@ TEST(BakePoints, AreRefusedWhereTheyAreNone) {
     changed([](IrradianceVolume& v) { v.distances.pop_back(); });
     changed([](IrradianceVolume& v) { ++v.open_count; });
     changed([](IrradianceVolume& v) { v.places[3].w = 8.0f; });
+    changed([&](IrradianceVolume& v) { v.places[3].y = static_cast<float>(nan); });
+    changed([&](IrradianceVolume& v) { v.distances[5].x = static_cast<float>(nan); });
     LightAtlasOptions projected;
     projected.filling = Filling::project;
     EXPECT_THROW(make({{0, 1, 0}, {0, 1, 0}}, projected), Error);

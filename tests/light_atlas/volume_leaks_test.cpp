@@ -199,21 +199,7 @@ Scene lit_and_dark_room() {
     }
     scene.parts = {{"figure", 0, 12}, {"rooms", 12, 24}};
 
-    Animation animation;
-    animation.nodes.resize(1);
-    AnimationClip clip;
-    clip.duration = 1.0;
-    clip.curves = {{Interpolation::linear, 3, {0.0f, 1.0f}, {0, 0, 0, 3.6f, 0.0f, 0.0f}}};
-    clip.channels = {{ChannelTarget::translation, 0, 0}};
-    animation.clips = {clip};
-    PosedRange range;
-    range.vertex_count = static_cast<std::uint32_t>(figure);
-    animation.ranges = {range};
-    for (std::size_t v = 0; v < figure; ++v) {
-        animation.rest_positions.emplace_back(scene.positions[v]);
-        animation.rest_normals.push_back(scene.normals[v]);
-    }
-    scene.animation = animation;
+    test::slide(scene, 0, static_cast<std::uint32_t>(figure), 0, {3.6f, 0.0f, 0.0f});
     // Cubes of 0.875 m, middles of which lie 0.11 m in front of the wall and 0.61 m behind it.
     scene.moving_bounds = Bounds{{-5, 0, -4}, {5.5, 3, 4}};
     scene.lights = {test::point_light({-1.9, 1.9, 0.6}, 40.0f)};

@@ -367,11 +367,13 @@ TEST_P(VolumeLookup, SaysWhatIsNotFinite) {
     looked.look({std::numeric_limits<double>::quiet_NaN(), 1.0, 2.2}, tilted);
     looked.look({0.0, 1.0, 2.2}, tilted);
     looked.look({0.0, 1.0, 2.2}, {0.0f, std::numeric_limits<float>::quiet_NaN(), 1.0f});
+    looked.look({3e38, 1.0, 2.2}, tilted);  // farther than the grid's unit can count
     const auto found = looked();
     for (int c = 0; c < 3; ++c) {
         EXPECT_TRUE(std::isnan(found[0][c]));
         EXPECT_TRUE(std::isfinite(found[1][c]));
         EXPECT_TRUE(std::isnan(found[2][c]));
+        EXPECT_FALSE(std::isfinite(found[3][c]));
     }
     // Light that is none reaches the surfaces around it.
     for (const float none :

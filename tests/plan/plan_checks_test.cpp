@@ -57,6 +57,39 @@ TEST(PlanChecks, GoOnToAnotherMethod) {
     EXPECT_NE(third->method, second->method);
 }
 
+// Where each picture errs three times as much as expected of it by then, that adds up.
+TEST(PlanChecks, CountErrorsByWhatWasExpectedAtFirst) {
+    const Plan first = plan_of(0.2, std::nullopt, Method::irradiance_cache);
+    const double usual = *first.error;
+    const std::optional<Plan> second = next(first, 3.0 * usual);
+    ASSERT_TRUE(second);
+    const std::optional<Plan> third = next(*second, 3.0 * *second->error);
+    ASSERT_TRUE(third);
+    EXPECT_NEAR(*third->checks[1].expected, *second->error / 3.0, 1e-9);
+    EXPECT_NEAR(*third->checks[0].expected, usual, 1e-12);
+    const std::optional<Plan> fourth = next(*third, 9.0 * *third->error);
+    EXPECT_NEAR(fourth ? *fourth->checks[2].expected : *third->error / 9.0, *third->error / 9.0,
+                1e-9);
+}
+
+// Without effects that were left out by request no error is expected; a method that is not finer
+// must not follow then.
+TEST(PlanPace, KeepsToTheMethodWhereNoErrorIsExpected) {
+    const cl::Device& device = test::device().device;
+    PlanRequest request;
+    request.seconds = 3.0;
+    request.without = {Effect::further_bounces};
+    const Plan plan = make_plan(device, scene_analysis(test::furnished_room(3)), request);
+    ASSERT_FALSE(plan.error);
+    for (const double seconds : {0.01, 0.1, 1.0, 10.0})
+        for (const double share : {0.02, 0.3, 1.0}) {
+            const Plan trial = trial_plan(device, plan, share);
+            const std::optional<Plan> rest =
+                next_plan(device, trial, {std::nullopt, trial.cost.total_ms()}, seconds);
+            EXPECT_EQ(rest.value_or(trial).method, trial.method);
+        }
+}
+
 TEST(PlanChecks, EndWhereNothingIsExpectedToErrLess) {
     Plan plan = plan_of(1e-6, std::nullopt);
     double seconds = 0.0;

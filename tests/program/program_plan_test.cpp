@@ -61,6 +61,11 @@ TEST_F(Program, UsesATimeByWhatItsFirstPictureTook) {
     }
     EXPECT_NEAR(budget.at("used").get<double>(), sum, 1e-6);
     EXPECT_EQ(stats.at("plan").at("error"), attempts.back().at("expected"));
+
+    const Outcome late = run("render " + scene + " --size 64x48 --time-budget 0.01ms --quiet -o " +
+                             file("a.exr").string());
+    EXPECT_EQ(late.code, 0) << late.err;
+    EXPECT_NE(late.err.find("of --time-budget were used"), std::string::npos) << late.err;
 }
 
 // What a plan sets is what flags set: shadow maps of a bake too.

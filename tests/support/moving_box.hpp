@@ -9,6 +9,28 @@
 
 namespace clgi::test {
 
+// A clip that carries vertices of a part so far in a second.
+inline void slide(Scene& scene, std::uint32_t first, std::uint32_t end, std::uint32_t part,
+                  const glm::vec3& way) {
+    Animation animation;
+    animation.nodes.resize(1);
+    AnimationClip clip;
+    clip.duration = 1.0;
+    clip.curves = {{Interpolation::linear, 3, {0.0f, 1.0f}, {0, 0, 0, way.x, way.y, way.z}}};
+    clip.channels = {{ChannelTarget::translation, 0, 0}};
+    animation.clips = {clip};
+    PosedRange range;
+    range.first_vertex = first;
+    range.vertex_count = end - first;
+    range.part = part;
+    animation.ranges = {range};
+    for (std::uint32_t v = first; v < end; ++v) {
+        animation.rest_positions.emplace_back(scene.positions[v]);
+        animation.rest_normals.push_back(scene.normals[v]);
+    }
+    scene.animation = animation;
+}
+
 // Triangles 24 to 35 are the box, which a second carries from the red wall to the green one. The
 // lamp is a spot that lights the floor.
 inline Scene moving_box_room() {
@@ -34,23 +56,7 @@ inline Scene moving_box_room() {
                    {"box", from, to - from},
                    {"block", to, static_cast<std::uint32_t>(scene.triangles.size()) - to}};
 
-    Animation animation;
-    animation.nodes.resize(1);
-    AnimationClip clip;
-    clip.duration = 1.0;
-    clip.curves = {{Interpolation::linear, 3, {0.0f, 1.0f}, {0, 0, 0, 2.9f, 0.2f, 0.1f}}};
-    clip.channels = {{ChannelTarget::translation, 0, 0}};
-    animation.clips = {clip};
-    PosedRange range;
-    range.first_vertex = first;
-    range.vertex_count = end - first;
-    range.part = 1;
-    animation.ranges = {range};
-    for (std::uint32_t v = first; v < end; ++v) {
-        animation.rest_positions.emplace_back(scene.positions[v]);
-        animation.rest_normals.push_back(scene.normals[v]);
-    }
-    scene.animation = animation;
+    slide(scene, first, end, 1, {2.9f, 0.2f, 0.1f});
     scene.moving_bounds = motion_bounds(scene, 0);
     scene.lights = {spot_light({0.0, 2.1, 0.2}, {0.0f, -1.0f, -0.15f}, 0.7, 30.0f)};
     scene.lights[0].intensity *= glm::vec3(1.0f, 0.9f, 0.7f);

@@ -17,7 +17,11 @@ void check_volume(const IrradianceVolume& volume) {
     if (double(volume.places.size()) != count.x * count.y * count.z ||
         volume.distances.size() != std::size_t{volume.open_count} * VOLUME_TEXELS ||
         !std::all_of(volume.places.begin(), volume.places.end(),
-                     [&](const glm::vec4& place) { return place.w < open; }))
+                     [&](const glm::vec4& place) {
+                         return place.w < open && std::isfinite(place.x + place.y + place.z);
+                     }) ||
+        !std::all_of(volume.distances.begin(), volume.distances.end(),
+                     [](const glm::vec2& of) { return std::isfinite(of.x + of.y); }))
         throw Error("light-atlas-view: the volume has " + std::to_string(volume.places.size()) +
                     " places and " + std::to_string(volume.distances.size()) +
                     " distances, or numbers of points, that are not those of its points");

@@ -30,8 +30,8 @@ enum {
     VOLUME_TEXELS = VOLUME_ROW * VOLUME_ROW,  // of a map
 };
 
-// Spacings beyond which distances are not told apart: more than between a place and the points
-// around it.
+// Spacings beyond which distances are not told apart: more than between a place and those points
+// around it that count noticeably.
 #define VOLUME_RANGE 2.0f
 
 // Coordinates of a corner of an icosahedron in the unit sphere: one is 0, the next of x, y, z, x, y
