@@ -111,6 +111,9 @@ TEST(PlanChecks, KeepToTheTimeThatWasRequested) {
         EXPECT_LE(more->cost.total_ms(), 100.0);
         ASSERT_LT(more->checks.size(), 100u);
     }
+    // Another method would err less, in more time than is left.
+    EXPECT_FALSE(
+        next_plan(test::device().device, first, {100.0 * *first.error, std::nullopt}, 1e-6));
     EXPECT_THROW(next(first, -1.0), Error);
     EXPECT_THROW(next(first, std::numeric_limits<double>::quiet_NaN()), Error);
 }
