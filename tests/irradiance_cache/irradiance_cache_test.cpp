@@ -10,6 +10,7 @@
 
 #include "frames.hpp"
 #include "math_modes.hpp"
+#include "planned_pictures.hpp"
 #include "refusals.hpp"
 #include "scenes.hpp"
 
@@ -237,29 +238,40 @@ TEST_P(IrradianceCachePictures, HaveLampsBeyondTheFocusByHemicubes) {
 }
 
 // Where the light changes more records are made, and the picture errs less: below a small block in
-// a room that a spotlight lights by way of one wall.
+// a room that a spotlight lights by way of one wall. The product of the differences from two
+// independent pictures is the squared error without their noise.
 TEST_P(IrradianceCachePictures, ErrLessWithRefinedRecords) {
     Scene scene = test::plain_scene({0.7f, 0.6f, 0.5f});
     test::add_box(scene, {0, 0, 0}, {4, 3, 5}, -1);
     test::add_box(scene, {1.5, 0.15, 1.5}, {2.5, 0.6, 2.5}, 1);
-    scene.lights = {test::spot_light({2, 2.5, 4}, {0, -0.1f, 1}, 0.5f, 60.0f)};
+    scene.lights = {test::spot_light({2, 2.5, 4}, {0, -0.1f, 1}, 1.4f, 60.0f)};
     scene.cameras = {test::camera_at({0.4, 1.6, 4.6}, {2.2, 0.3, 1.5}, 0.9f)};
     const reference::PathTracer tracer(scene);
-    reference::VerifyOptions check;
-    check.effects.emission = check.effects.direct = false;
-    check.samples = 600;
+    reference::Options truth;
+    truth.width = cache_width;
+    truth.height = cache_height;
+    truth.samples = 512;
+    truth.effects.emission = truth.effects.direct = false;
+    const test::Radiances first = tracer.render(scene.cameras[0], truth).radiance;
+    truth.seed = 2;
+    const test::Radiances second = tracer.render(scene.cameras[0], truth).radiance;
     IrradianceCacheOptions options = cache_options(30, 300);
     options.picture.direct = false;
-    const auto error = [&](int refined) {
+    const auto squared_error = [&](int refined) {
         options.refined = refined;
         const CachePicture found = pictured(scene, options);
         EXPECT_LE(found.status.refined, static_cast<std::size_t>(refined));
         EXPECT_EQ(found.status.refined > 0, refined > 0);
-        return tracer.verify(scene.cameras[0], cache_width, cache_height, found.radiance, check)
-            .error.value;
+        double squares = 0.0;
+        for (std::size_t i = 0; i < found.radiance.size(); ++i) {
+            const double light = test::luminance_of(found.radiance[i]);
+            squares +=
+                (light - test::luminance_of(first[i])) * (light - test::luminance_of(second[i]));
+        }
+        return squares;
     };
-    const double before = error(0), after = error(300);
-    EXPECT_LT(after, 0.75 * before) << before;
+    const double before = squared_error(0), after = squared_error(300);
+    EXPECT_LT(after, 0.5 * before) << before;
 }
 
 // A coloured room with a window, looked at away from it, in a plain that is a thousand times
