@@ -43,7 +43,7 @@ kernel void gbuffer_raster_large(
                 continue;
             RasterPolygon polygon = *listed;
             tile_draw(&view, params.scene_flags, &tile, &polygon, &scene, visibility, 0,
-                      RASTER_FUSED);
+                      RASTER_FUSED, 0, 1);
         }
     }
 }

@@ -31,6 +31,6 @@ kernel void gbuffer_raster_late(
                                    triangles, positions, made);
         for (int k = 0; k < count; ++k)
             tile_draw_all(&view, params.scene_flags, made + k, &scene, visibility, 1,
-                          params.stage);
+                          params.stage, 0, 1);
     }
 }

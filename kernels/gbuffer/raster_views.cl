@@ -37,7 +37,7 @@ static void draw_cluster(const View* view, const RasterParams* params, uint clus
                 if (!occlusion_hides(occlusion, made[k].left, made[k].top, made[k].right,
                                      made[k].bottom, key))
                     tile_draw_all(view, params->scene_flags, made + k, scene, visibility, 0,
-                                  RASTER_FUSED);
+                                  RASTER_FUSED, 0, 1);
             }
         }
     }

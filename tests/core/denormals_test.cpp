@@ -53,7 +53,9 @@ TEST_P(DenormalsInFloats, AreFlushedByPocl) {
     if (GetParam() == Math::strict) {
         EXPECT_GT(test::combine(in).radiance[0].x, 0.0f);
     }
-    EXPECT_EQ(test::combine(in, Flushing().passes).radiance[0].x == 0.0f, pocl);
+    if (pocl || GetParam() == Math::strict) {
+        EXPECT_EQ(test::combine(in, Flushing().passes).radiance[0].x == 0.0f, pocl);
+    }
 }
 
 // Squares of distances and radii are denormal or flushed at many of these places.

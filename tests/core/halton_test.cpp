@@ -33,13 +33,12 @@ Fraction exact(std::uint64_t index, std::uint64_t base) {
 
 std::vector<float> on_device(const std::vector<cl_uint>& indices, cl_uint base, bool fast = false) {
     const test::Device& on = test::device();
-    const auto built = [&](const char* options) {
+    const auto built = [&](Math math) {
         cl::Program program(on.context, test::kernel_text("tests/support/halton.cl"));
-        program.build(on.device, options);
+        program.build(on.device, compiler_options(on.device, {math}).c_str());
         return program;
     };
-    static const cl::Program strict = built("-cl-std=CL1.2");
-    static const cl::Program relaxed = built("-cl-std=CL1.2 -cl-fast-relaxed-math");
+    static const cl::Program strict = built(Math::strict), relaxed = built(Math::fast);
     cl::Kernel kernel(fast ? relaxed : strict, "halton");
     const cl::Buffer asked = test::upload(indices);  // a kernel does not keep its arguments alive
     const cl::Buffer values = test::empty<float>(indices.size());

@@ -274,6 +274,25 @@ TEST_P(IrradianceCachePictures, ErrLessWithRefinedRecords) {
     EXPECT_LT(after, 0.5 * before) << before;
 }
 
+// A block below a sky and a lamp: groups of any size find the light of single work-items.
+TEST(IrradianceCache, IsTheSameInGroups) {
+    Scene scene = below_a_lamp({0.5f, 0.6f, 0.7f});
+    scene.environment = upper_half({0.2f, 0.5f, 1.0f});
+    test::add_box(scene, {-0.05, 0, -0.05}, {0.05, 0.3, 0.05}, 1);
+    scene.cameras = {test::camera_at({0.3, 0.4, 0.2}, {0, 0.1, 0}, 0.5f)};
+    IrradianceCacheOptions options = cache_options(20, 20);
+    options.refined = 5;
+    options.picture.build.packet_width = 1;
+    options.picture.build.form = Form::packets;
+    const std::vector<glm::vec3> alone = pictured(scene, options).radiance;
+    EXPECT_GT(mean_radiance(alone).x, 0.0);
+    options.picture.build.form = Form::groups;
+    for (const std::size_t lanes : {0, 7}) {
+        options.picture.build.local_size = lanes;
+        EXPECT_TRUE(test::same_bits(pictured(scene, options).radiance, alone)) << lanes;
+    }
+}
+
 // A coloured room with a window, looked at away from it, in a plain that is a thousand times
 // larger.
 TEST_P(IrradianceCachePictures, OfARoomWithAWindowAreThePathTracers) {

@@ -18,6 +18,8 @@ bool stands_on(const std::string& evidence, const std::string& scenes) {
 // Of every kind of scene: the methods that it is given, and those that it is not.
 TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
     const cl::Device& device = test::device().device;
+    if (!(device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU))
+        GTEST_SKIP() << "the limits of time are drawn for CPUs";
     const SceneAnalysis room = scene_analysis(test::furnished_room(3));
     const auto method = [&](const std::function<void(SceneAnalysis&, PlanRequest&)>& change) {
         SceneAnalysis analysis = room;

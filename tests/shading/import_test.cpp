@@ -159,8 +159,10 @@ TEST(Import, BringsTexelsIntoTheLocalFrameAndExposure) {
             EXPECT_EQ(got.planes.ids[got.planes.stride + p], 2 - row);
         }
     EXPECT_EQ(got.non_finite, 0u);
+    // Past the last pixel: the rest of a packet, or what was there before.
+    const float past = test::gbuffer_passes().packet_width() > 1 ? 0.0f : -77.0f;
     for (int plane = 0; plane < GBUFFER_PLANES; ++plane)
-        EXPECT_EQ(got.planes.planes[plane * got.planes.stride + 15], 0.0f) << "past the last pixel";
+        EXPECT_EQ(got.planes.planes[plane * got.planes.stride + 15], past);
 }
 
 TEST(Import, TurnsRowsOverWhereTheTopOneComesFirst) {

@@ -36,7 +36,7 @@ std::vector<View> many_views(const DeviceScene& scene) {
 
 struct Way {
     const char* name;
-    bool whole;               // a view a work-item
+    bool whole;               // a view a work-item or a group
     std::uint32_t at_a_time;  // views of the lists
     std::uint32_t capacity;   // polygons of the lists; 0: plenty
 };
@@ -80,14 +80,17 @@ void expect_same_words(const Scene& world) {
         EXPECT_TRUE(same_bits(drawn<std::uint64_t>(scene, views, way), wanted)) << way.name;
         EXPECT_TRUE(same_bits(drawn<std::uint32_t>(scene, views, way), depth)) << way.name;
     }
-    for (const BuildOptions& build : {BuildOptions{.packet_width = 1, .local_size = 7},
-                                      {.packet_width = 4, .atomics64 = false}}) {
+    for (const BuildOptions& build :
+         {BuildOptions{.packet_width = 1, .form = Form::packets, .local_size = 7},
+          {.packet_width = 4, .form = Form::packets, .atomics64 = false},
+          {.form = Form::groups},
+          {.form = Form::groups, .local_size = 7, .atomics64 = false}}) {
         const GBufferPasses passes(test::programs(), build);
         for (const Way& way : {ways[1], ways[3], ways[4]}) {
             EXPECT_TRUE(same_bits(drawn<std::uint64_t>(scene, views, way, passes), wanted))
-                << way.name << ", width " << build.packet_width;
+                << way.name << ", group of " << build.local_size;
             EXPECT_TRUE(same_bits(drawn<std::uint32_t>(scene, views, way, passes), depth))
-                << way.name << ", width " << build.packet_width;
+                << way.name << ", group of " << build.local_size;
         }
     }
 }

@@ -11,6 +11,9 @@ Interval interval(const WaitList& events) {
     Interval out;
     try {
         for (const cl::Event& event : events) {
+            // Some drivers answer before that with what is not there yet.
+            if (event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() != CL_COMPLETE)
+                throw cl::Error(CL_PROFILING_INFO_NOT_AVAILABLE, "interval");
             const Interval one{event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>(),
                                event.getProfilingInfo<CL_PROFILING_COMMAND_SUBMIT>(),
                                event.getProfilingInfo<CL_PROFILING_COMMAND_START>(),

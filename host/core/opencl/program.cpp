@@ -5,6 +5,7 @@
 #include <clgi/advanced/kernel_source.hpp>
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
+#include <cstdlib>
 #include <future>
 #include <map>
 #include <mutex>
@@ -16,7 +17,9 @@ namespace clgi {
 namespace {
 
 int width_of(const cl::Device& device, const BuildOptions& options) {
-    const int width = options.packet_width > 0 ? options.packet_width : packet_width(device);
+    const int width = options.packet_width > 0     ? options.packet_width
+                      : in_groups(device, options) ? 1
+                                                   : packet_width(device);
     if (width != 1 && width != 4 && width != 8 && width != 16)
         throw Error("program: packet_width is " + std::to_string(width) + ", 1, 4, 8 or 16 needed");
     return width;
@@ -48,10 +51,18 @@ bool uses_atomics64(const cl::Device& device, const BuildOptions& options) {
                                     "cl_khr_int64_extended_atomics") != std::string::npos;
 }
 
+bool in_groups(const cl::Device& device, const BuildOptions& options) {
+    if (options.form != Form::automatic) return options.form == Form::groups;
+    const char* variable = std::getenv("CLGI_FORM");
+    const std::string form = variable ? variable : "";
+    if (form == "groups" || form == "packets") return form == "groups";
+    if (!form.empty()) throw Error("CLGI_FORM is \"" + form + "\", packets or groups needed");
+    return !(device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU);
+}
+
 PassKernel in_small_groups(PassKernel pass, const cl::Device& device, const BuildOptions& options) {
     constexpr std::size_t few = 4;
-    if (options.local_size == 0 && (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU))
-        pass.local_size = few;
+    if (options.local_size == 0 && !in_groups(device, options)) pass.local_size = few;
     return pass;
 }
 

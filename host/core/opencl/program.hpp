@@ -10,8 +10,11 @@
 namespace clgi {
 
 // The pass with a smaller group, for a kernel whose work-items are few and long, unless the options
-// chose one: on a CPU a group is what one core takes at a time.
+// chose one: on a CPU a group is what one core takes at a time. In groups it stays as it is.
 PassKernel in_small_groups(PassKernel pass, const cl::Device& device, const BuildOptions& options);
+
+// Whether kernels that have a form for groups are built in it.
+bool in_groups(const cl::Device& device, const BuildOptions& options);
 
 // Builds those of a room's kernels whose names, without the room's, are given.
 // Throws Error for a name that is not among them.

@@ -30,11 +30,11 @@ void need_digit(const PassKernel& pass, const DigitParams& params) {
 ParallelPasses::ParallelPasses(const Programs& programs, const BuildOptions& options) {
     BuildOptions strict = options;
     strict.math = Math::strict;
-    const bool cpu = programs.device().getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU;
+    const bool alone = !in_groups(programs.device(), options);
     const auto kernel = [&](const char* pass, std::size_t many = PARALLEL_LEAVES) {
         PassKernel out = programs.kernel("parallel", pass, strict);
-        // On a CPU a core takes a tile at a time, alone: its lanes are vectors in the kernel.
-        if (options.local_size == 0) out.local_size = cpu ? 1 : many;
+        // In packets a core takes a tile at a time, alone: its lanes are vectors in the kernel.
+        if (options.local_size == 0) out.local_size = alone ? 1 : many;
         return out;
     };
     offsets_ = kernel("offsets");

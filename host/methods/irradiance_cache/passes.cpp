@@ -39,7 +39,13 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
         return in_small_groups(programs.kernel("cache", pass, whole), programs.device(), options);
     };
     pick_ = few("pick");
-    link_ = few("link");
+    groups_ = in_groups(programs.device(), options);
+    link_ = few(groups_ ? "link_group" : "link");
+    if (groups_) {
+        link_.name = "cache.link";
+        link_.local_size =
+            std::min<std::size_t>(options.local_size > 0 ? options.local_size : 32, 64);
+    }
     bounce_ = few("bounce");
     weigh_ = few("weigh");
     show_ = programs.kernel("cache", "show", options);
@@ -77,7 +83,8 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
     need_range("cache.link", "whole_emitters", params.whole_emitters, 0u, params.emitter_count);
     need_depth_words(link_, 1, emitters.kind);
     need_emitters(link_, emitters, params.emitter_count);
-    return launch(link_, queue, params.count, wait, params, tree, scene.info(), b.views,
+    const std::size_t lanes = groups_ ? group_size(link_) : 1;
+    return launch(link_, queue, params.count * lanes, wait, params, tree, scene.info(), b.views,
                   b.visibility, b.nodes, b.lists, b.planes, b.sky, scene, emitters.emitters,
                   emitters.views, emitters.visibility, b.rows, b.base, b.reflected);
 }

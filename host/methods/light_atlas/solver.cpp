@@ -4,6 +4,7 @@
 #include <clgi/error.hpp>
 #include <numeric>
 
+#include "core/opencl/program.hpp"
 #include "methods/light_atlas/row_unit.hpp"
 #include "methods/light_atlas/solver_state.hpp"
 
@@ -72,9 +73,9 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
     AtlasBlocks made;
     if (occludes(options.occlusion) && options.filling == Filling::gather && options.refine > 1)
         made = make_blocks(atlas_layout, options.refine);
-    const BufferTable all =
-        table(b, emitters, scene, vpl_layout, atlas_layout, bake_points.size(), made, options,
-              budget, device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
+    const BufferTable all = table(b, emitters, scene, vpl_layout, atlas_layout, bake_points.size(),
+                                  made, options, in_groups(device, options.build), budget,
+                                  device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
     all.check(device, options.memory_budget, scene.bytes());
     all.allocate(record);
     bytes = all.bytes();

@@ -77,6 +77,7 @@ std::uint32_t mesh_squares(int triangles) {
 namespace {
 
 constexpr std::uint32_t unseen_vpls = 256;    // a batch where none has a hemicube
+constexpr std::uint32_t grouped_vpls = 128;   // and where groups draw them
 constexpr std::size_t points_of_all = 25600;  // that a shooter looks at
 
 // Sample points of a receiving VPL. The more VPLs, the fewer of each: a packet holds more of them.
@@ -131,7 +132,8 @@ void add_blocks(BufferTable& t, Buffers& b, const AtlasBlocks& made) {
 
 BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, const VplLayout& layout,
                   const AtlasLayout& atlas, std::size_t points, const AtlasBlocks& blocks,
-                  const LightAtlasOptions& options, std::size_t budget, std::size_t largest) {
+                  const LightAtlasOptions& options, bool grouped, std::size_t budget,
+                  std::size_t largest) {
     const std::size_t samples = layout.samples.size(), sites = layout.vpls.size();
     const std::size_t texels = atlas.texels.size();
     check_sizes(sites, samples, texels, points);
@@ -155,8 +157,12 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     b.samples.stride = s.sample_stride;
     b.texels.stride = b.texel_stride;
     // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits
-    // each. Without maps a batch is what a report may wait for.
-    b.batch = occludes(options.occlusion) ? std::uint32_t{SEEN_VPLS} : unseen_vpls;
+    // each. Groups are many: they need more views. Without maps a batch is what a report may wait
+    // for.
+    b.batch = !occludes(options.occlusion) ? unseen_vpls
+              : grouped && options.filling == Filling::gather
+                  ? std::min<std::uint32_t>(grouped_vpls, SEEN_VPLS * seen_rows(sites))
+                  : std::uint32_t{SEEN_VPLS};
 
     BufferTable t("light-atlas");
     emitters.add_to(t);

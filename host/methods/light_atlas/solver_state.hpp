@@ -66,8 +66,8 @@ inline Pixels filling_pixels(const LightAtlasOptions& options) {
 // The row of every buffer. `budget`: bytes for all, from which it follows what is kept.
 BufferTable table(Buffers& buffers, Emitters& emitters, const DeviceScene& scene,
                   const VplLayout& vpls, const AtlasLayout& atlas, std::size_t points,
-                  const AtlasBlocks& blocks, const LightAtlasOptions& options, std::size_t budget,
-                  std::size_t largest);
+                  const AtlasBlocks& blocks, const LightAtlasOptions& options, bool grouped,
+                  std::size_t budget, std::size_t largest);
 
 }  // namespace light_atlas
 

@@ -87,9 +87,8 @@ ViewSpan span_of(const std::vector<View>& views, std::size_t first, std::size_t 
 GBufferPasses::GBufferPasses(const Programs& programs, const BuildOptions& options)
     : fused_(uses_atomics64(programs.device(), options)),
       textures_(options.textures),
-      cores_(programs.device().getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU
-                 ? programs.device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()
-                 : 0) {
+      groups_(in_groups(programs.device(), options)),
+      cores_(programs.device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()) {
     const auto kernel = [&](const char* pass, const char* defines = "") {
         return programs.kernel("gbuffer", pass, options, defines);
     };
@@ -101,9 +100,17 @@ GBufferPasses::GBufferPasses(const Programs& programs, const BuildOptions& optio
         kind->clear = kernel("clear", defines);
         kind->raster = few("raster");
         kind->raster_late = few("raster_late");
-        kind->raster_large = few("raster_large");
-        kind->raster_views = kernel("raster_views", defines);
-        if (cores_ > 0 && options.local_size == 0) kind->raster_views.local_size = 1;
+        // The kernels for groups have lists in local memory, for at most so many lanes.
+        const auto grouped = [&](const std::string& pass, std::size_t lanes, std::size_t most) {
+            PassKernel out = kernel((pass + "_group").c_str(), defines);
+            out.name = "gbuffer." + pass;
+            out.local_size = std::min(options.local_size > 0 ? options.local_size : lanes, most);
+            return out;
+        };
+        kind->raster_large = groups_ ? grouped("raster_large", 32, 64) : few("raster_large");
+        kind->raster_views =
+            groups_ ? grouped("raster_views", 128, 256) : kernel("raster_views", defines);
+        if (!groups_ && options.local_size == 0) kind->raster_views.local_size = 1;
     }
     put_view_ = kernel("put_view");
     cubes_ = kernel("cubes");
@@ -125,8 +132,9 @@ std::vector<std::uint32_t> GBufferPasses::stages(Pixels kind) const {
 }
 
 bool GBufferPasses::prefers_raster_views(const ViewSpan& span, const DeviceScene&) const {
-    // A view a core and more; the view and its depth should stay in the second-level cache.
-    return cores_ > 0 && span.count >= 2 * cores_ && span.width <= 512 && span.height <= 512;
+    // Views for all cores; a view and its depth should stay in the cache of one.
+    const std::size_t enough = groups_ ? (cores_ + 1) / 2 : 2 * cores_;
+    return span.count >= enough && span.width <= 512 && span.height <= 512;
 }
 
 cl::Event GBufferPasses::put_view(const cl::CommandQueue& queue, const View& view,
@@ -206,7 +214,8 @@ cl::Event GBufferPasses::raster_large(const cl::CommandQueue& queue, const ViewS
     need_lists(pass, span, buffers, scene.info().triangle_count);
     const std::size_t across = (span.width + RASTER_TILE - 1) / RASTER_TILE;
     const std::size_t down = (span.height + RASTER_TILE - 1) / RASTER_TILE;
-    return launch_rows(pass, queue, across * down, span.count, wait,
+    const std::size_t lanes = groups_ ? group_size(pass) : 1;
+    return launch_rows(pass, queue, across * down * lanes, span.count, wait,
                        raster_params(span, scene, RASTER_FUSED, buffers), views, buffers.polygons,
                        buffers.runs, buffers.counts, scene, buffers.pixels);
 }
@@ -218,8 +227,10 @@ cl::Event GBufferPasses::raster_views(const cl::CommandQueue& queue, const ViewS
     const PassKernel& pass = drawing(kind).raster_views;
     need_textures(pass, scene, textures_);
     need_views(pass, span, views, pixels, kind);
-    return launch(pass, queue, span.count, wait, raster_params(span, scene, RASTER_FUSED, {}),
-                  span.count, views, scene.clusters(), scene, pixels);
+    const std::size_t lanes = groups_ ? group_size(pass) : 1;
+    return launch(pass, queue, span.count * lanes, wait,
+                  raster_params(span, scene, RASTER_FUSED, {}), span.count, views, scene.clusters(),
+                  scene, pixels);
 }
 
 cl::Event GBufferPasses::resolve(const cl::CommandQueue& queue, const View& view,

@@ -65,6 +65,7 @@ public:
 
 private:
     PassKernel pick_, link_, bounce_, weigh_, show_;
+    bool groups_;  // a record by a group of work-items
 };
 
 }  // namespace clgi

@@ -118,7 +118,8 @@ public:
                            const cl::Buffer& views, const DeviceScene& scene,
                            const RasterBuffers& buffers, const WaitList& wait = {}) const;
 
-    // Replaces these four: clears and draws any number of views, one per work-item, without lists.
+    // Replaces these four: clears and draws any number of views, each by one work-item (or group of
+    // them, clgi::Form), without lists.
     // Writes the same bits.
     cl::Event raster_views(const cl::CommandQueue& queue, const ViewSpan& span,
                            const cl::Buffer& views, const DeviceScene& scene,
@@ -128,7 +129,7 @@ public:
     // with 64-bit atomics, else two.
     std::vector<std::uint32_t> stages(Pixels kind) const;
 
-    // Whether `draw` takes raster_views: on CPUs, for many small views.
+    // Whether `draw` takes raster_views: for many small views.
     bool prefers_raster_views(const ViewSpan& span, const DeviceScene& scene) const;
 
     // visibility -> planes [GBUFFER_PLANES][stride] float, ids [GBUFFER_ID_PLANES][stride] int.
@@ -167,7 +168,8 @@ private:
     PassKernel put_view_, cubes_, surface_, resolve_, downsample_;
     bool fused_;
     bool textures_;
-    std::size_t cores_;  // of a CPU; 0 on other devices
+    bool groups_;        // a view or a tile by a group of work-items, not by one
+    std::size_t cores_;  // compute units
 };
 
 }  // namespace clgi

@@ -1,0 +1,89 @@
+// The form of link for groups: a record belongs to a group, a pixel to a lane. What lanes found they
+// leave in local memory; each then adds up, in the order of pixels, one of the sums and the shares of
+// those records whose number is its own, modulo the lanes. So no sum has another order than in link.
+//                                      [derived: as link.cl]
+//
+// Work size    1D, one group a record; at most 64 lanes a group
+// Writes       its own row and its own base light
+// SPDX-License-Identifier: MIT
+#include "cache/link.clh"
+
+#define MOST_LANES 64
+#define SUMS 10  // of form factors, and in three channels of B, R and the sky
+
+kernel void cache_link_group(LINK_ARGUMENTS) {
+    local float brings[SUMS][MOST_LANES];
+    local float reflects[3][MOST_LANES];
+    local uint count[MOST_LANES], records[CACHE_FEW][MOST_LANES];
+    local float weights[CACHE_FEW][MOST_LANES];
+    local float sums[SUMS];
+    LinkWorld world = LINK_WORLD;
+    uint lane = (uint)get_local_id(0), lanes = (uint)get_local_size(0);
+    uint record = params.first + (uint)get_group_id(0);
+    uint stride = params.stride;
+    global float* row = rows + (ulong)record * 3 * stride;
+    for (uint k = 0; k < 3; ++k)
+        for (uint j = lane; j < stride; j += lanes) row[k * stride + j] = 0.0f;
+    for (uint k = lane; k < SUMS; k += lanes) sums[k] = 0.0f;
+    uint faces = link_stands(&params, planes, record) ? 5 : 0;
+    for (uint face = 0; face < faces; ++face) {
+        View view = views[5 * record + face];
+        uint pixels = view.width * view.height;
+        for (uint first = 0; first < pixels; first += lanes) {
+            uint pixel = first + lane, block = link_block(record, face, pixel);
+            for (uint k = 0; k < SUMS; ++k) brings[k][lane] = 0.0f;
+            count[lane] = 0;
+            if (pixel < pixels && link_counts(&params, block, pixel)) {
+                LinkPacket packet;
+                link_packet(&world, &view, visibility, face, pixel, block, &packet);
+                float3 above = link_above(&world, &view, &packet, 0);
+                brings[0][lane] = packet.factor[0];
+                brings[7][lane] = above.x;
+                brings[8][lane] = above.y;
+                brings[9][lane] = above.z;
+                float3 sends, rho;
+                CacheShare share;
+                if (link_surface(&world, &packet, 0, &sends, &rho, &share)) {
+                    float3 once = rho * link_lane(packet.direct, 0);
+                    brings[1][lane] = sends.x;
+                    brings[2][lane] = sends.y;
+                    brings[3][lane] = sends.z;
+                    brings[4][lane] = once.x;
+                    brings[5][lane] = once.y;
+                    brings[6][lane] = once.z;
+                    reflects[0][lane] = rho.x;
+                    reflects[1][lane] = rho.y;
+                    reflects[2][lane] = rho.z;
+                    count[lane] = share.count;
+                    for (uint i = 0; i < share.count; ++i) {
+                        records[i][lane] = share.record[i];
+                        weights[i][lane] = share.weight[i];
+                    }
+                }
+            }
+            barrier(CLK_LOCAL_MEM_FENCE);
+            for (uint k = lane; k < SUMS; k += lanes)
+                for (uint of = 0; of < lanes; ++of) sums[k] += brings[k][of];
+            for (uint of = 0; of < lanes; ++of)
+                for (uint i = 0; i < count[of]; ++i) {
+                    uint at = records[i][of];
+                    if (at % lanes != lane) continue;
+                    row[at] += weights[i][of] * reflects[0][of];
+                    row[stride + at] += weights[i][of] * reflects[1][of];
+                    row[2 * stride + at] += weights[i][of] * reflects[2][of];
+                }
+            barrier(CLK_LOCAL_MEM_FENCE);
+        }
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    // The pixels' form factors sum to 1 but for the midpoint rule.
+    float all = sums[0], scale = all > 0.0f ? 1.0f / all : 0.0f;
+    for (uint k = 0; k < 3; ++k)
+        for (uint j = lane; j < stride; j += lanes) row[k * stride + j] *= scale;
+    if (lane != 0) return;
+    float skies[3] = {params.sky.x, params.sky.y, params.sky.z};
+    for (uint c = 0; c < 3; ++c) {
+        base[c * stride + record] = scale * (sums[1 + c] + CLGI_PI * sums[7 + c] * skies[c]);
+        reflected[c * stride + record] = scale * sums[4 + c];
+    }
+}
