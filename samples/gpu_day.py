@@ -34,7 +34,7 @@ PICTURES = {
 }
 BENCHES = [["cochran1"], ["cochran2"], ["views"], ["kautz1", "--vertices", "0"], ["kautz2"],
            ["dachsbacher1"], ["dachsbacher2"], ["schaerfig1"], ["animation"], ["layer"]]
-FRAMES = 5
+FRAMES = 10
 
 
 def call(command, until, log=None, environment=None):
@@ -120,7 +120,7 @@ def pictures(options, report, until):
         if options.against:
             twin = options.against / (name + ".exr")
             code, output = call([clgi, "compare", folder / (name + ".exr"), twin, "--json"], until)
-            difference = f"{100 * json.loads(output)['relative_rms']:.3g}" if code == 0 else output
+            difference = f"{100 * json.loads(output)['rel_rmse']:.3g}" if code == 0 else output
         report.write(f"| {name} | {stats['frame_ms']['median']:.2f} "
                      f"| {before(stats):.0f} "
                      f"| {passes} | {difference} |\n")

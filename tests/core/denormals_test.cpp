@@ -53,9 +53,8 @@ TEST_P(DenormalsInFloats, AreFlushedByPocl) {
     if (GetParam() == Math::strict) {
         EXPECT_GT(test::combine(in).radiance[0].x, 0.0f);
     }
-    if (pocl || GetParam() == Math::strict) {
-        EXPECT_EQ(test::combine(in, Flushing().passes).radiance[0].x == 0.0f, pocl);
-    }
+    if (!pocl) return;  // others may
+    EXPECT_EQ(test::combine(in, Flushing().passes).radiance[0].x, 0.0f);
 }
 
 // Squares of distances and radii are denormal or flushed at many of these places.

@@ -180,6 +180,20 @@ TEST(LightAtlasModes, KeepVisibilityOrNotForTheSameBits) {
     }
 }
 
+// In batches of more VPLs, too, whose visibility is kept or not.
+TEST(LightAtlasModes, InGroupsGiveTheSameBits) {
+    LightAtlasOptions options = test::bake_options();
+    options.build.packet_width = 1;
+    options.build.form = Form::packets;
+    const Baked alone = test::bake(small_room(), options);
+    options.build.form = Form::groups;
+    expect_same(test::bake(small_room(), options), alone, "kept");
+    options.memory_budget = too_little_to_keep(small_room(), options, true);
+    const Baked drawn = test::bake(small_room(), options);
+    EXPECT_FALSE(drawn.status.visibility_kept);
+    expect_same(drawn, alone, "drawn again");
+}
+
 // Direct light alone bounces here: what surfaces are around is known all the same.
 TEST(LightAtlasModes, WithoutBouncesNeedNoTransportToFillTheAtlas) {
     LightAtlasOptions options = test::bake_options();

@@ -221,6 +221,7 @@ TEST(LightAtlasOpen, DrawsNoHemicubeAndKeepsNoVisibility) {
     drawn.occlusion = Occlusion::automatic;
     drawn.refine = 1;
     drawn.hemicube_size = 64;
+    drawn.build.form = Form::packets;  // whose batches are counted
     const test::Cost on = cost_of(drawn), off = cost_of(open_options());
     for (const char* name : {"gbuffer/cubes", "gbuffer/raster", "atlas/see", "atlas/flat",
                              "vpl/reach ", "atlas/nearest"})

@@ -29,6 +29,7 @@ struct Baker {
         atlas_options.size = 40;
         options.hemicube_size = 64;
         options.bounces = 3;
+        options.build.form = Form::packets;  // whose batches are counted
         const AtlasLayout atlas = make_atlas(world, patches.triangle_patch, atlas_options);
         const VplLayout placed = place_vpls(world, patches, vpl_options);
         vpl_count = static_cast<std::uint32_t>(placed.vpls.size());

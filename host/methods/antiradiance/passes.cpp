@@ -41,7 +41,10 @@ AntiradiancePasses::AntiradiancePasses(const Programs& programs, int bins,
     };
     global_ = kernel("global");
     local_ = kernel("local");
-    pull_ = kernel("pull");
+    items_ = in_groups(programs.device(), options) ? static_cast<std::size_t>(bins) / 4 : 1;
+    pull_ = in_small_groups(programs.kernel("antiradiance", "pull", one,
+                                            defines + (items_ > 1 ? " -DCLGI_GROUPS" : "")),
+                            programs.device(), options);
     const auto plain = [&](const char* pass, const BuildOptions& how) {
         return programs.kernel("antiradiance", pass, how);
     };
@@ -86,7 +89,7 @@ cl::Event AntiradiancePasses::pull(const cl::CommandQueue& queue, const ElementP
     need_list(pull_, params, list, links);
     need(pull_, "next_powers", rows.next_powers, links.element_count * sizeof(glm::vec4));
     need(pull_, "next", rows.next, intensity_bytes(links.row_count));
-    return launch(pull_, queue, params.count, wait, params, list, links.elements, rows.next_powers,
+    return launch(pull_, queue, std::size_t{params.count} * items_, wait, params, list, links.elements, rows.next_powers,
                   rows.next);
 }
 

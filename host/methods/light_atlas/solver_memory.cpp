@@ -221,7 +221,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     const std::size_t seen = seen_rows(sites) * b.texel_stride;
     b.seen_kept = b.kept && fits(seen, 0);
     t.add(b.seen, "texels that VPLs see", "the number of VPLs or the size of the atlas",
-          b.seen_kept ? seen : b.texel_stride);
+          b.seen_kept ? seen : seen_rows(b.batch) * b.texel_stride);
     return t;
 }
 

@@ -112,6 +112,7 @@ public:
 
 private:
     int bins_;
+    std::size_t items_;  // work-items of an element in pull
     PassKernel global_, local_, pull_, turn_, sources_, vertices_, show_;
 };
 
