@@ -19,11 +19,12 @@
 
 #define LARGEST_FLOAT 3.40282347e38f
 
-// Not a number and not finite become 0 and the largest float; counted, so never in silence.
+// What is no number, or below all of them, becomes 0, and what is above the largest float; counted, so
+// never in silence. By bits: to fast math no number is above it.
 static floatp sanitised(floatp value) {
-    uintp magnitude = packet_bits(value) & 0x7fffffffu;
-    value = packet_select(value, packet_zero, magnitude > 0x7f800000u);
-    return packet_min(value, packet_splat(LARGEST_FLOAT));
+    intp bits = as_intp(packet_bits(value));
+    value = packet_select(value, packet_zero, (bits & 0x7fffffff) >= NOT_FINITE);
+    return packet_select(value, packet_splat(LARGEST_FLOAT), bits == NOT_FINITE);
 }
 
 kernel void image_combine(

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "apart.hpp"
 #include "frames.hpp"
 #include "math_modes.hpp"
-#include "planned_pictures.hpp"
 #include "refusals.hpp"
 #include "scenes.hpp"
 
@@ -238,8 +238,7 @@ TEST_P(IrradianceCachePictures, HaveLampsBeyondTheFocusByHemicubes) {
 }
 
 // Where the light changes more records are made, and the picture errs less: below a small block in
-// a room that a spotlight lights by way of one wall. The product of the differences from two
-// independent pictures is the squared error without their noise.
+// a room that a spotlight lights by way of one wall.
 TEST_P(IrradianceCachePictures, ErrLessWithRefinedRecords) {
     Scene scene = test::plain_scene({0.7f, 0.6f, 0.5f});
     test::add_box(scene, {0, 0, 0}, {4, 3, 5}, -1);
@@ -252,9 +251,10 @@ TEST_P(IrradianceCachePictures, ErrLessWithRefinedRecords) {
     truth.height = cache_height;
     truth.samples = 512;
     truth.effects.emission = truth.effects.direct = false;
-    const test::Radiances first = tracer.render(scene.cameras[0], truth).radiance;
+    test::Twice twice;
+    twice.first = tracer.render(scene.cameras[0], truth).radiance;
     truth.seed = 2;
-    const test::Radiances second = tracer.render(scene.cameras[0], truth).radiance;
+    twice.second = tracer.render(scene.cameras[0], truth).radiance;
     IrradianceCacheOptions options = cache_options(30, 300);
     options.picture.direct = false;
     const auto squared_error = [&](int refined) {
@@ -262,13 +262,7 @@ TEST_P(IrradianceCachePictures, ErrLessWithRefinedRecords) {
         const CachePicture found = pictured(scene, options);
         EXPECT_LE(found.status.refined, static_cast<std::size_t>(refined));
         EXPECT_EQ(found.status.refined > 0, refined > 0);
-        double squares = 0.0;
-        for (std::size_t i = 0; i < found.radiance.size(); ++i) {
-            const double light = test::luminance_of(found.radiance[i]);
-            squares +=
-                (light - test::luminance_of(first[i])) * (light - test::luminance_of(second[i]));
-        }
-        return squares;
+        return std::pow(test::apart(found.radiance, twice).error, 2);
     };
     const double before = squared_error(0), after = squared_error(300);
     EXPECT_LT(after, 0.5 * before) << before;

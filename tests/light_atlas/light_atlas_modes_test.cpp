@@ -12,6 +12,7 @@
 #include "light_baking.hpp"
 #include "math_modes.hpp"
 #include "refusals.hpp"
+#include "rooms.hpp"
 
 namespace clgi {
 namespace {
@@ -44,6 +45,13 @@ void expect_same(const Baked& found, const Baked& wanted, const std::string& wha
     EXPECT_EQ(found.status.power_lost, wanted.status.power_lost) << what;
 }
 
+// Whose batches are small beside what is kept, however small the scene.
+LightAtlasOptions packets() {
+    LightAtlasOptions out = test::bake_options();
+    out.build.form = Form::packets;
+    return out;
+}
+
 // Buffers for the transport of one batch, but not of all VPLs; visibility: for that of all VPLs,
 // but not for what all texels see.
 std::size_t too_little_to_keep(const Bakery& bakery, LightAtlasOptions options,
@@ -65,8 +73,7 @@ const Bakery& small_room() {
 
 // The kinds of work: kept and all VPLs at a time, and what departs from it.
 std::vector<LightAtlasOptions> ways() {
-    LightAtlasOptions all = test::bake_options(), alone = all, poor = all, direct = all,
-                      drawn = all;
+    LightAtlasOptions all = packets(), alone = all, poor = all, direct = all, drawn = all;
     all.bounces = 3;
     alone.bounces = 0;
     alone.threshold = 0.01f;
@@ -97,7 +104,7 @@ TEST(LightAtlasShadows, AreSmallerWhereMoreLightsHaveThem) {
         }
         if (sky > 0) scene.environment = Environment{};
         const Bakery bakery(scene, {.vpls = 60, .atlas = 16});
-        LightAtlasOptions options = test::bake_options();
+        LightAtlasOptions options = packets();
         options.emitters.environment_lights = sky;
         const auto bytes = [&](int size) {
             options.emitters.shadow_size = size;
@@ -169,7 +176,7 @@ TEST_P(LightAtlasMode, KeepsTransportOrNotForAboutTheSameLight) {
 // What texels see is the same, looked up again or kept.
 TEST(LightAtlasModes, KeepVisibilityOrNotForTheSameBits) {
     for (const std::uint32_t bounces : {0u, 1u, 3u}) {
-        LightAtlasOptions options = test::bake_options();
+        LightAtlasOptions options = packets();
         options.bounces = bounces;
         const Baked kept = test::bake(small_room(), options);
         options.memory_budget = too_little_to_keep(small_room(), options, true);
@@ -182,21 +189,23 @@ TEST(LightAtlasModes, KeepVisibilityOrNotForTheSameBits) {
 
 // In batches of more VPLs, too, whose visibility is kept or not.
 TEST(LightAtlasModes, InGroupsGiveTheSameBits) {
-    LightAtlasOptions options = test::bake_options();
+    const Bakery room(test::furnished_room(3), {.vpls = 800, .atlas = 256});
+    LightAtlasOptions options = packets();
+    options.bounces = 2;
+    options.hemicube_size = 32;
     options.build.packet_width = 1;
-    options.build.form = Form::packets;
-    const Baked alone = test::bake(small_room(), options);
+    const Baked alone = test::bake(room, options);
     options.build.form = Form::groups;
-    expect_same(test::bake(small_room(), options), alone, "kept");
-    options.memory_budget = too_little_to_keep(small_room(), options, true);
-    const Baked drawn = test::bake(small_room(), options);
+    expect_same(test::bake(room, options), alone, "kept");
+    options.memory_budget = too_little_to_keep(room, options, true);
+    const Baked drawn = test::bake(room, options);
     EXPECT_FALSE(drawn.status.visibility_kept);
     expect_same(drawn, alone, "drawn again");
 }
 
 // Direct light alone bounces here: what surfaces are around is known all the same.
 TEST(LightAtlasModes, WithoutBouncesNeedNoTransportToFillTheAtlas) {
-    LightAtlasOptions options = test::bake_options();
+    LightAtlasOptions options = packets();
     options.bounces = 1;
     const Baked kept = test::bake(small_room(), options);
     options.memory_budget = too_little_to_keep(small_room(), options);
@@ -343,7 +352,7 @@ TEST_P(LightAtlasMode, CountsWhatIsNotFinite) {
 TEST(LightAtlasModes, RefuseWhatCannotWork) {
     const Bakery& bakery = small_room();
     const auto refused = [&](auto change) {
-        LightAtlasOptions options = test::bake_options();
+        LightAtlasOptions options = packets();
         change(options);
         return test::refusal<Error>([&] { bakery.solver(options); });
     };
@@ -358,7 +367,7 @@ TEST(LightAtlasModes, RefuseWhatCannotWork) {
     EXPECT_NE(refused([](Options& o) { o.hemicube_size = 2048; }).find("hemicube_size"),
               std::string::npos);
 
-    Options poor = test::bake_options();
+    Options poor = packets();
     poor.memory_budget = 100000;
     const std::string advice = test::refusal<DeviceError>([&] { bakery.solver(poor); });
     EXPECT_NE(advice.find("memory_budget allows 0.1 MB"), std::string::npos) << advice;

@@ -157,12 +157,14 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     b.samples.stride = s.sample_stride;
     b.texels.stride = b.texel_stride;
     // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits
-    // each. Groups are many: they need more views. Without maps a batch is what a report may wait
-    // for.
-    b.batch = !occludes(options.occlusion) ? unseen_vpls
-              : grouped && options.filling == Filling::gather
-                  ? std::min<std::uint32_t>(grouped_vpls, SEEN_VPLS * seen_rows(sites))
-                  : std::uint32_t{SEEN_VPLS};
+    // each. Groups are many: they need more views, where an eighth of the memory holds them.
+    // Without maps a batch is what a report may wait for.
+    const auto side = static_cast<std::size_t>(options.hemicube_size);
+    const std::size_t cube = 3 * side * side * pixel_bytes(filling_pixels(options));
+    b.batch = occludes(options.occlusion) ? std::uint32_t{SEEN_VPLS} : unseen_vpls;
+    if (grouped && occludes(options.occlusion) && options.filling == Filling::gather &&
+        grouped_vpls * cube <= budget / 8)
+        b.batch = std::min<std::uint32_t>(grouped_vpls, SEEN_VPLS * seen_rows(sites));
 
     BufferTable t("light-atlas");
     emitters.add_to(t);
@@ -201,9 +203,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     t.add(b.arg_max_scratch, "maxima of tiles", vpls, arg_max_scratch_bytes(sites));
     if (occludes(options.occlusion)) {
         t.add(b.views, "views", vpls, 5 * b.batch * sizeof(View));
-        const auto side = static_cast<std::size_t>(options.hemicube_size);
-        t.add(b.pixels, "hemicubes", "hemicube_size",
-              3 * b.batch * side * side * pixel_bytes(filling_pixels(options)));
+        t.add(b.pixels, "hemicubes", "hemicube_size", b.batch * cube);
     }
     add_mesh(t, b, scene, atlas.charts.size(), options);
     add_blocks(t, b, blocks);

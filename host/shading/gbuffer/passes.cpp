@@ -133,7 +133,7 @@ std::vector<std::uint32_t> GBufferPasses::stages(Pixels kind) const {
 
 bool GBufferPasses::prefers_raster_views(const ViewSpan& span, const DeviceScene&) const {
     // Views for all cores; a view and its depth should stay in the cache of one.
-    const std::size_t enough = groups_ ? (cores_ + 1) / 2 : 2 * cores_;
+    const std::size_t enough = groups_ ? std::max<std::size_t>(16, cores_ / 2) : 2 * cores_;
     return span.count >= enough && span.width <= 512 && span.height <= 512;
 }
 

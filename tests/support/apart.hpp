@@ -1,0 +1,40 @@
+// How far values are from what the path tracer finds.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace clgi::test {
+
+// Two estimates of one truth with different random numbers.
+struct Twice {
+    std::vector<glm::vec3> first, second;
+};
+
+struct Apart {
+    double error = 0.0;   // root of the mean squared difference, of the mean; 0 where noise hides it
+    double energy = 0.0;  // ratio of means
+};
+
+// In all channels. The product of the differences from both estimates is the squared difference
+// from the truth without their noise. counts: which values do; empty: all.
+inline Apart apart(const std::vector<glm::vec3>& found, const Twice& truth,
+                   const std::vector<bool>& counts = {}) {
+    double squares = 0.0, sum = 0.0, wanted = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (!counts.empty() && !counts[i]) continue;
+        const glm::dvec3 value(found[i]), a(truth.first[i]), b(truth.second[i]);
+        squares += glm::dot(value - a, value - b);
+        for (int c = 0; c < 3; ++c) {
+            sum += value[c];
+            wanted += 0.5 * (a[c] + b[c]);
+        }
+        count += 3.0;
+    }
+    return {std::sqrt(std::fmax(squares, 0.0) / count) / (wanted / count), sum / wanted};
+}
+
+}  // namespace clgi::test
