@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """What clgi does on the default OpenCL device: tests, pictures of every method, tables of the papers.
 
-    samples/gpu_day.py build/ out/ [--minutes 30] [--against FOLDER] [--scene FILE]
+    samples/gpu_day.py build/ out/ [--minutes 30] [--against FOLDER]
 
 Writes out/report.md, and pictures of the device in out/pictures. With --against, a folder of
 pictures that another device made (out/pictures of a run there), each is compared with its twin.
-Each part has a share of the time; what does not fit in it is named as not run.
+Each part has a share of the time. Pictures that do not fit in it are named; a test that ran out of it
+counts as failed, with that reason, and those behind it are missing from the sums.
 SPDX-License-Identifier: MIT
 """
 import argparse

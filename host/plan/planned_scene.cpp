@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <clgi/plan.hpp>
 
+#include "plan/local_scene.hpp"
 #include "plan/one_colour.hpp"
+#include "plan/reach.hpp"
 #include "scene/texture_mean.hpp"
 
 namespace clgi {
@@ -121,12 +123,19 @@ void drop_motion(Scene& scene, const Plan& plan) {
     if (!moves) scene.animation.reset();
 }
 
+// None where the picture reaches most of the scene.
+std::optional<Focus> focus_of(const Reach& reach) {
+    if (reach.size >= small_size && reach.area >= small_area && reach.power >= small_power)
+        return std::nullopt;
+    return Focus{reach.sphere.centre, 2.0 * reach.sphere.radius};
+}
+
 }  // namespace
 
-bool sees_little(const Plan& plan) {
-    if (!plan.reach) return false;
-    const Reach& reach = *plan.reach;
-    return reach.size < small_size || reach.area < small_area || reach.power < small_power;
+bool sees_little(const Plan& plan) { return plan.reach && focus_of(*plan.reach).has_value(); }
+
+std::optional<Focus> focus_of(const Scene& scene, const Camera& camera, int width, int height) {
+    return focus_of(reach_of(scene, LocalScene(scene), camera, width, height));
 }
 
 Scene planned_scene(const Scene& scene, const Plan& plan) {
@@ -145,8 +154,7 @@ Scene planned_scene(const Scene& scene, const Plan& plan) {
     }
     drop_unread(out);
     drop_motion(out, plan);
-    if (sees_little(plan))
-        out.focus = Focus{plan.reach->sphere.centre, 2.0 * plan.reach->sphere.radius};
+    if (sees_little(plan)) out.focus = focus_of(*plan.reach);
     return out;
 }
 

@@ -124,6 +124,9 @@ void run_render(RenderFlags flags) {
         return;
     }
     flags.options.method = *method_of(flags.method);
+    if (!flags.fps && !flags.orbit)
+        scene.focus = focus_of(scene, scene.cameras[static_cast<std::size_t>(flags.camera)],
+                               picture.width, picture.height);
     catch_interrupts();
     RenderAttempt attempt(flags, session, programs, gl ? &*gl : nullptr, scene, flags.options,
                           nullptr);

@@ -118,6 +118,11 @@ CLGI_API std::optional<Plan> next_plan(const cl::Device& device, const Plan& pla
 // all of it, and a probe by them, tell little of the picture.
 CLGI_API bool sees_little(const Plan& plan);
 
+// What a picture of width x height pixels reaches, where that is little of the scene: its focus
+// (Scene::focus). Throws InputError for a broken scene.
+CLGI_API std::optional<Focus> focus_of(const Scene& scene, const Camera& camera, int width,
+                                       int height);
+
 // The scene without the lights, emission, environment, gloss, textures, alpha masks and animation
 // whose effects are off. A texture of one colour is replaced by this colour. Textures that are no
 // longer read are dropped, and the others are renumbered. Where the picture sees little of the

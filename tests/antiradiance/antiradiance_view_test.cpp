@@ -187,12 +187,7 @@ void expect_reference(Scene scene, const Camera& camera, const AntiradianceOptio
     tracing.height = height;
     tracing.samples = 64;
     tracing.effects = reference::parse_effects("indirect");
-    const reference::PathTracer tracer(scene);
-    test::Twice truth;
-    truth.first = tracer.render(camera, tracing).radiance;
-    tracing.seed = 2;
-    truth.second = tracer.render(camera, tracing).radiance;
-    const test::Apart result = test::apart(found, truth);
+    const test::Apart result = test::apart(found, test::render_twice(scene, camera, tracing));
     EXPECT_LT(result.error, 0.2);
     EXPECT_NEAR(result.energy, 1.0, energy);
     testing::Test::RecordProperty("rel_rmse", std::to_string(result.error));

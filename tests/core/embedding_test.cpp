@@ -228,7 +228,9 @@ TEST(Dispatches, OfManyLightsChangeNoBit) {
     }));
     std::size_t gathers = 0;
     for (const PassEvent& pass : solver.events()) gathers += pass.name == "image.gather";
-    if (gathers == 1) GTEST_SKIP() << "one dispatch is short enough on this device";
+    if (gathers == 1 && !(test::device().device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU))
+        GTEST_SKIP() << "one dispatch is short enough on this device";
+    EXPECT_GT(gathers, 1u);
     EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
     EXPECT_EQ(seen.front(), 0.0);
     EXPECT_EQ(seen.back(), 1.0);

@@ -63,6 +63,11 @@ TEST(Reach, IsOneRoomOfMany) {
     EXPECT_NEAR(found.sphere.radius, alone.sphere.radius, 1e-3);
     EXPECT_LT(glm::distance(found.sphere.centre, alone.sphere.centre), 1e-3);
     EXPECT_LT(found.size, 0.1);
+    EXPECT_FALSE(focus_of(one, one.cameras[0], 160, 120));
+    const std::optional<Focus> focus = focus_of(many, many.cameras[0], 160, 120);
+    ASSERT_TRUE(focus);
+    EXPECT_NEAR(focus->radius, 2.0 * alone.sphere.radius, 2e-3);
+    EXPECT_LT(glm::distance(focus->centre, alone.sphere.centre), 1e-3);
 }
 
 TEST(Reach, SaysWhichLampsNothingSees) {

@@ -83,7 +83,7 @@ void expect_same_words(const Scene& world) {
     for (const BuildOptions& build :
          {BuildOptions{.packet_width = 1, .form = Form::packets, .local_size = 7},
           {.packet_width = 4, .form = Form::packets, .atomics64 = false},
-          {.form = Form::groups},
+          {.form = Form::groups, .local_size = 100},
           {.form = Form::groups, .local_size = 7, .atomics64 = false}}) {
         const GBufferPasses passes(test::programs(), build);
         for (const Way& way : {ways[1], ways[3], ways[4]}) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/reference.hpp>
 #include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
@@ -15,7 +16,7 @@ struct Twice {
 };
 
 struct Apart {
-    double error = 0.0;   // root of the mean squared difference, of the mean; 0 where noise hides it
+    double error = 0.0;  // root of the mean squared difference, of the mean; 0 where noise hides it
     double energy = 0.0;  // ratio of means
 };
 
@@ -34,7 +35,17 @@ inline Apart apart(const std::vector<glm::vec3>& found, const Twice& truth,
         }
         count += 3.0;
     }
-    return {std::sqrt(std::fmax(squares, 0.0) / count) / (wanted / count), sum / wanted};
+    if (squares < 0.0) squares = 0.0;  // what is no number stays so
+    return {std::sqrt(squares / count) / (wanted / count), sum / wanted};
+}
+
+inline Twice render_twice(const Scene& scene, const Camera& camera, reference::Options options) {
+    const reference::PathTracer tracer(scene);
+    Twice out;
+    out.first = tracer.render(camera, options).radiance;
+    ++options.seed;
+    out.second = tracer.render(camera, options).radiance;
+    return out;
 }
 
 }  // namespace clgi::test

@@ -48,12 +48,7 @@ test::Twice truth_of(const Scene& scene, int samples) {
     options.height = picture_height;
     options.samples = samples;
     options.effects = reference::parse_effects("emission,direct");
-    const reference::PathTracer tracer(scene);
-    test::Twice out;
-    out.first = tracer.render(scene.cameras[0], options).radiance;
-    options.seed = 2;
-    out.second = tracer.render(scene.cameras[0], options).radiance;
-    return out;
+    return test::render_twice(scene, scene.cameras[0], options);
 }
 
 // Pixels that show the environment itself are left out: both have it.

@@ -40,8 +40,9 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     };
     pick_ = few("pick");
     groups_ = in_groups(programs.device(), options);
-    link_ = few(groups_ ? "link_group" : "link");
+    link_ = few("link");
     if (groups_) {
+        link_ = programs.kernel("cache", "link_group", scalar(whole));  // a lane a pixel
         link_.name = "cache.link";
         link_.local_size =
             std::min<std::size_t>(options.local_size > 0 ? options.local_size : 32, 64);

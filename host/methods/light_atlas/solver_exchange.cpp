@@ -56,7 +56,10 @@ void LightAtlasSolver::State::bounce() {
     record("vpl.emit", n, [&](const WaitList& wait) {
         return vpl.emit(queue, shoot_params(0, n), b.sites, b.strongest, wait);
     });
-    const std::uint32_t batch = b.kept ? n : b.batch;
+    // Sums of as many VPLs whatever the form, so that light has the same bits.
+    const std::uint32_t batch = b.kept                        ? n
+                                : occludes(options.occlusion) ? std::uint32_t{SEEN_VPLS}
+                                                              : b.batch;
     for (std::uint32_t first = 0; first < n && !record.cancelled(); first += batch) {
         shoot(first, std::min(batch, n - first));
         if (!b.kept) record.report(0.4);

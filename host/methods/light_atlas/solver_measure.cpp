@@ -12,7 +12,7 @@ using namespace light_atlas;
 namespace {
 
 constexpr int balance_steps = 6;  // half-steps of both kinds; the factors differ by 1e-3 then
-constexpr std::uint32_t batches_a_report = 16;
+constexpr std::uint32_t vpls_a_report = 128, unseen_batches_a_report = 16;
 
 }  // namespace
 
@@ -67,14 +67,16 @@ void LightAtlasSolver::State::transport(std::uint32_t first, std::uint32_t count
 // where it was cancelled.
 void LightAtlasSolver::State::measure() {
     const std::uint32_t n = b.sites.site_count;
-    for (std::uint32_t batch = 0; measured_vpls < n && !record.cancelled(); ++batch) {
+    const std::uint32_t every =
+        occludes(options.occlusion) ? vpls_a_report : unseen_batches_a_report * b.batch;
+    while (measured_vpls < n && !record.cancelled()) {
         const std::uint32_t first = measured_vpls, count = std::min(b.batch, n - first);
         transport(first, count);
         if (b.seen_kept) see(first, count);
         if (!b.kept) balance_shooters(first, count);
         measured_vpls += count;
         // Who stops after the last batch stops after the factors: they are part of the state then.
-        if (batch % batches_a_report == 0 && measured_vpls < n)
+        if (first % every == 0 && measured_vpls < n)
             record.report(0.02 + (b.seen_kept ? 0.78 : 0.33) * measured_vpls / n);
     }
     if (b.kept) balance();

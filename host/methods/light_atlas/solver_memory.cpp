@@ -157,14 +157,16 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     b.samples.stride = s.sample_stride;
     b.texels.stride = b.texel_stride;
     // Maps of a batch should stay in the cache, and every core have views to draw. A row of bits
-    // each. Groups are many: they need more views, where an eighth of the memory holds them.
+    // each. Groups are many: they need more views, where a quarter of the memory holds them.
     // Without maps a batch is what a report may wait for.
     const auto side = static_cast<std::size_t>(options.hemicube_size);
     const std::size_t cube = 3 * side * side * pixel_bytes(filling_pixels(options));
     b.batch = occludes(options.occlusion) ? std::uint32_t{SEEN_VPLS} : unseen_vpls;
-    if (grouped && occludes(options.occlusion) && options.filling == Filling::gather &&
-        grouped_vpls * cube <= budget / 8)
-        b.batch = std::min<std::uint32_t>(grouped_vpls, SEEN_VPLS * seen_rows(sites));
+    const std::size_t of_batch = grouped_vpls * (cube + s.stride * sizeof(cl_half)) +
+                                 2 * seen_rows(grouped_vpls) * b.texel_stride;
+    grouped = grouped && occludes(options.occlusion) && options.filling == Filling::gather &&
+              of_batch <= std::min(budget / 4, largest);
+    if (grouped) b.batch = std::min<std::uint32_t>(grouped_vpls, SEEN_VPLS * seen_rows(sites));
 
     BufferTable t("light-atlas");
     emitters.add_to(t);
@@ -214,7 +216,7 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     const std::size_t row = s.stride * sizeof(cl_half);
     // What a batch sees has to fit beside the rows.
     const bool looked_up = occludes(options.occlusion) && options.filling == Filling::gather;
-    b.kept = fits(sites * row, looked_up ? b.texel_stride : 0);
+    b.kept = fits(sites * row, looked_up ? seen_rows(b.batch) * b.texel_stride : 0);
     t.add(b.rows, "rows of transport", vpls,
           (b.kept ? sites : std::min<std::size_t>(b.batch, sites)) * row);
     if (!looked_up) return t;
@@ -222,6 +224,9 @@ BufferTable table(Buffers& b, Emitters& emitters, const DeviceScene& scene, cons
     b.seen_kept = b.kept && fits(seen, 0);
     t.add(b.seen, "texels that VPLs see", "the number of VPLs or the size of the atlas",
           b.seen_kept ? seen : seen_rows(b.batch) * b.texel_stride);
+    if (grouped && t.bytes() > budget)  // smaller batches may fit
+        return table(b, emitters, scene, layout, atlas, points, blocks, options, false, budget,
+                     largest);
     return t;
 }
 

@@ -67,13 +67,15 @@ void LightAtlasSolver::restore(const LightAtlasState& state) {
     need_count("texels and points", state.texels, b.receiver_count);
     need_count("numbers for the balance of VPLs", state.balance.size(), BALANCE_PLANES * vpls);
     if (b.seen_kept) {
-        need_whole_batches("was measured", state.measured_vpls, state, b.batch);
+        need_whole_batches("was measured", state.measured_vpls, state,
+                           std::min<std::uint32_t>(b.batch, SEEN_VPLS));
         need_count("numbers of transport", state.rows.size(), state.measured_vpls * vpls);
         need_count("bytes of visibility", state.seen.size(),
                    seen_rows(state.measured_vpls) * texels);
         need_count("VPLs that have lit texels", state.filled_vpls, 0);
     } else {
-        need_whole_batches("ends", state.filled_vpls, state, b.batch);
+        need_whole_batches("ends", state.filled_vpls, state,
+                           std::min<std::uint32_t>(b.batch, SEEN_VPLS));
         need_count("numbers for the light of VPLs", state.light.size(), SITE_LIGHT_PLANES * vpls);
         need_count("numbers for irradiance", state.irradiance.size(), 3 * texels);
         need_count("numbers for form factors", state.filled.size(), texels);

@@ -16,20 +16,21 @@ enum class Math { strict, fast };
 // float in both. Layout: clgi/shared/planes.h.
 enum class Storage { full, half };
 
-// How a room's kernels are built. Results do not depend on packet_width or local_size. Passes that
-// share planes must have the same storage.
 // How the work of a kernel is laid out where it has both forms. packets: a work-item alone draws a
 // view or a tile, with vectors; for CPUs. groups: a group of work-items does so together; for GPUs.
-// automatic: what the environment variable CLGI_FORM says, else by the kind of device. Both give the
-// same bits.
+// automatic: what the environment variable CLGI_FORM says, else by the kind of device. Both give
+// the same bits.
 enum class Form { automatic, packets, groups };
 
+// How kernels are built. Results do not depend on packet_width, form or local_size. Passes that
+// share planes must have the same storage.
 struct BuildOptions {
     Math math = Math::strict;
     Storage storage = Storage::full;
-    int packet_width = 0;        // lanes of a packet: 1, 4, 8 or 16; 0: 1 in groups, else best for the device
+    int packet_width = 0;  // lanes of a packet: 1, 4, 8 or 16; 0: best for device and form
     Form form = Form::automatic;
-    std::size_t local_size = 0;  // work-items in a group; 0: 64, or the device's limit
+    std::size_t local_size = 0;  // work-items in a group, or as many as a kernel and the device
+                                 // allow; 0: what suits each kernel
     bool atomics64 = true;       // use 64-bit atomics where the device has them
     bool parallel = true;        // compile several kernels at a time, if the driver can
     bool textures = true;        // false compiles faster, for scenes without textures and
@@ -38,9 +39,8 @@ struct BuildOptions {
 
 inline bool operator==(const BuildOptions& a, const BuildOptions& b) {
     return a.math == b.math && a.storage == b.storage && a.packet_width == b.packet_width &&
-           a.form == b.form &&
-           a.local_size == b.local_size && a.atomics64 == b.atomics64 && a.parallel == b.parallel &&
-           a.textures == b.textures;
+           a.form == b.form && a.local_size == b.local_size && a.atomics64 == b.atomics64 &&
+           a.parallel == b.parallel && a.textures == b.textures;
 }
 inline bool operator!=(const BuildOptions& a, const BuildOptions& b) { return !(a == b); }
 
