@@ -10,8 +10,8 @@
 // t: trilinear in x. y = x + VOLUME_LIFT n, off its own surface. d_k: distance of y from the point.
 // m, s^2: mean and variance of the distances of surfaces that the point sees along -to_k, so v_k is
 // Chebyshev's bound of the share of them beyond y. A sum of no weights is no light.
-//            [derived: interpolation of Greger98 with the weights of Majercik19, moment-based filtered
-//             queries; w by a spherical design]
+//            [derived: Greger98, interpolation; Majercik19, moment-based filtered queries]
+// w comes from a spherical design.
 //
 // Unlike paper: points in solid matter have no light, and weights below 0.2 are not made smaller.
 //

@@ -74,7 +74,7 @@ TEST_P(HemicubeEdges, SeesNoFloorBehindTheWallThatStandsOnIt) {
         }
     }
     EXPECT_EQ(seen_far, 0);
-    EXPECT_LT(seen_close, 0.065 * close);
+    EXPECT_LT(seen_close, 0.06 * close);
     EXPECT_GT(seen_before, 0.993 * before);
     EXPECT_GT(far, 3000);
     EXPECT_GT(close, 3000);
