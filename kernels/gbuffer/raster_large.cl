@@ -8,15 +8,7 @@
 // SPDX-License-Identifier: MIT
 #include "gbuffer/tile.clh"
 
-kernel void gbuffer_raster_large(
-    const RasterParams            params,
-    global const View*            restrict views,     // [first_view + views]
-    global const RasterPolygon*   restrict polygons,  // [views][capacity]
-    global const RasterRun*       restrict runs,      // [views][capacity]
-    global const RasterCount*     restrict counts,    // [views]
-    SCENE_ARGUMENTS,
-    global PixelWord*             restrict visibility)  // [pixels of all views]
-{
+kernel void gbuffer_raster_large(RASTER_LARGE_ARGUMENTS) {
     uint slot = (uint)get_global_id(1);
     uint run_count = counts[slot].runs;
     if (run_count == 0) return;

@@ -9,15 +9,7 @@
 
 #define MOST_LANES 64
 
-kernel void gbuffer_raster_large_group(
-    const RasterParams            params,
-    global const View*            restrict views,     // [first_view + views]
-    global const RasterPolygon*   restrict polygons,  // [views][capacity]
-    global const RasterRun*       restrict runs,      // [views][capacity]
-    global const RasterCount*     restrict counts,    // [views]
-    SCENE_ARGUMENTS,
-    global PixelWord*             restrict visibility)  // [pixels of all views]
-{
+kernel void gbuffer_raster_large_group(RASTER_LARGE_ARGUMENTS) {
     local uint found[MOST_LANES];
     local uint found_count;
     uint slot = (uint)get_global_id(1);

@@ -43,14 +43,7 @@ static void draw_cluster(const View* view, const RasterParams* params, uint clus
     }
 }
 
-kernel void gbuffer_raster_views(
-    const RasterParams     params,
-    const uint             view_count,
-    global const View*     restrict views,       // [first_view + view_count]
-    global const Cluster*  restrict clusters,    // [cluster_count]
-    SCENE_ARGUMENTS,
-    global PixelWord*      restrict visibility)  // [pixels of all views]
-{
+kernel void gbuffer_raster_views(RASTER_VIEWS_ARGUMENTS) {
     uint item = (uint)get_global_id(0);
     if (item >= view_count) return;
     View view = views[params.first_view + item];

@@ -42,14 +42,7 @@ static void draw_large(const View* view, const RasterParams* params, uint stage,
     }
 }
 
-kernel void gbuffer_raster_views_group(
-    const RasterParams     params,
-    const uint             view_count,
-    global const View*     restrict views,       // [first_view + view_count]
-    global const Cluster*  restrict clusters,    // [cluster_count]
-    SCENE_ARGUMENTS,
-    global PixelWord*      restrict visibility)  // [pixels of all views]
-{
+kernel void gbuffer_raster_views_group(RASTER_VIEWS_ARGUMENTS) {
     local uint seen[MOST_LANES], large[MOST_LANES];
     local uint seen_count, large_count;
     local RasterPolygon polygons[MOST_POLYGONS];

@@ -188,7 +188,7 @@ void expect_reference(Scene scene, const Camera& camera, const AntiradianceOptio
     tracing.samples = 64;
     tracing.effects = reference::parse_effects("indirect");
     const test::Apart result = test::apart(found, test::render_twice(scene, camera, tracing));
-    EXPECT_LT(result.error, 0.2);
+    EXPECT_LT(result.high, 0.2);
     EXPECT_NEAR(result.energy, 1.0, energy);
     testing::Test::RecordProperty("rel_rmse", std::to_string(result.error));
     testing::Test::RecordProperty("energy", std::to_string(result.energy));

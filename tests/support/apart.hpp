@@ -17,6 +17,7 @@ struct Twice {
 
 struct Apart {
     double error = 0.0;  // root of the mean squared difference, of the mean; 0 where noise hides it
+    double high = 0.0;   // the same with two standard errors of the square more
     double energy = 0.0;  // ratio of means
 };
 
@@ -24,11 +25,13 @@ struct Apart {
 // from the truth without their noise. counts: which values do; empty: all.
 inline Apart apart(const std::vector<glm::vec3>& found, const Twice& truth,
                    const std::vector<bool>& counts = {}) {
-    double squares = 0.0, sum = 0.0, wanted = 0.0, count = 0.0;
+    double squares = 0.0, fourths = 0.0, sum = 0.0, wanted = 0.0, count = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (!counts.empty() && !counts[i]) continue;
         const glm::dvec3 value(found[i]), a(truth.first[i]), b(truth.second[i]);
-        squares += glm::dot(value - a, value - b);
+        const double square = glm::dot(value - a, value - b);
+        squares += square;
+        fourths += square * square;
         for (int c = 0; c < 3; ++c) {
             sum += value[c];
             wanted += 0.5 * (a[c] + b[c]);
@@ -36,7 +39,8 @@ inline Apart apart(const std::vector<glm::vec3>& found, const Twice& truth,
         count += 3.0;
     }
     if (squares < 0.0) squares = 0.0;  // what is no number stays so
-    return {std::sqrt(squares / count) / (wanted / count), sum / wanted};
+    const double high = squares + 2.0 * std::sqrt(fourths), mean = wanted / count;
+    return {std::sqrt(squares / count) / mean, std::sqrt(high / count) / mean, sum / wanted};
 }
 
 inline Twice render_twice(const Scene& scene, const Camera& camera, reference::Options options) {

@@ -66,6 +66,19 @@ PassKernel in_small_groups(PassKernel pass, const cl::Device& device, const Buil
     return pass;
 }
 
+PassKernel group_form(const Programs& programs, const std::string& folder, const std::string& pass,
+                      const BuildOptions& options, const std::string& defines, std::size_t lanes,
+                      std::size_t most) {
+    PassKernel out = programs.kernel(folder, pass + "_group", options, defines);
+    out.name = folder + "." + pass;
+    out.local_size = std::min(options.local_size > 0 ? options.local_size : lanes, most);
+    return out;
+}
+
+std::size_t items_each(const PassKernel& pass, bool grouped) {
+    return grouped ? group_size(pass) : 1;
+}
+
 struct Programs::Store {
     std::mutex mutex;
     std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file and options

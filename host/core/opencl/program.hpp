@@ -5,6 +5,7 @@
 #include <clgi/advanced/pass.hpp>
 #include <clgi/programs.hpp>
 #include <initializer_list>
+#include <string>
 #include <vector>
 
 namespace clgi {
@@ -15,6 +16,15 @@ PassKernel in_small_groups(PassKernel pass, const cl::Device& device, const Buil
 
 // Whether kernels that have a form for groups are built in it.
 bool in_groups(const cl::Device& device, const BuildOptions& options);
+
+// The form for groups of a pass, kernel <pass>_group: with so many lanes unless the options chose,
+// and at most `most`, for which its lists in local memory have room. It keeps the name of the pass.
+PassKernel group_form(const Programs& programs, const std::string& folder, const std::string& pass,
+                      const BuildOptions& options, const std::string& defines, std::size_t lanes,
+                      std::size_t most);
+
+// Work-items that a pass has for each item: those of a group, or one.
+std::size_t items_each(const PassKernel& pass, bool grouped);
 
 // Builds those of a room's kernels whose names, without the room's, are given.
 // Throws Error for a name that is not among them.

@@ -40,13 +40,9 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     };
     pick_ = few("pick");
     groups_ = in_groups(programs.device(), options);
-    link_ = few("link");
-    if (groups_) {
-        link_ = programs.kernel("cache", "link_group", scalar(whole));  // a lane a pixel
-        link_.name = "cache.link";
-        link_.local_size =
-            std::min<std::size_t>(options.local_size > 0 ? options.local_size : 32, 64);
-    }
+    link_ = groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32,
+                                 64)  // a lane a pixel
+                    : few("link");
     bounce_ = few("bounce");
     weigh_ = few("weigh");
     show_ = programs.kernel("cache", "show", options);
@@ -84,10 +80,10 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
     need_range("cache.link", "whole_emitters", params.whole_emitters, 0u, params.emitter_count);
     need_depth_words(link_, 1, emitters.kind);
     need_emitters(link_, emitters, params.emitter_count);
-    const std::size_t lanes = groups_ ? group_size(link_) : 1;
-    return launch(link_, queue, params.count * lanes, wait, params, tree, scene.info(), b.views,
-                  b.visibility, b.nodes, b.lists, b.planes, b.sky, scene, emitters.emitters,
-                  emitters.views, emitters.visibility, b.rows, b.base, b.reflected);
+    return launch(link_, queue, params.count * items_each(link_, groups_), wait, params, tree,
+                  scene.info(), b.views, b.visibility, b.nodes, b.lists, b.planes, b.sky, scene,
+                  emitters.emitters, emitters.views, emitters.visibility, b.rows, b.base,
+                  b.reflected);
 }
 
 cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,

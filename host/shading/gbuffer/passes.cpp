@@ -100,12 +100,8 @@ GBufferPasses::GBufferPasses(const Programs& programs, const BuildOptions& optio
         kind->clear = kernel("clear", defines);
         kind->raster = few("raster");
         kind->raster_late = few("raster_late");
-        // The kernels for groups have lists in local memory, for at most so many lanes.
-        const auto grouped = [&](const std::string& pass, std::size_t lanes, std::size_t most) {
-            PassKernel out = kernel((pass + "_group").c_str(), defines);
-            out.name = "gbuffer." + pass;
-            out.local_size = std::min(options.local_size > 0 ? options.local_size : lanes, most);
-            return out;
+        const auto grouped = [&](const char* pass, std::size_t lanes, std::size_t most) {
+            return group_form(programs, "gbuffer", pass, options, defines, lanes, most);
         };
         kind->raster_large = groups_ ? grouped("raster_large", 32, 64) : few("raster_large");
         kind->raster_views =
@@ -214,8 +210,7 @@ cl::Event GBufferPasses::raster_large(const cl::CommandQueue& queue, const ViewS
     need_lists(pass, span, buffers, scene.info().triangle_count);
     const std::size_t across = (span.width + RASTER_TILE - 1) / RASTER_TILE;
     const std::size_t down = (span.height + RASTER_TILE - 1) / RASTER_TILE;
-    const std::size_t lanes = groups_ ? group_size(pass) : 1;
-    return launch_rows(pass, queue, across * down * lanes, span.count, wait,
+    return launch_rows(pass, queue, across * down * items_each(pass, groups_), span.count, wait,
                        raster_params(span, scene, RASTER_FUSED, buffers), views, buffers.polygons,
                        buffers.runs, buffers.counts, scene, buffers.pixels);
 }
@@ -227,8 +222,7 @@ cl::Event GBufferPasses::raster_views(const cl::CommandQueue& queue, const ViewS
     const PassKernel& pass = drawing(kind).raster_views;
     need_textures(pass, scene, textures_);
     need_views(pass, span, views, pixels, kind);
-    const std::size_t lanes = groups_ ? group_size(pass) : 1;
-    return launch(pass, queue, span.count * lanes, wait,
+    return launch(pass, queue, span.count * items_each(pass, groups_), wait,
                   raster_params(span, scene, RASTER_FUSED, {}), span.count, views, scene.clusters(),
                   scene, pixels);
 }
