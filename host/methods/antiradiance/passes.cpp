@@ -89,8 +89,8 @@ cl::Event AntiradiancePasses::pull(const cl::CommandQueue& queue, const ElementP
     need_list(pull_, params, list, links);
     need(pull_, "next_powers", rows.next_powers, links.element_count * sizeof(glm::vec4));
     need(pull_, "next", rows.next, intensity_bytes(links.row_count));
-    return launch(pull_, queue, std::size_t{params.count} * items_, wait, params, list, links.elements, rows.next_powers,
-                  rows.next);
+    return launch(pull_, queue, std::size_t{params.count} * items_, wait, params, list,
+                  links.elements, rows.next_powers, rows.next);
 }
 
 cl::Event AntiradiancePasses::turn(const cl::CommandQueue& queue, const LeafPointParams& params,

@@ -40,9 +40,9 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     };
     pick_ = few("pick");
     groups_ = in_groups(programs.device(), options);
-    link_ = groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32,
-                                 64)  // a lane a pixel
-                    : few("link");
+    // A lane a pixel.
+    link_ =
+        groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32, 64) : few("link");
     bounce_ = few("bounce");
     weigh_ = few("weigh");
     show_ = programs.kernel("cache", "show", options);
