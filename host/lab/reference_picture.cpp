@@ -46,7 +46,8 @@ std::string picture_key(const std::string& scene, const Camera& camera,
     Hash hash;
     hash.add(tracer_version, scene, camera.kind, camera.position, camera.right, camera.up,
              camera.forward, camera.vertical_fov, camera.half_height, camera.near, options.width,
-             options.height, options.samples, options.target, options.seed, options.roulette_depth);
+             options.height, options.samples, options.target, options.seed, options.roulette_depth,
+             options.filter);
     return hash.text();
 }
 

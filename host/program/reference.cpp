@@ -15,6 +15,7 @@
 #include "program/percent.hpp"
 #include "program/picture.hpp"
 #include "program/session.hpp"
+#include "program/verify.hpp"
 #include "program/version.hpp"
 
 namespace clgi::program {
@@ -30,6 +31,7 @@ struct ReferenceFlags {
     reference::Options options;
     std::string effects;
     std::string error;
+    std::string filter = "center";
     int scene_index = -1;
     int camera = 0;
     std::string stats;
@@ -97,6 +99,7 @@ void save_stats(const Outcome& outcome, const Scene& scene, const ReferenceFlags
 void run_reference(ReferenceFlags flags) {
     check_picture("reference", flags.picture, flags.options.width, flags.options.height);
     flags.options.effects = reference::parse_effects(flags.effects);
+    flags.options.filter = filter_of(flags.filter);
     if (!flags.error.empty())
         flags.options.target = parse_percent("reference", "--error", flags.error);
     Scene scene =
@@ -170,6 +173,7 @@ void add_reference(CLI::App& app) {
                      "unshadowed-indirect,diffuse,diffuse-indirect")
         ->type_name("LIST")
         ->default_str("all");
+    add_filter_flag(*command, flags->filter);
     command->add_option("--seed", flags->options.seed, "Seed of the random numbers")
         ->type_name("N");
     command

@@ -22,14 +22,10 @@ constexpr unsigned all_methods = of_direct | of_second_order | of_light_atlas | 
 
 // Options that a plan keeps where flags set them.
 bool plan_keeps(const OptionRow& row) {
-    for (const char* name : {"shadow-size", "face-size", "area-samples", "math", "storage"})
+    for (const char* name :
+         {"shadow-size", "face-size", "area-samples", "samples", "math", "storage"})
         if (row.name == name) return true;
     return false;
-}
-
-bool is_given(const RenderFlags& flags, const std::string& name) {
-    return std::any_of(flags.given.begin(), flags.given.end(),
-                       [&](const OptionRow* row) { return row->name == name; });
 }
 
 // Options of second-order illumination choose it, and so do a G-buffer by OpenGL and the time of a
@@ -74,6 +70,8 @@ void check(const RenderFlags& flags) {
     refuse(flags.gbuffer != "cl" && !second_order, "--gbuffer gl goes not with --method " + method);
     refuse(method == "direct" && tunes,
            "--method direct has no settings to find; it excludes --target-error and --frame-time");
+    refuse(is_given(flags, "samples") && (flags.gbuffer == "gl" || flags.replicates > 1),
+           "--samples goes not with --gbuffer gl or --replicates");
     const bool asks = tunes || !ask.time_budget.empty();
     refuse(flags.gbuffer == "gl" && (asks || flags.replicates > 1),
            "--gbuffer gl excludes --replicates, --target-error, --time-budget and --frame-time");

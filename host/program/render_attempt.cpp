@@ -14,10 +14,13 @@
 namespace clgi::program {
 namespace {
 
+// With more in its first line.
 std::string with_check(std::string text, const RenderRecord& record) {
-    if (record.verified)  // in the first line
-        text.insert(std::min(text.find('\n'), text.size()), ", " + verify_line(*record.verified));
-    return text;
+    std::string more;
+    if (record.samples > 1) more = fmt::format(", {} samples", record.samples);
+    if (record.refine_ms > 0.0) more += fmt::format(" in {:.3g} ms more", record.refine_ms);
+    if (record.verified) more += ", " + verify_line(*record.verified);
+    return text.insert(std::min(text.find('\n'), text.size()), more);
 }
 
 bool go_on(double) { return !interrupted(); }
@@ -28,6 +31,11 @@ bool renders_once(const RenderFlags& flags) {
     const bool asks = !flags.ask.time_budget.empty() ||
                       (flags.method == "auto" && !flags.ask.target_error.empty());
     return asks && flags.frames == 1 && !flags.fps;
+}
+
+bool is_still(const RenderFlags& flags) {
+    return flags.frames == 1 && !flags.fps && !flags.orbit && !flags.spin_light &&
+           flags.replicates < 2 && flags.gbuffer == "cl";
 }
 
 RenderAttempt::RenderAttempt(const RenderFlags& flags, const Session& session,
@@ -94,6 +102,23 @@ void RenderAttempt::follow(const Motion::Step& step, bool vectors) {
         renderer_.geometry_changed();
 }
 
+void RenderAttempt::refine(double seconds, std::uint32_t least, double error) {
+    constexpr std::uint32_t most = 1024;
+    if (!is_still(flags_) || is_given(flags_, "samples")) return;
+    const double limit = 1e3 * seconds;
+    double& spent = record_.refine_ms;
+    std::uint32_t looked = 2;  // at the error
+    for (double last = 0.0; renderer_.samples() < most && !interrupted(); spent += last) {
+        if (renderer_.samples() >= least && spent + last >= limit) break;
+        if (renderer_.samples() >= std::max(least, 2 * looked)) {
+            looked = renderer_.samples();
+            if (renderer_.sampling_error() <= error) break;
+        }
+        last = lab::time_frame(session_.queue, [&] { renderer_.refine(); });
+    }
+    picture_ = lab::radiance_picture(renderer_);
+}
+
 // A frame's time has all in it that follows from the lights and the pose: of a bake, only what has
 // changed.
 void RenderAttempt::render(int frame) {
@@ -134,6 +159,8 @@ void RenderAttempt::check(const Scene& truth, double decide) {
         verify(truth, flags_.verify, spent,
                [&](const reference::PathTracer& tracer, reference::VerifyOptions options) {
                    options.decide = decide;
+                   options.filter =
+                       renderer_.samples() > 1 ? reference::Filter::box : reference::Filter::center;
                    if (decide > 0.0 && flags_.verify.time.empty())
                        options.seconds = std::max(least, share * seconds());
                    return tracer.verify(last_camera_, picture_.width, picture_.height,
@@ -145,6 +172,8 @@ void RenderAttempt::check(const Scene& truth, double decide) {
 void RenderAttempt::finish(const std::vector<RenderedAttempt>& attempts, bool meets_target,
                            std::optional<double> used) {
     if (record_.verified) add_verified(picture_, *record_.verified);
+    picture_.attributes["clgi:samples"] = std::to_string(renderer_.samples());
+    picture_.attributes["clgi:filter"] = renderer_.samples() > 1 ? "box" : "center";
     if (!flags_.fps) save_picture(picture_, flags_.picture);
     motion_.report();
     record_.attempts = attempts;

@@ -18,6 +18,9 @@ namespace clgi::program {
 // is asked for all of it.
 bool renders_once(const RenderFlags& flags);
 
+// Whether one picture is asked for, and no animation or measurement.
+bool is_still(const RenderFlags& flags);
+
 class RenderAttempt {
 public:
     // scene: what is left of it by the plan, which is null without one. gl: null, or what draws the
@@ -28,6 +31,10 @@ public:
 
     // All frames; with --fps they are saved, too. Throws Interrupted.
     void draw();
+    // More samples for the only frame, until they differ from their mean by no more than `error`, or
+    // as many as take so many seconds; at least `least` together with its own, whatever they take,
+    // and at most 1024. None where their number was given.
+    void refine(double seconds, std::uint32_t least, double error);
     // Measures the error against all light of a scene. decide: as in VerifyOptions.
     void check(const Scene& truth, double decide);
     // Saves the picture of the last frame; warnings, a line of the result and --stats. attempts:
@@ -36,7 +43,8 @@ public:
                 std::optional<double> used = std::nullopt);
 
     const RenderRecord& record() const { return record_; }
-    double seconds() const;  // that the picture took, with all before it
+    double seconds() const;  // that the first samples took, with all before them
+    double refining() const { return 1e-3 * record_.refine_ms; }
 
 private:
     void warm_up();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <clgi/renderer.hpp>
 #include <optional>
 #include <string>
@@ -42,5 +43,10 @@ struct RenderFlags {
     PlanFlags plan;
     bool plan_given = false;  // some of its flags
 };
+
+inline bool is_given(const RenderFlags& flags, const std::string& name) {
+    return std::any_of(flags.given.begin(), flags.given.end(),
+                       [&](const OptionRow* row) { return row->name == name; });
+}
 
 }  // namespace clgi::program

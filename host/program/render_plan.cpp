@@ -81,6 +81,18 @@ bool is_better(const reference::Verification& found,
     return !than || found.error.value < than->error.value;
 }
 
+// The rest of a budget, or half as much as what came before; for an error that is asked for, what
+// it takes, within limits.
+void refine(RenderAttempt& attempt, std::optional<double> left, std::optional<double> target) {
+    constexpr double fine = 2e-3, share = 0.4;  // relative errors; of the target
+    if (target)
+        attempt.refine(std::max(2.0, 2.0 * attempt.seconds()), 4, share * *target);
+    else if (left)
+        attempt.refine(*left, 1, fine);
+    else
+        attempt.refine(0.5 * attempt.seconds(), 4, fine);
+}
+
 std::string missed(double target, const std::optional<reference::Verification>& found) {
     std::string out = fmt::format("the target error of {:.3g} % is not reached", 100.0 * target);
     if (!found) return out + ": the picture was not checked";
@@ -145,6 +157,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         options.animated = flags.options.animated;
         options.clip = flags.options.clip;
         options.transfer.coarse = flags.options.transfer.coarse;
+        options.samples = flags.options.samples;
         std::unique_ptr<RenderAttempt> attempt;
         try {
             attempt = std::make_unique<RenderAttempt>(flags, session, programs, nullptr,
@@ -160,6 +173,11 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         }
         spent += attempt->seconds();
         if (budget) next = use_rest(session.device, *planned, attempt->seconds(), *budget - spent);
+        if (!next) {
+            refine(*attempt, budget ? std::optional<double>(*budget - spent) : std::nullopt,
+                   target);
+            spent += attempt->refining();
+        }
         if (target || (flags.verify.on && !next)) attempt->check(scene, target.value_or(0.0));
         const auto& verified = attempt->record().verified;
         attempts.push_back({plan_settings(plan), plan.error, verified, attempt->seconds()});
@@ -172,7 +190,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
     }
     if (!target && !budget) attempts.clear();
     if (target && !found) notice(false, "warning: " + missed(*target, best->record().verified));
-    if (budget && spent > *budget)
+    if (budget && spent > 1.02 * *budget)
         notice(false, fmt::format("warning: {:.3g} s of the {:.3g} s of --time-budget were used",
                                   spent, *budget));
     best->finish(attempts, found || !target, budget ? std::optional<double>(spent) : std::nullopt);

@@ -40,6 +40,7 @@ void fill(RenderRecord& record, const Renderer& renderer, const Scene& scene) {
     record.triangles = scene.triangles.size();
     record.lights = renderer.emitters().emitters.size();
     record.effects = effects_of(renderer);
+    record.samples = renderer.samples();
     const RendererStatus status = renderer.status();
     record.status.non_finite = status.non_finite;
     record.warnings.insert(record.warnings.end(), status.warnings.begin(), status.warnings.end());

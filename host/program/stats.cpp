@@ -61,6 +61,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         {"effects", record.effects},
         {"frames", record.frame_ms.size()},
         {"frame_ms", {{"min", frame.min}, {"median", frame.median}, {"max", frame.max}}},
+        {"samples", {{"count", record.samples}, {"refine_ms", record.refine_ms}}},
         {"passes", passes_json(record.passes)},
         {"memory_mb", static_cast<double>(record.bytes) / 1e6},
         {"build_ms", record.build_ms},

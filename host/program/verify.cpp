@@ -121,6 +121,18 @@ ordered_json verify_json(const Verification& found) {
     return out;
 }
 
+void add_filter_flag(CLI::App& command, std::string& filter) {
+    command
+        .add_option("--filter", filter,
+                    "What of a pixel is looked through: its centre, or all of it (box)")
+        ->type_name("WHAT")
+        ->check(CLI::IsMember({"center", "box"}));
+}
+
+reference::Filter filter_of(const std::string& name) {
+    return name == "box" ? reference::Filter::box : reference::Filter::center;
+}
+
 void add_verified(io::Image& picture, const Verification& found) {
     const auto add = [&](const std::string& name, const Estimate& estimate) {
         picture.attributes[name] = fmt::format("{:.6g}", estimate.value);

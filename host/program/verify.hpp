@@ -20,6 +20,10 @@ struct VerifyFlags {
 // what: that is checked, such as "picture".
 void add_verify_flag(CLI::App& command, VerifyFlags& flags, const std::string& what);
 
+// What of a pixel is looked through; empty: what the picture says, else its centre.
+void add_filter_flag(CLI::App& command, std::string& filter);
+reference::Filter filter_of(const std::string& name);
+
 // Throws Error that begins with the command's name for a time that is none.
 void check_verify(const std::string& command, const VerifyFlags& flags);
 

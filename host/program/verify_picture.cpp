@@ -25,6 +25,7 @@ struct VerifyPictureFlags {
     AnimationFlags animation;
     std::string time = "2s";
     std::string effects;
+    std::string filter;
     std::uint64_t seed = 1;
     int scene_index = -1;
     int camera = 0;
@@ -49,6 +50,10 @@ void run_verify(const VerifyPictureFlags& flags) {
     options.seed = flags.seed;
     options.effects = reference::parse_effects(flags.effects);
     const io::Image picture = read_radiance(flags.picture);
+    const auto says = picture.attributes.find("clgi:filter");
+    options.filter = filter_of(!flags.filter.empty()              ? flags.filter
+                               : says != picture.attributes.end() ? says->second
+                                                                  : "center");
     Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.quiet);
     pose_scene("verify", flags.animation, scene);
     check_camera("verify", flags.camera, scene);
@@ -88,6 +93,8 @@ void add_verify(CLI::App& app) {
                      "Light paths that count, as those of clgi reference")
         ->type_name("LIST")
         ->default_str("all");
+    add_filter_flag(*command, flags->filter);
+    command->get_option("--filter")->default_str("what the picture says, else center");
     command->add_option("--seed", flags->seed, "Seed of the random numbers")->type_name("N");
     command->add_flag("--json", flags->json, "Print JSON");
     add_quiet_flag(*command, flags->quiet);

@@ -122,7 +122,7 @@ Picture PathTracer::render(const Camera& camera, const Options& options,
     const auto start = std::chrono::steady_clock::now();
     const Paths paths = world_->paths(options);
     const PixelLight light(world_->geometry, world_->tracer, paths, camera, options.width,
-                           options.height);
+                           options.height, options.filter);
     std::vector<Tally> tallies(static_cast<std::size_t>(options.width) *
                                static_cast<std::size_t>(options.height));
 

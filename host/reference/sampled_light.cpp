@@ -28,11 +28,13 @@ Hit PixelLight::texture_place(float x, float y, const Hit& seen, Random& random)
 glm::vec3 PixelLight::operator()(std::size_t pixel, Random& random) const {
     const auto x = static_cast<float>(pixel % width_);
     const auto y = static_cast<float>(pixel / width_);
-    const Ray ray = rays_.through(x + 0.5f, y + 0.5f);
+    const bool whole = filter_ == Filter::box;
+    const float right = whole ? random() : 0.5f, down = whole ? random() : 0.5f;
+    const Ray ray = rays_.through(x + right, y + down);
     const std::optional<Hit> hit = tracer_.first(ray, true);
     const glm::vec3 direction = glm::normalize(ray.direction);
     if (!hit) return paths_.background(direction);
-    const Hit place = texture_place(x, y, *hit, random);
+    const Hit place = whole ? *hit : texture_place(x, y, *hit, random);
     return paths_.sample(surface_at(geometry_, *hit, direction, place), direction, random);
 }
 

@@ -7,16 +7,17 @@
 
 namespace clgi::reference {
 
-// Samples of the radiance of pixels, cd/m^2. Rays go through their centres.
+// Samples of the radiance of pixels, cd/m^2.
 class PixelLight {
 public:
     PixelLight(const Geometry& geometry, const Tracer& tracer, const Paths& paths,
-               const Camera& camera, int width, int height)
+               const Camera& camera, int width, int height, Filter filter)
         : geometry_(geometry),
           tracer_(tracer),
           paths_(paths),
           rays_(camera, geometry, width, height),
-          width_(static_cast<std::size_t>(width)) {}
+          width_(static_cast<std::size_t>(width)),
+          filter_(filter) {}
 
     // pixel: row * width + column.
     glm::vec3 operator()(std::size_t pixel, Random& random) const;
@@ -29,6 +30,7 @@ private:
     const Paths& paths_;
     CameraRays rays_;
     std::size_t width_;
+    Filter filter_;
 };
 
 // A sample of the irradiance of a place, lux.

@@ -318,7 +318,8 @@ Verification PathTracer::verify(const Camera& camera, int width, int height,
     const Brightness brightness =
         brightness_of(radiance, static_cast<std::size_t>(width), static_cast<std::size_t>(height));
     const Paths paths = world_->paths(tracing);
-    const PixelLight light(world_->geometry, world_->tracer, paths, camera, width, height);
+    const PixelLight light(world_->geometry, world_->tracer, paths, camera, width, height,
+                           options.filter);
     return Verifier(brightness, options, progress,
                     [&](std::size_t pixel, Random& random) { return light(pixel, random); })
         .run();

@@ -266,8 +266,14 @@ void Cache::reconfigure(const ViewSetup& s) {
         std::make_unique<IrradianceCache>(s.programs, s.queue, s.device, cache_options(s.options));
 }
 
+void Cache::sample(std::uint32_t index) {
+    again_ = index > 0;
+    solver->sample(index);
+}
+
 cl::Event Cache::render(const Camera& camera, const WaitList& wait) {
-    return solver->render(camera, joined(std::exchange(moves_, {}), wait));
+    const WaitList all = joined(std::exchange(moves_, {}), wait);
+    return again_ ? solver->render_again(camera, all) : solver->render(camera, all);
 }
 
 void Cache::add_passes(std::vector<PassEvent>& passes) const { append(passes, solver->events()); }

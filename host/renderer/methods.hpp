@@ -36,6 +36,7 @@ public:
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
     void reconfigure(const ViewSetup& setup);
+    void sample(std::uint32_t index) { solver.set_sample(index); }
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
     Radiance radiance() const { return {solver.radiance(), solver.stride()}; }
@@ -58,6 +59,7 @@ public:
     void geometry_changed(const WaitList& wait);
     void environment_changed() { lights_changed(); }
     void reconfigure(const ViewSetup& setup);
+    void sample(std::uint32_t index) { view_->sample(index); }
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
     Radiance radiance() const { return {view_->picture().radiance(), view_->picture().stride()}; }
@@ -98,6 +100,7 @@ public:
         solver.lights_changed();
         view->lights_changed();
     }
+    void sample(std::uint32_t index) { view->sample(index); }
     cl::Event render(const Camera& camera, const WaitList& wait) {
         return view->render(camera, joined(std::exchange(moves_, {}), wait));
     }
@@ -149,6 +152,7 @@ public:
     void geometry_changed(const WaitList& wait) { moves_ = joined(moves_, wait); }
     void environment_changed() { lights_changed(); }
     void reconfigure(const ViewSetup& setup);
+    void sample(std::uint32_t index);
     cl::Event render(const Camera& camera, const WaitList& wait);
     void add_passes(std::vector<PassEvent>& passes) const;
     Radiance radiance() const { return {solver->picture().radiance(), solver->picture().stride()}; }
@@ -160,6 +164,7 @@ public:
 
 private:
     WaitList moves_;
+    bool again_ = false;  // by the records of the last picture
 };
 
 // Options of the method's solver with what is common to all methods.

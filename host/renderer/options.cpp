@@ -73,6 +73,10 @@ std::vector<OptionRow> of_pictures() {
                    "Directional lights that approximate the environment", 0, 4096),
                [](O& o) -> Number { return &o.picture.emitters.environment_lights; },
                {[](O& o) -> Number { return &o.light_atlas.emitters.environment_lights; }}),
+        number(row("samples", "N", shown,
+                   "Views of a picture through other points of its pixels, which is their mean", 1,
+                   65536),
+               [](O& o) -> Number { return &o.samples; }),
         toggle(
             row("no-direct", "", shown & ~of_transfer,
                 "Leave out direct light, emission and the environment"),

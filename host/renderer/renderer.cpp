@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/renderer.hpp>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 #include <variant>
 
+#include "core/opencl/check.hpp"
 #include "renderer/methods.hpp"
+#include "renderer/samples.hpp"
 
 namespace clgi {
 namespace {
@@ -43,6 +47,7 @@ void check(const RendererOptions& options) {
     };
     refuse(!(options.least_change >= 0.0) || !std::isfinite(options.least_change),
            "least_change is negative or not finite");
+    need_range("renderer", "samples", options.samples, 1, 1 << 20);
 }
 
 }  // namespace
@@ -115,6 +120,7 @@ struct Renderer::State {
     void changed(const Change& change) {
         if (made.index() == 0) return;  // it is made from what is there then
         of(change);
+        samples.forget();
         prepared = false;
     }
 
@@ -124,8 +130,46 @@ struct Renderer::State {
         shown = true;
     }
 
+    // One sample of the picture; its passes are added.
+    cl::Event sample(const Camera& camera, std::uint32_t index, const WaitList& wait) {
+        return of([&](auto& method) {
+            method.sample(index);
+            const cl::Event done = method.render(renderer::sampled(camera, index), wait);
+            method.add_passes(passes);
+            return done;
+        });
+    }
+
+    cl::Event refine() {
+        if (samples.count() == 0)
+            throw Error("renderer: refine(): there is no picture of a camera yet");
+        samples.keep(radiance(), pixels(), last);
+        last = sample(samples.camera(), samples.count(), {last});
+        passes.push_back(samples.add(radiance(), pixels(), last));
+        return last = passes.back().event;
+    }
+
+    void drew(const Camera& camera, const cl::Event& first) {
+        samples.begin(camera);
+        last = first;
+    }
+
+    void finish_samples() {
+        while (samples.count() < static_cast<std::uint32_t>(options.samples)) refine();
+    }
+
+    renderer::Radiance radiance() const {
+        return of([](auto& method) { return method.radiance(); });
+    }
+    std::size_t pixels() const {
+        return static_cast<std::size_t>(options.picture.width) *
+               static_cast<std::size_t>(options.picture.height);
+    }
+
     Programs programs;
     cl::CommandQueue queue;
+    renderer::Samples samples{programs, queue};
+    cl::Event last;                  // of the picture
     std::optional<Scene> own_scene;  // until the method is made
     std::optional<DeviceScene> own_device;
     const Scene* scene;
@@ -195,24 +239,30 @@ void Renderer::reconfigure(const PictureOptions& picture) {
     wanted.picture = picture;
     if (s.made.index() > 0)
         s.of([&](auto& method) { method.reconfigure({s.programs, s.queue, *s.device, wanted}); });
+    s.samples.forget();
     s.options = wanted;
 }
 
 cl::Event Renderer::render(const Camera& camera, const WaitList& wait) {
     State& s = *state_;
     s.begin_picture();
-    const cl::Event done = s.of([&](auto& method) { return method.render(camera, wait); });
-    s.of([&](auto& method) { method.add_passes(s.passes); });
-    return done;
+    s.drew(camera, s.sample(camera, 0, wait));
+    s.finish_samples();
+    return s.last;
 }
+
+cl::Event Renderer::refine() { return state_->refine(); }
 
 bool Renderer::run(const Camera& camera, const Progress& progress) {
     State& s = *state_;
     build();
     if (SecondOrderSolver* solver = second_order()) {
         s.begin_picture();
+        s.of([](auto& method) { method.sample(0); });
         if (!solver->run(camera, progress)) return false;
         s.of([&](auto& method) { method.add_passes(s.passes); });
+        s.drew(camera, cl::Event());
+        s.finish_samples();
         return true;
     }
     const bool done = s.prepared || prepare(progress);
@@ -230,28 +280,36 @@ cl::Event Renderer::render(const Camera& camera, const GBuffer& given, const Wai
                                 "alone, not by ") +
                     name_of(s.options.method));
     s.begin_picture();
-    const cl::Event done = solver->render(camera, given, wait);
+    s.samples.forget();
+    s.of([](auto& method) { method.sample(0); });
+    s.last = solver->render(camera, given, wait);
     s.of([&](auto& method) { method.add_passes(s.passes); });
-    return done;
+    return s.last;
 }
 
 const cl::Buffer& Renderer::radiance() const {
-    return state_->of([](auto& method) { return method.radiance(); }).planes;
+    const State& s = *state_;
+    return s.samples.count() > 1 ? s.samples.mean() : s.radiance().planes;
 }
 
-std::uint32_t Renderer::stride() const {
-    return state_->of([](auto& method) { return method.radiance(); }).stride;
+std::uint32_t Renderer::stride() const { return state_->radiance().stride; }
+double Renderer::sampling_error() const {
+    const State& s = *state_;
+    return s.samples.count() > 1 ? s.samples.error(s.pixels(), s.last)
+                                 : std::numeric_limits<double>::infinity();
 }
+std::uint32_t Renderer::samples() const { return std::max(1u, state_->samples.count()); }
 
 std::array<std::vector<float>, 3> Renderer::read_radiance() const {
     const State& s = *state_;
     const PictureOptions& picture = s.options.picture;
     status();  // the last picture is complete
+    const WaitList wait = s.last() ? WaitList{s.last} : WaitList();
     std::array<std::vector<float>, 3> out;
     for (std::size_t c = 0; c < out.size(); ++c) {
         out[c].resize(static_cast<std::size_t>(picture.width) * picture.height);
         s.queue.enqueueReadBuffer(radiance(), CL_TRUE, c * stride() * sizeof(float),
-                                  out[c].size() * sizeof(float), out[c].data());
+                                  out[c].size() * sizeof(float), out[c].data(), &wait);
     }
     return out;
 }
@@ -263,7 +321,7 @@ RendererStatus Renderer::status() const {
 const std::vector<PassEvent>& Renderer::times() const { return state_->passes; }
 
 std::size_t Renderer::bytes() const {
-    return state_->of([](auto& method) { return method.bytes(); });
+    return state_->samples.bytes() + state_->of([](auto& method) { return method.bytes(); });
 }
 
 std::size_t Renderer::bytes_with_scene() const { return bytes() + scene().bytes(); }

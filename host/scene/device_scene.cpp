@@ -277,6 +277,8 @@ View make_view(const Camera& camera, const SceneFrame& frame, int width, int hei
     view.forward = glm::vec4(camera.forward, near);
     // Beyond everything: the eye's distance from the centre and the scene's radius.
     view.window.z = near + 1.01f * (glm::length(eye) + frame.radius) + 1e-3f;
+    view.window.x = 2.0f * camera.offset.x / static_cast<float>(width) * view.right.w;
+    view.window.y = -2.0f * camera.offset.y / static_cast<float>(height) * view.up.w;
     view.width = static_cast<std::uint32_t>(width);
     view.height = static_cast<std::uint32_t>(height);
     view.flags = VIEW_CULL_BACK_FACES;

@@ -169,6 +169,9 @@ void check_cameras(const Scene& scene) {
         if (!(camera.near >= 0.0f) || !std::isfinite(camera.near)) {
             fail(name + " has a near distance that is negative or not finite");
         }
+        if (!std::isfinite(camera.offset.x) || !std::isfinite(camera.offset.y)) {
+            fail(name + " has an offset that is not finite");
+        }
     }
 }
 

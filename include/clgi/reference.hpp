@@ -41,6 +41,10 @@ CLGI_API Effects parse_effects(const std::string& list);
 // noisier and converges to the same picture.
 enum class Sampling { both, lights, lobes };
 
+// What of a pixel is looked through: its centre, as a single view of the library does, or all of it
+// evenly, as the mean of many samples does (RendererOptions::samples).
+enum class Filter { center, box };
+
 struct Options {
     int width = 640;  // pixels
     int height = 480;
@@ -53,6 +57,7 @@ struct Options {
     int roulette_depth = 16;  // surfaces on a path before Russian roulette may end it
     int threads = 0;          // 0: all
     Sampling sampling = Sampling::both;
+    Filter filter = Filter::center;
 };
 
 // A place for irradiance(): light atlases, probes, tests.
@@ -94,6 +99,7 @@ struct Estimate {
 
 struct VerifyOptions {
     Effects effects;         // of the truth
+    Filter filter = Filter::center;  // of pixels
     double seconds = 0.0;    // time limit; 0: none. A first pass and 200 pixels take what they take
     double decide = 0.0;     // > 0: ends when the interval lies above this error or below it
     int pixels = 1000;       // that are path-traced, at most; 16 to 2^20
@@ -121,8 +127,7 @@ public:
     explicit PathTracer(const Scene& scene);
     ~PathTracer();
 
-    // Rays go through the centres of pixels, as in the library's views. Throws Error for options
-    // out of range.
+    // Throws Error for options out of range.
     Picture render(const Camera& camera, const Options& options,
                    const Progress& progress = nullptr) const;
 

@@ -42,6 +42,10 @@ struct RendererOptions {
     // Size, direct light with its shadow maps, and the build: of all methods. Solvers take them
     // from here, but a bake its emitters from light_atlas.emitters.
     PictureOptions picture;
+    // Views of a picture, each through other points of its pixels and with light samples of its
+    // own; the picture is their mean (box filter of a pixel). What is prepared, and the records of
+    // an irradiance cache, serve all of them.
+    int samples = 1;
     // Vertices move between pictures, as clip `clip` of the scene's animation says: the atlas bakes
     // what never moves and lights the rest by an irradiance volume; antiradiance makes its links
     // for `poses` poses of the clip. Dynamic transfer, second-order illumination and direct light
@@ -123,6 +127,11 @@ public:
     // Enqueues a picture that begins after `wait`; its event completes when all of it has.
     cl::Event render(const Camera& camera, const WaitList& wait = {});
 
+    // Enqueues one more sample for the last picture, whose mean radiance() is then. The event
+    // completes when it is in the mean. Throws Error before the first picture of a camera, and
+    // after one from a given G-buffer.
+    cl::Event refine();
+
     // prepare() and render(), waiting after each part to report. False as prepare(), and if
     // progress cancelled.
     bool run(const Camera& camera, const Progress& progress);
@@ -133,6 +142,11 @@ public:
 
     const cl::Buffer& radiance() const;  // [RADIANCE_PLANES][stride()] cd/m^2, of the last picture
     std::uint32_t stride() const;        // floats between planes
+    std::uint32_t samples() const;       // in the last picture
+    // Waits for the last picture: how far its luminance may be from the mean of all samples, root
+    // of the mean square over the mean. Taken from what samples differ, so more than it is, as their
+    // points are even. Infinite for one sample.
+    double sampling_error() const;
     // Waits for the last picture: R, G and B, cd/m^2, [height * width] each.
     std::array<std::vector<float>, 3> read_radiance() const;
 

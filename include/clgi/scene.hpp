@@ -81,6 +81,8 @@ struct Camera {
     float vertical_fov = 0.8f;  // radians, whole angle; perspective
     float half_height = 1.0f;   // metres; orthographic
     float near = 0.0f;          // metres; 0: derived from the scene's size
+    // Where pixels are looked through: pixels to the right and down from their centres.
+    glm::vec2 offset = glm::vec2(0.0f);
 };
 
 // Light from infinitely far away: a latitude-longitude picture or one colour.

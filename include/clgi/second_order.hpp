@@ -84,6 +84,9 @@ public:
 
     // Another randomised shift of all low-discrepancy points (EmitterOptions::replicate).
     void set_replicate(std::uint32_t replicate);
+    // Another sample of a picture: VPLs, points of emissive surfaces and shadow maps
+    // (EmitterOptions::sample).
+    void set_sample(std::uint32_t sample);
 
     // Enqueues a whole picture that begins after `wait`; the event completes when all of it has.
     // For a scene without light and without a visible environment no kernel is enqueued.

@@ -70,7 +70,8 @@ TEST_F(Program, UsesATimeByWhatItsFirstPictureTook) {
 
 // What a plan sets is what flags set: shadow maps of a bake too.
 TEST_F(Program, RendersAPlanAsFlagsOfItsMethodDo) {
-    const std::string render = "render " + make("cornell --light spot") + " --size 32x24 --full";
+    const std::string render =
+        "render " + make("cornell --light spot") + " --size 32x24 --full --samples 1";
     const std::string to = " --quiet -o " + file("a.exr").string() + " --stats ";
     ASSERT_EQ(
         run(render + " --with all --time-budget 1s --method atlas" + to + file("s.json").string())

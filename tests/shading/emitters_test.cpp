@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <numbers>
+#include <tuple>
 
 #include "lighting.hpp"
 #include "math_modes.hpp"
@@ -169,6 +170,36 @@ TEST(Emitters, GoAlongOneSequenceWithinTheirGroup) {
     }
     EXPECT_GT(of_surfaces, 16u);
     EXPECT_GT(of_environment, 16u);
+}
+
+// Maps of samples lie differently by at most half a texel, and hold all that the map does.
+TEST(Emitters, ShiftMapsWithinTheirTexels) {
+    const DeviceScene scene = test::on_device(scene_of_all());
+    for (const int size : {8, 64}) {
+        const EmitterSet usual = make_emitters(scene, {.shadow_size = size});
+        double sum = 0.0, squares = 0.0;
+        constexpr std::uint32_t samples = 100;
+        for (std::uint32_t sample = 1; sample <= samples; ++sample) {
+            const EmitterSet moved = make_emitters(scene, {.shadow_size = size, .sample = sample});
+            for (std::size_t i = 0; i < 2; ++i) {  // the spot and the sun
+                const View &was = usual.views[i], &is = moved.views[i];
+                ASSERT_EQ(static_cast<int>(is.width), size);
+                const double texel = 2.0 * double{is.right.w} / size;
+                for (const auto& [extent, before, shift] :
+                     {std::tuple{is.right.w, was.right.w, is.window.x},
+                      std::tuple{is.up.w, was.up.w, is.window.y}}) {
+                    EXPECT_LE(std::abs(shift), 0.5001 * texel);
+                    EXPECT_GE(extent - std::abs(shift), before);
+                    EXPECT_LE(extent, 1.3 * before);
+                    sum += shift / texel;
+                    squares += shift * shift / (texel * texel);
+                }
+            }
+        }
+        // Even over the texel: mean 0, variance 1/12.
+        EXPECT_NEAR(sum / (4 * samples), 0.0, 0.05);
+        EXPECT_NEAR(squares / (4 * samples), 1.0 / 12.0, 0.02);
+    }
 }
 
 TEST(Emitters, OfAnEnvironmentAreCutAnewForAnotherCount) {

@@ -263,5 +263,38 @@ TEST(Tonemap, TakesWhateverItIsGiven) {
     EXPECT_EQ(words[5] & 255, 0u);
 }
 
+// Eleven samples one after the other, of which one is as large as numbers get.
+TEST(Accumulate, IsTheMean) {
+    constexpr std::uint32_t pixels = 37, stride = 48, samples = 11;
+    test::Random random(5);
+    std::vector<double> sums(RADIANCE_PLANES * stride, 0.0), squares(stride, 0.0);
+    std::vector<float> radiance(RADIANCE_PLANES * stride);
+    const cl::Buffer mean = test::upload(std::vector<float>(MEAN_PLANES * stride, 0.0f));
+    for (std::uint32_t k = 1; k <= samples; ++k) {
+        for (std::size_t i = 0; i < radiance.size(); ++i) {
+            radiance[i] = static_cast<float>(random(0.0, 1.0 + static_cast<double>(i % 5)));
+            if (k == 3 && i == 4) radiance[i] = std::numeric_limits<float>::max();
+            sums[i] += double{radiance[i]};
+        }
+        for (std::size_t i = 0; i < stride; ++i) {
+            const double luminance = 0.2126 * radiance[i] + 0.7152 * radiance[stride + i] +
+                                     0.0722 * radiance[2 * stride + i];
+            squares[i] += std::pow(std::min(luminance, 1.8e19), 2);
+        }
+        test::image_passes().accumulate(test::device().queue,
+                                        {pixels, stride, 1.0f / static_cast<float>(k), 0},
+                                        test::upload(radiance), mean);
+    }
+    const auto found = test::download<float>(mean, MEAN_PLANES * stride);
+    for (std::uint32_t i = 0; i < pixels; ++i) {
+        for (std::uint32_t c = 0; c < RADIANCE_PLANES; ++c) {
+            const double wanted = sums[c * stride + i] / samples;
+            EXPECT_NEAR(found[c * stride + i], wanted, 1e-6 * wanted) << i;
+        }
+        const double wanted = squares[i] / samples;
+        EXPECT_NEAR(found[MEAN_SQUARE * stride + i], wanted, 2e-6 * wanted) << i;
+    }
+}
+
 }  // namespace
 }  // namespace clgi

@@ -74,6 +74,7 @@ AntiradianceView::AntiradianceView(const Programs& programs, const cl::CommandQu
 AntiradianceView::~AntiradianceView() = default;
 
 void AntiradianceView::lights_changed() { state_->picture.lights_changed(); }
+void AntiradianceView::sample(std::uint32_t index) { state_->picture.sample(index); }
 
 cl::Event AntiradianceView::render(const Camera& camera, const WaitList& wait) {
     return state_->render(camera, wait);

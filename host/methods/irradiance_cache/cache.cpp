@@ -153,6 +153,16 @@ cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
     return s.picture.end(view);
 }
 
+cl::Event IrradianceCache::render_again(const Camera& camera, const WaitList& wait) {
+    State& s = *state_;
+    const View view = s.picture.begin(camera, wait);
+    if (!s.records.empty()) s.show();
+    s.picture.combine(view);
+    return s.picture.end(view);
+}
+
+void IrradianceCache::sample(std::uint32_t index) { state_->picture.sample(index); }
+
 IrradianceCacheStatus IrradianceCache::status() const {
     IrradianceCacheStatus out = state_->found;
     out.non_finite = state_->picture.non_finite();

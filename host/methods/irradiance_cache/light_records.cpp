@@ -104,7 +104,6 @@ bool IrradianceCache::State::rests() {
 
 void IrradianceCache::State::show() {
     const bool refined = found.refined > 0;
-    if (refined) plant(all_tree, all_nodes, all_lists);
     CacheBuffers all = b;
     if (refined) {
         all.nodes = all_nodes;

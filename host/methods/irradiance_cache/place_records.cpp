@@ -174,6 +174,7 @@ void IrradianceCache::State::refine(const View& view) {
         link(first);
         std::swap(b.light, b.next);
         bounce(first);
+        plant(all_tree, all_nodes, all_lists);
         show();
     }
 }

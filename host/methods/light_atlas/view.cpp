@@ -166,6 +166,7 @@ LightAtlasView::LightAtlasView(const Programs& programs, const cl::CommandQueue&
 LightAtlasView::~LightAtlasView() = default;
 
 void LightAtlasView::lights_changed() { state_->picture.lights_changed(); }
+void LightAtlasView::sample(std::uint32_t index) { state_->picture.sample(index); }
 
 cl::Event LightAtlasView::render(const Camera& camera, const cl::Buffer& light,
                                  std::uint32_t light_stride, const WaitList& wait) {

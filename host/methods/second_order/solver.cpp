@@ -241,6 +241,12 @@ void SecondOrderSolver::set_replicate(std::uint32_t replicate) {
     lights_changed();
 }
 
+void SecondOrderSolver::set_sample(std::uint32_t sample) {
+    if (state_->options.emitters.sample == sample) return;
+    state_->options.emitters.sample = sample;
+    lights_changed();
+}
+
 cl::Event SecondOrderSolver::render(const Camera& camera, const WaitList& wait) {
     return state_->render(camera, nullptr, wait, nullptr);
 }

@@ -320,6 +320,7 @@ DynamicTransferView::DynamicTransferView(const Programs& programs, const cl::Com
 DynamicTransferView::~DynamicTransferView() = default;
 
 void DynamicTransferView::lights_changed() { state_->picture.lights_changed(); }
+void DynamicTransferView::sample(std::uint32_t index) { state_->picture.sample(index); }
 
 cl::Event DynamicTransferView::render(const Camera& camera, const WaitList& wait) {
     return state_->render(camera, wait);

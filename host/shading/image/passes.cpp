@@ -43,12 +43,14 @@ ImagePasses::ImagePasses(const Programs& programs, const BuildOptions& options) 
     upsample_ = kernel("upsample");
     place_ = kernel("place");
     combine_ = kernel("combine");
+    accumulate_ = kernel("accumulate");
     tonemap_ = kernel("tonemap");
     environment_ = kernel("environment");
 }
 
 void ImagePasses::build(std::initializer_list<const char*> passes) const {
-    build_named({gather_, count_, compact_, upsample_, place_, combine_, tonemap_, environment_},
+    build_named({gather_, count_, compact_, upsample_, place_, combine_, accumulate_, tonemap_,
+                 environment_},
                 passes);
 }
 
@@ -185,6 +187,16 @@ cl::Event ImagePasses::environment(const cl::CommandQueue& queue, const Environm
     need(environment_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
     return launch(environment_, queue, packets(environment_, pixels), wait, params, view, texels,
                   planes, radiance);
+}
+
+cl::Event ImagePasses::accumulate(const cl::CommandQueue& queue, const AccumulateParams& params,
+                                  const cl::Buffer& radiance, const cl::Buffer& mean,
+                                  const WaitList& wait) const {
+    need_stride(accumulate_, "stride", params.stride, params.pixels);
+    need(accumulate_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
+    need(accumulate_, "mean", mean, plane_bytes(MEAN_PLANES, params.stride));
+    return launch(accumulate_, queue, packets(accumulate_, params.pixels), wait, params, radiance,
+                  mean);
 }
 
 cl::Event ImagePasses::tonemap(const cl::CommandQueue& queue, const TonemapParams& params,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/picture.hpp>
 #include <clgi/advanced/planes.hpp>
@@ -15,9 +16,14 @@ PictureOptions checked(PictureOptions options, const DeviceScene& scene, const s
     return options;
 }
 
-// Shadow maps serve direct light, and solvers that ask for them.
-EmitterOptions emitters_of(const PictureOptions& options) {
+// Shadow maps serve direct light, and solvers that ask for them. Later samples of a picture have
+// fewer points of emissive surfaces: together they have enough.
+EmitterOptions emitters_of(const PictureOptions& options, std::uint32_t lights = 0) {
     EmitterOptions out = options.emitters;
+    constexpr int later = 4;  // times fewer
+    out.sample = lights;
+    if (lights > 0 && out.area_samples > 0)
+        out.area_samples = std::max(out.area_samples / later, 1);
     out.shadows = out.shadows && (options.direct || options.shadow_maps);
     return out;
 }
@@ -65,13 +71,22 @@ void Picture::allocate(const BufferTable& table, std::size_t taken) {
 }
 
 void Picture::lights_changed() {
-    bytes_ += emitters_.follow(emitters_of(options_), record_, gbuffer_);
+    bytes_ += emitters_.follow(emitters_of(options_, lights_), record_, gbuffer_);
+}
+
+void Picture::sample(std::uint32_t index) {
+    constexpr std::uint32_t same = 4;  // samples
+    const std::uint32_t lights = index / same;
+    keeps_maps_ = index > 0 && lights == lights_;
+    if (lights == lights_) return;
+    lights_ = lights;
+    lights_changed();
 }
 
 View Picture::begin(const Camera& camera, const WaitList& wait) {
     const View view = make_view(camera, scene_.frame(), options_.width, options_.height);
     record_.begin(wait);
-    emitters_.draw(record_, gbuffer_, raster_);
+    if (!keeps_maps_) emitters_.draw(record_, gbuffer_, raster_);
     draw_gbuffer(record_, gbuffer_, scene_, view, view_, raster_, seen_, RESOLVE_TRIANGLE);
     return view;
 }

@@ -53,6 +53,25 @@ View window(const glm::vec3& eye, const glm::vec3& right, const glm::vec3& up,
     return view;
 }
 
+// Of the shifts of all points.
+std::uint32_t seed_of(const EmitterOptions& options) {
+    return options.replicate + 0x9e3779b9u * options.sample;
+}
+
+// The map of every sample lies differently within its texels.
+void shift_texels(View& view, const EmitterOptions& options) {
+    if (options.sample == 0) return;
+    // Larger by a texel around, so that none of what is lit leaves it.
+    const float texel = 2.0f / static_cast<float>(view.width);
+    view.right.w *= 1.0f + texel;
+    view.up.w *= 1.0f + texel;
+    const auto shift = [&](std::uint32_t dimension) {
+        return replicate_shift(seed_of(options), ShiftUse::texel, dimension) - 0.5f;
+    };
+    view.window.x = shift(0) * texel * view.right.w;
+    view.window.y = shift(1) * texel * view.up.w;
+}
+
 std::vector<View> cube(const glm::vec3& eye, float near, int size) {
     const glm::vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     std::vector<View> views;
@@ -108,6 +127,7 @@ Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterO
         const float extent = static_cast<float>(std::tan(outer));
         out.views = {window(eye, right, glm::cross(right, axis), axis, extent, extent, near,
                             options.shadow_size, options.shadow_size)};
+        shift_texels(out.views.front(), options);
     } else {
         out.views = cube(eye, near, options.face_size);
     }
@@ -132,6 +152,7 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
                        0.0f, options.shadow_size, options.shadow_size);
     view.eye.w = 1.0f;
     view.window.z = 2.05f * radius;
+    shift_texels(view, options);
     out.views = {view};
     return out;
 }
@@ -163,11 +184,10 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
     if (!(total > 0.0)) return out;
     const double share = total / options.area_samples;
     for (int k = 0; k < options.area_samples; ++k) {
-        // Every replicate moves the points within their strata.
-        const double within =
-            options.replicate == 0
-                ? 0.5
-                : double{replicate_shift(options.replicate, ShiftUse::stratum, 0)};
+        // Every replicate and sample moves the points within their strata.
+        const double within = seed_of(options) == 0
+                                  ? 0.5
+                                  : double{replicate_shift(seed_of(options), ShiftUse::stratum, 0)};
         const double target = (k + within) * share;
         const std::size_t pick = static_cast<std::size_t>(
             std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
@@ -175,9 +195,9 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
         // Uniform on the triangle; the index runs on, so triangles picked often are covered evenly.
         const auto index = static_cast<std::uint32_t>(k) + 1;
         const float root = std::sqrt(shifted_radical_inverse(
-            index, 2, replicate_shift(options.replicate, ShiftUse::area, 0)));
-        const float v = shifted_radical_inverse(
-            index, 3, replicate_shift(options.replicate, ShiftUse::area, 1));
+            index, 2, replicate_shift(seed_of(options), ShiftUse::area, 0)));
+        const float v =
+            shifted_radical_inverse(index, 3, replicate_shift(seed_of(options), ShiftUse::area, 1));
         const glm::vec3 on = t.corner[0] * (1.0f - root) + t.corner[1] * (root * (1.0f - v)) +
                              t.corner[2] * (root * v);
         const float lift = 1e-4f * frame.detail;
@@ -350,7 +370,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         source.emitter.first_vpl = static_cast<std::uint32_t>(out.vpl_count);
         source.emitter.vpl_count = shares[i];
         for (int d = 0; d < 4; ++d)
-            source.emitter.shift[d] = replicate_shift(options.replicate, ShiftUse::light, d);
+            source.emitter.shift[d] = replicate_shift(seed_of(options), ShiftUse::light, d);
         out.vpl_count += shares[i];
         out.candidates.push_back(candidate_count(source, shares[i]));
         if (source.emitter.kind == EMITTER_SPOT && out.candidates.back() == 0)

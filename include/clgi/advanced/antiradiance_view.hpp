@@ -24,6 +24,8 @@ public:
 
     // Reads the scene's lights again, after DeviceScene::set_light, for shadow maps.
     void lights_changed();
+    // Picture::sample().
+    void sample(std::uint32_t index);
 
     // Enqueues a picture with the light of the solver's last run(); it begins after `wait`.
     cl::Event render(const Camera& camera, const WaitList& wait = {});

@@ -37,6 +37,8 @@ public:
 
     // Reads the scene's lights again, after DeviceScene::set_light, for shadow maps.
     void lights_changed();
+    // Picture::sample().
+    void sample(std::uint32_t index);
 
     // Enqueues a picture with the solver's last transfer() and light(); it begins after `wait`.
     cl::Event render(const Camera& camera, const WaitList& wait = {});

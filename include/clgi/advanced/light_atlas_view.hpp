@@ -37,6 +37,8 @@ public:
 
     // Reads the scene's lights again, after DeviceScene::set_light, for direct light.
     void lights_changed();
+    // Picture::sample().
+    void sample(std::uint32_t index);
 
     // Enqueues a picture that begins after `wait`; the event completes when all of it has. light:
     // by texel of the layout and point of the volume, [3][light_stride] float, exposed lux, as

@@ -87,6 +87,12 @@ public:
                           const View& view, const cl::Buffer& texels, const cl::Buffer& planes,
                           const cl::Buffer& radiance, const WaitList& wait = {}) const;
 
+    // radiance: [RADIANCE_PLANES][stride], mean: [MEAN_PLANES][stride]; all 0 before the first
+    // sample.
+    cl::Event accumulate(const cl::CommandQueue& queue, const AccumulateParams& params,
+                         const cl::Buffer& radiance, const cl::Buffer& mean,
+                         const WaitList& wait = {}) const;
+
     // preview: [width * height] uint, RGBA8.
     cl::Event tonemap(const cl::CommandQueue& queue, const TonemapParams& params,
                       const cl::Buffer& radiance, const cl::Buffer& preview,
@@ -98,7 +104,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel gather_, count_, compact_, upsample_, place_, combine_, tonemap_, environment_;
+    PassKernel gather_, count_, compact_, upsample_, place_, combine_, accumulate_, tonemap_,
+        environment_;
 };
 
 }  // namespace clgi

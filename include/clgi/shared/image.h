@@ -65,6 +65,17 @@ typedef struct {
     float turn;   // rotation of the picture in the world, in turns, [0,1)
 } EnvironmentParams;
 
+// The mean of samples of a picture: radiance, and the mean of the squared luminance.
+enum { MEAN_SQUARE = RADIANCE_PLANES, MEAN_PLANES };
+
+// One more sample of a picture.
+typedef struct {
+    uint pixels;
+    uint stride;  // of the radiance planes, both
+    float share;  // of the sample in the mean: 1 / samples with it
+    uint pad_;
+} AccumulateParams;
+
 typedef struct {
     uint width;
     uint height;

@@ -46,6 +46,12 @@ public:
     // Reads the scene's lights again, after DeviceScene::set_light.
     void lights_changed();
 
+    // The next picture is sample `index` of one: from time to time by other points of emissive
+    // surfaces, and by shadow maps that lie differently within their texels
+    // (EmitterOptions::sample). In between it keeps the maps of the picture before, of the same
+    // geometry and lights.
+    void sample(std::uint32_t index);
+
     // Enqueues shadow maps and the G-buffer of a picture that begins after `wait`. The solver then
     // records what writes irradiance(), all of its pixels.
     View begin(const Camera& camera, const WaitList& wait);
@@ -98,6 +104,8 @@ private:
     GBuffer seen_;
     cl::Buffer view_, irradiance_, radiance_, bad_;
     std::size_t bytes_ = 0;
+    std::uint32_t lights_ = 0;  // replicates after the first
+    bool keeps_maps_ = false;
 };
 
 }  // namespace clgi

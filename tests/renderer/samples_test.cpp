@@ -1,0 +1,282 @@
+// A picture's samples: where they look through, their mean, what they bring.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <clgi/shared/halton.h>
+#include <clgi/clgi.hpp>
+#include <cmath>
+
+#include "apart.hpp"
+#include "device.hpp"
+#include "scenes.hpp"
+#include "skies.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr int width = 43, height = 29;  // no multiples of a packet's
+
+RendererOptions options_of(Method method) {
+    RendererOptions out;
+    out.method = method;
+    out.picture.width = width;
+    out.picture.height = height;
+    out.picture.emitters.shadow_size = out.picture.emitters.face_size = 64;
+    out.picture.build = test::usual_build();
+    out.light_atlas.emitters.shadow_size = 64;
+    out.vpls.count = 40;
+    out.layout.size = 64;
+    out.antiradiance.bins = 32;
+    out.antiradiance.elements.requested = 100;
+    out.transfer.masks.size = 16;
+    out.second_order.emitters.vpls = 20;
+    out.second_order.negative_vpls = 8;
+    out.cache.seen = 20;
+    out.cache.met = 30;
+    out.cache.refined = 10;
+    out.cache.face = 8;
+    return out;
+}
+
+using Radiance = std::vector<glm::vec3>;
+
+Radiance read(const Renderer& renderer) {
+    const auto planes = renderer.read_radiance();
+    Radiance out;
+    for (std::size_t i = 0; i < planes[0].size(); ++i)
+        out.emplace_back(planes[0][i], planes[1][i], planes[2][i]);
+    return out;
+}
+
+Radiance draw(Renderer& renderer, const Camera& camera) {
+    renderer.render(camera);
+    return read(renderer);
+}
+
+// Boxes and a leaning wall in colours, under a lamp, a sun and a panel.
+Scene lit_scene() {
+    Scene scene = test::plain_scene({0.7f, 0.5f, 0.3f});
+    test::add_floor(scene, 2.0);
+    test::add_box(scene, {-0.4, 0.0, -0.3}, {0.2, 0.5, 0.3}, 1);
+    test::add_quad(scene,
+                   {{{-1.2, 0.0, -0.8}, {0.9, 0.0, -1.1}, {0.8, 1.4, -1.5}, {-1.3, 1.2, -1.2}}});
+    Material panel;
+    panel.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    panel.emission = {2.0f, 3.0f, 5.0f};
+    const std::uint32_t lamp = test::add_material(scene, panel);
+    test::add_quad(scene, {{{-0.5, 1.6, 0.9}, {-0.5, 1.7, 0.3}, {0.2, 1.7, 0.3}, {0.2, 1.6, 0.9}}},
+                   lamp);
+    scene.lights = {test::point_light({0.6, 1.3, 0.7}, 1.0f),
+                    test::directional_light({-0.3f, -1.0f, -0.4f}, 2.0f),
+                    test::spot_light({-1.0, 1.5, 1.0}, {0.6f, -1.0f, -0.7f}, 0.4, 3.0f)};
+    scene.lights[0].intensity = {3.0f, 1.0f, 0.5f};
+    return scene;
+}
+
+Camera viewpoint() { return test::camera_at({1.4, 1.2, 1.6}, {0.0, 0.3, -0.2}); }
+
+double difference(const Radiance& a, const Radiance& b) {
+    double squares = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const glm::dvec3 off = glm::dvec3(a[i]) - glm::dvec3(b[i]);
+        squares += glm::dot(off, off);
+        sum += glm::dot(glm::dvec3(b[i]), glm::dvec3(b[i]));
+    }
+    return std::sqrt(squares / sum);
+}
+
+// A camera that looks through other points of its pixels by whole pixels sees its picture moved.
+TEST(Samples, OffsetsMoveThePicture) {
+    Camera parallel = test::pixel_camera(width, height);
+    parallel.half_height = 1.5f;
+    parallel.position = {0.1, 0.4, 5.0};
+    Scene scene = lit_scene();
+    scene.environment = test::picture_sky(16, 8, [](int row, int column) {
+        return 0.2f + 0.05f * static_cast<float>((row + 3 * column) % 7);
+    });
+    RendererOptions options = options_of(Method::direct);
+    options.picture.emitters.shadows = false;  // directions of the sky are the same either way
+    Renderer renderer(test::device().queue, scene, options);
+    for (Camera camera : {viewpoint(), parallel}) {
+        const Radiance before = draw(renderer, camera);
+        camera.offset = {3.0f, -2.0f};  // to the right and up
+        const Radiance after = draw(renderer, camera);
+        std::size_t same = 0, of = 0;
+        for (int y = 2; y < height; ++y)
+            for (int x = 0; x + 3 < width; ++x) {
+                const glm::vec3 a = after[static_cast<std::size_t>(y * width + x)],
+                                b = before[static_cast<std::size_t>((y - 2) * width + x + 3)];
+                same += glm::length(a - b) <= 1e-4f * (0.1f + glm::length(b));
+                ++of;
+            }
+        EXPECT_GT(same, of - of / 200);  // edges and texels of the sky may round to either side
+    }
+}
+
+// Sums on the host over single views, with lights that are the same for all of them.
+TEST(Samples, AreTheMeanOfShiftedViews) {
+    Scene scene = lit_scene();
+    scene.lights.resize(1);
+    scene.materials[1].emission = glm::vec3(0.0f);
+    for (const Method method : {Method::direct, Method::light_atlas, Method::antiradiance}) {
+        RendererOptions options = options_of(method);
+        Renderer one(test::device().queue, scene, options);
+        std::vector<glm::dvec3> mean(std::size_t{width} * height, glm::dvec3(0.0));
+        constexpr int samples = 5;
+        for (std::uint32_t k = 0; k < samples; ++k) {
+            Camera camera = viewpoint();
+            for (int axis = 0; axis < 2; ++axis) {
+                const float at = radical_inverse(k, axis == 0 ? 2 : 3);
+                camera.offset[axis] = at - std::floor(at + 0.5f);
+            }
+            const Radiance view = draw(one, camera);
+            for (std::size_t i = 0; i < view.size(); ++i)
+                mean[i] += glm::dvec3(view[i]) / double{samples};
+        }
+        options.samples = samples;
+        Renderer all(test::device().queue, scene, options);
+        const Radiance found = draw(all, viewpoint());
+        EXPECT_EQ(all.samples(), 5u);
+        double largest = 0.0;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            largest = std::max(largest, glm::length(glm::dvec3(found[i]) - mean[i]) /
+                                            (1e-3 + glm::length(mean[i])));
+        EXPECT_LT(largest, 1e-6) << name_of(method);
+        // And by one after the other.
+        for (int k = 1; k < samples; ++k) {
+            if (k == 1) one.render(viewpoint());
+            one.refine();
+        }
+        EXPECT_TRUE(read(one) == found) << name_of(method);
+    }
+}
+
+// One sample is the picture itself, before and after one of several.
+TEST(Samples, LeaveASinglePictureAsItIs) {
+    const Scene scene = lit_scene();
+    for (const Method method :
+         {Method::direct, Method::second_order, Method::light_atlas, Method::antiradiance,
+          Method::dynamic_transfer, Method::irradiance_cache}) {
+        Renderer renderer(test::device().queue, scene, options_of(method));
+        const Radiance before = draw(renderer, viewpoint());
+        EXPECT_EQ(renderer.samples(), 1u);
+        renderer.refine();
+        renderer.refine();
+        EXPECT_EQ(renderer.samples(), 3u);
+        const Radiance refined = read(renderer);
+        EXPECT_GT(difference(refined, before), 1e-3) << name_of(method);
+        EXPECT_LT(difference(refined, before), 0.5) << name_of(method);
+        EXPECT_TRUE(draw(renderer, viewpoint()) == before) << name_of(method);
+        EXPECT_EQ(renderer.samples(), 1u);
+    }
+}
+
+// The part of each pixel that a convex polygon covers; counter-clockwise, y up from the bottom row.
+std::vector<double> coverage(const std::vector<glm::dvec2>& polygon) {
+    std::vector<double> out;
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < width; ++column) {
+            std::vector<glm::dvec2> rest = polygon;
+            const double low[2] = {double(column), double(height - 1 - row)};
+            for (int side = 0; side < 4; ++side) {
+                const int axis = side / 2;
+                const double sign = side % 2 ? -1.0 : 1.0,
+                             limit = side % 2 ? low[axis] + 1.0 : low[axis];
+                std::vector<glm::dvec2> kept;
+                for (std::size_t i = 0; i < rest.size(); ++i) {
+                    const glm::dvec2 a = rest[i], b = rest[(i + 1) % rest.size()];
+                    const double da = sign * (a[axis] - limit), db = sign * (b[axis] - limit);
+                    if (da >= 0.0) kept.push_back(a);
+                    if ((da >= 0.0) != (db >= 0.0)) kept.push_back(a + (b - a) * (da / (da - db)));
+                }
+                rest = kept;
+            }
+            double area = 0.0;
+            for (std::size_t i = 0; i < rest.size(); ++i) {
+                const glm::dvec2 a = rest[i], b = rest[(i + 1) % rest.size()];
+                area += 0.5 * (a.x * b.y - a.y * b.x);
+            }
+            out.push_back(area);
+        }
+    return out;
+}
+
+// Edges against the exact area of what pixels show: the error falls faster than 1 / sqrt(N).
+TEST(Samples, SmoothEdgesToTheirArea) {
+    const std::vector<glm::dvec2> polygon = {{5.3, 4.1}, {37.7, 7.9}, {33.2, 24.6}, {11.9, 21.3}};
+    Scene scene = test::plain_scene(glm::vec3(0.0f));
+    scene.materials[0].emission = {1.0f, 2.0f, 4.0f};
+    test::add_quad(scene,
+                   {{{5.3, 4.1, 0.0}, {37.7, 7.9, 3.0}, {33.2, 24.6, 3.0}, {11.9, 21.3, 0.0}}});
+    // Corners need not lie in one plane: seen along z, the outline is what counts.
+    const std::vector<double> exact = coverage(polygon);
+    Renderer renderer(test::device().queue, scene, options_of(Method::direct));
+    double first = 0.0;
+    for (const int samples : {1, 4, 16, 64}) {
+        if (samples == 1) renderer.render(test::pixel_camera(width, height));
+        while (renderer.samples() < static_cast<std::uint32_t>(samples)) renderer.refine();
+        const Radiance found = read(renderer);
+        double squares = 0.0;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const double off = found[i][c] / scene.materials[0].emission[c] - exact[i];
+                squares += off * off / 3.0;
+            }
+        const double error = std::sqrt(squares);
+        if (samples == 1)
+            first = error;
+        else
+            EXPECT_LT(error, 1.1 * first / std::sqrt(samples)) << samples;
+    }
+    EXPECT_GT(first, 0.5);  // there are edges
+}
+
+// Shadows of a sun, a spot and a panel against the path tracer: each sample has its own maps and
+// points, so edges that one of them has rough or doubled come out right.
+TEST(Samples, SmoothShadows) {
+    const Scene scene = lit_scene();
+    reference::Options truth;
+    truth.width = width;
+    truth.height = height;
+    truth.samples = 1024;
+    truth.effects = reference::parse_effects("emission,direct");
+    truth.filter = reference::Filter::box;
+    const test::Twice traced = test::render_twice(scene, viewpoint(), truth);
+    Renderer renderer(test::device().queue, scene, options_of(Method::direct));
+    const test::Apart one = test::apart(draw(renderer, viewpoint()), traced);
+    for (int k = 1; k < 32; ++k) renderer.refine();
+    const test::Apart many = test::apart(read(renderer), traced);
+    EXPECT_GT(one.error, 0.08);
+    EXPECT_LT(many.high, 0.25 * one.error);
+    EXPECT_NEAR(many.energy, 1.0, 0.01);
+}
+
+TEST(Samples, SayWhatIsWrong) {
+    const Scene scene = lit_scene();
+    RendererOptions options = options_of(Method::direct);
+    options.samples = 0;
+    EXPECT_THROW(Renderer(test::device().queue, scene, options), Error);
+    options.samples = 2;
+    Renderer renderer(test::device().queue, scene, options);
+    EXPECT_THROW(renderer.refine(), Error);
+    renderer.render(viewpoint());
+    EXPECT_NO_THROW(renderer.refine());
+    EXPECT_EQ(renderer.samples(), 3u);
+    renderer.lights_changed();  // samples before it have other lights
+    EXPECT_THROW(renderer.refine(), Error);
+    renderer.render(viewpoint());
+    PictureOptions smaller = options.picture;
+    smaller.width = 16;
+    renderer.reconfigure(smaller);
+    EXPECT_THROW(renderer.refine(), Error);
+    renderer.render(viewpoint());
+    EXPECT_EQ(renderer.samples(), 2u);
+    EXPECT_EQ(renderer.read_radiance()[0].size(), 16u * height);
+    Scene wrong = scene;
+    wrong.cameras = {viewpoint()};
+    wrong.cameras[0].offset.x = std::nanf("");
+    EXPECT_THROW(Renderer(test::device().queue, wrong, options), InputError);
+}
+
+}  // namespace
+}  // namespace clgi
