@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""Whether pictures are as right as clgi says: scenes drawn from seeds, rendered and judged.
+"""Whether pictures are as right as clgi says: scenes rendered and judged.
 
     samples/promises.py build/clgi out/ [--kinds room,window] [--seeds 1-10] [--truth 4s] [-- FLAG ...]
+    samples/promises.py build/clgi out/ --peer --plot plot.svg -- --time-budget 1s
+    samples/promises.py build/clgi out/ --kinds SCENE.glb --environment sky.hdr
 
-Each scene of each kind (clgi scene) is rendered by its plan with the flags behind --, by default
---target-error 5%. The picture is then judged by clgi verify with other random numbers and more time.
-A row of the table has what the render says of its error and what the judge finds, each with its 95 %
-interval; below it stands how often the judge's value lies above the end that the render names.
+Each scene of each kind (clgi scene, drawn from a seed; or a file) is rendered by its plan with the
+flags behind --, by default --target-error 5%. The picture is then judged by clgi verify with other
+random numbers and more time. A row of the table has what the render says of its error and what the
+judge finds, each with its 95 % interval; below it stands how often the judge's value lies above the
+end that the render names. With --peer the path tracer takes as long as the render did, and its
+picture is judged as well. With --extents each scene stands in grounds of several sizes.
 SPDX-License-Identifier: MIT
 """
 import argparse
@@ -16,9 +20,9 @@ import time
 
 from commands import run
 
-KINDS = ["room", "window", "slit", "courtyard", "terrain", "many-rooms", "dim-room", "dim-plain",
+KINDS = ["room", "window", "slit", "courtyard", "pit", "terrain", "many-rooms", "dim-room", "dim-plain",
          "hidden-wall", "gloss"]
-SKY = {"window", "courtyard", "dim-plain"}  # those that nothing else lights
+SKY = {"window", "courtyard", "pit", "dim-plain"}  # those that nothing else lights
 
 
 def percent(value):
@@ -30,20 +34,52 @@ def interval(found):
     return f"{percent(found['value'])} ({percent(found['low'])} to {percent(found['high'])})"
 
 
-def judged(options, kind, seed):
-    """The statistics of a render, what the judge says of it, and the seconds of the whole command."""
-    name = os.path.join(options.out, f"{kind}-{seed}")
-    sky = ["--environment", options.sky] if kind in SKY else []
-    run(options.clgi, "scene", kind, "--seed", seed, "-o", name + ".glb", "--quiet")
+def timed(*command):
     begin = time.monotonic()
-    run(options.clgi, "render", name + ".glb", "--quiet", "--full", "--size", options.size,
-        "-o", name + ".exr", "--png", name + ".png", "--stats", name + ".json", *sky, *options.flags)
-    seconds = time.monotonic() - begin
-    with open(name + ".json") as file:
-        stats = json.load(file)
-    judge = run(options.clgi, "verify", name + ".exr", name + ".glb", "--quiet", "--json",
-                "--limit", options.truth, "--seed", 7, *sky)
-    return stats, json.loads(judge), seconds
+    run(*command)
+    return time.monotonic() - begin
+
+
+class Case:
+    """A scene in its file, with the flags that light it."""
+
+    def __init__(self, options, kind, seed, extent):
+        self.options = options
+        is_file = kind.endswith((".glb", ".gltf"))
+        stem = os.path.splitext(os.path.basename(kind))[0] if is_file else f"{kind}-{seed}"
+        self.label = stem if is_file else f"{kind} {seed}"
+        if extent:
+            self.label += f", {float(extent):g} m"
+            stem += f"-{extent}"
+        self.name = os.path.join(options.out, stem)
+        self.scene = kind if is_file else self.name + ".glb"
+        self.sky = ["--environment", options.environment] if is_file or kind in SKY else []
+        if not options.environment:
+            self.sky = []
+        if not is_file:
+            around = ["--extent", extent] if extent else []
+            run(options.clgi, "scene", kind, "--seed", seed, "-o", self.scene, "--quiet", *around)
+
+    def render(self):
+        """The statistics of the render and the seconds of the whole command."""
+        seconds = timed(self.options.clgi, "render", self.scene, "--quiet", "--full",
+                        "--size", self.options.size, "-o", self.name + ".exr",
+                        "--png", self.name + ".png", "--stats", self.name + ".json",
+                        *self.sky, *self.options.flags)
+        with open(self.name + ".json") as file:
+            return json.load(file), seconds
+
+    def trace(self, seconds):
+        """The path tracer's picture after as many seconds."""
+        command = [self.options.clgi, "reference", self.scene, "--quiet", "--full",
+                   "--size", self.options.size, "-o", self.name + "-peer.exr", *self.sky, "--spp"]
+        few = 4
+        one = timed(*command, few) / few  # loading counts, as it does in the render's time
+        timed(*command, max(1, round(seconds / one)))
+
+    def judge(self, name):
+        return json.loads(run(self.options.clgi, "verify", name, self.scene, "--quiet", "--json",
+                              "--limit", self.options.truth, "--seed", 7, *self.sky))
 
 
 def seeds_of(text):
@@ -51,33 +87,64 @@ def seeds_of(text):
     return range(int(first), int(last or first) + 1)
 
 
+def plot(path, rows):
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    figure, axes = pyplot.subplots(figsize=(7, 4.5))
+    for k, name in enumerate(("clgi", "path tracer")):
+        axes.errorbar([row[0] for row in rows], [100 * row[1 + k]["value"] for row in rows], fmt="os"[k],
+                      label=name)
+    axes.set(xscale="log", yscale="log", xlabel="seconds of the whole command",
+             ylabel="error, % (relative root mean square)")
+    axes.grid(True, which="both", alpha=0.3)
+    axes.legend()
+    figure.savefig(path, bbox_inches="tight", metadata={"Date": None})
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("clgi")
     parser.add_argument("out")
-    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--kinds", default=",".join(KINDS), help="kinds or files")
     parser.add_argument("--seeds", default="1-3", help="1-10")
+    parser.add_argument("--extents", default="", help="metres, with commas; 0: as the kind has it")
     parser.add_argument("--size", default="160x120")
-    parser.add_argument("--sky", default="1,1.2,1.5", help="environment of kinds that need one")
+    parser.add_argument("--environment", default="1,1.2,1.5", help="of kinds and files that need one")
     parser.add_argument("--truth", default="4s", help="how long the judge traces paths")
+    parser.add_argument("--peer", action="store_true", help="the path tracer beside it")
+    parser.add_argument("--plot", help="with --peer: errors by time, .svg")
     parser.add_argument("flags", nargs="*")
     options = parser.parse_args()
     options.flags = options.flags or ["--target-error", "5%"]
     os.makedirs(options.out, exist_ok=True)
-    print("| scene | method | said, % | judged, % | energy | picture, s | command, s |")
-    print("| --- | --- | --- | --- | --- | --- | --- |")
+    peer = " path tracer, % |" if options.peer else ""
+    print("| scene | method | said, % | judged, % | energy | picture, s | command, s |" + peer)
+    print("| --- | --- | --- | --- | --- | --- | --- |" + (" --- |" if options.peer else ""))
     above = checked = 0
-    for kind in options.kinds.split(","):
-        for seed in seeds_of(options.seeds):
-            stats, judge, seconds = judged(options, kind, seed)
-            said = stats.get("measured_error")
-            if said and said["high"] is not None:
-                checked += 1
-                above += judge["value"] > said["high"]
-            print(f"| {kind} {seed} | {stats['method']} | {interval(said) if said else ''} "
-                  f"| {interval(judge)} | {judge['energy']['value']:.3f} "
-                  f"| {stats['frame_ms']['median'] / 1e3:.2f} | {seconds:.1f} |", flush=True)
+    rows = []
+    cases = [(kind, seed, extent) for kind in options.kinds.split(",")
+             for seed in ([0] if "." in kind else seeds_of(options.seeds))
+             for extent in options.extents.split(",")]
+    for case in (Case(options, *each) for each in cases):
+        stats, seconds = case.render()
+        judged = case.judge(case.name + ".exr")
+        said = stats.get("measured_error")
+        if said and said["high"] is not None:
+            checked += 1
+            above += judged["value"] > said["high"]
+        row = (f"| {case.label} | {stats['method']} | {interval(said) if said else ''} "
+               f"| {interval(judged)} | {judged['energy']['value']:.3f} "
+               f"| {stats['frame_ms']['median'] / 1e3:.2f} | {seconds:.1f} |")
+        if options.peer:
+            case.trace(seconds)
+            traced = case.judge(case.name + "-peer.exr")
+            rows.append((seconds, judged, traced))
+            row += f" {interval(traced)} |"
+        print(row, flush=True)
     print(f"\nAbove the end that was said: {above} of {checked}.")
+    if options.plot and rows:
+        plot(options.plot, rows)
 
 
 if __name__ == "__main__":

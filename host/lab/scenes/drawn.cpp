@@ -86,6 +86,22 @@ Scene draw_courtyard(const DrawnOptions& options) {
     return scene;
 }
 
+// A pit with nearly white walls: the sky's light takes many bounces.
+Scene draw_pit(const DrawnOptions& options) {
+    Scene scene;
+    Draws draws(options.seed);
+    Chamber chamber;
+    chamber.size = {draws.between(5.0, 12.0), 10.0, draws.between(6.0, 12.0)};
+    chamber.wall = 3.0;
+    chamber.roof = false;
+    add_chamber(scene, draws, chamber);
+    for (Material& material : scene.materials)
+        material.base_color = glm::vec4(0.96f, 0.95f, 0.93f, 1.0f);
+    add_view(scene, draws, chamber);
+    add_ground(scene, draws, chamber, options.extent > 0.0 ? options.extent : 1000.0, 0.0);
+    return scene;
+}
+
 Scene draw_terrain(const DrawnOptions& options) {
     Scene scene = draw_room(options);
     Draws draws(options.seed);
@@ -202,6 +218,7 @@ const std::vector<DrawnKind>& drawn_kinds() {
         {"window", "a furnished room with a window", true, draw_windowed},
         {"slit", "a room whose light comes through a slit", false, draw_slit},
         {"courtyard", "a court that is open above", true, draw_courtyard},
+        {"pit", "a pit with nearly white walls", true, draw_pit},
         {"terrain", "a room in a terrain", false, draw_terrain},
         {"many-rooms", "20 to 200 rooms with a lamp each", false, draw_many},
         {"dim-room", "a dim lamp, and a bright one in another room", false, draw_dim_room},

@@ -27,7 +27,7 @@ struct DrawnKind {
     Scene (*draw)(const DrawnOptions& options);
 };
 
-// room, window, slit, courtyard, terrain, many-rooms, dim-room, dim-plain, hidden-wall, hole and
+// room, window, slit, courtyard, pit, terrain, many-rooms, dim-room, dim-plain, hidden-wall, hole and
 // gloss.
 const std::vector<DrawnKind>& drawn_kinds();
 // Throws Error for a name that is none of them.
