@@ -37,6 +37,45 @@ glm::vec4 cone_of(const std::vector<glm::uvec4>& triangles, const std::vector<gl
     return glm::vec4(axis, std::sqrt(1.0f - cosine * cosine));
 }
 
+struct Corners {
+    glm::vec3 low, high;
+};
+
+Corners corners_of(const std::vector<glm::uvec4>& triangles,
+                   const std::vector<glm::vec4>& positions, std::size_t first, std::size_t last) {
+    Corners out;
+    out.low = out.high = glm::vec3(positions[triangles[first].x]);
+    for (std::size_t t = first; t < last; ++t)
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec4& p = positions[triangles[t][k]];
+            for (int axis = 0; axis < 3; ++axis) {
+                // Of 0 and -0 the first one stays, here and on the device.
+                if (p[axis] < out.low[axis]) out.low[axis] = p[axis];
+                if (p[axis] > out.high[axis]) out.high[axis] = p[axis];
+            }
+        }
+    return out;
+}
+
+// Triangles first .. last - 1, or none.
+void set_part(const std::vector<glm::uvec4>& triangles, const std::vector<glm::vec4>& positions,
+              std::size_t first, std::size_t last, Cluster& cluster, std::size_t part) {
+    glm::vec3 middle(0.0f);
+    float square = 0.0f;
+    if (first < last) {
+        const Corners box = corners_of(triangles, positions, first, last);
+        middle = 0.5f * (box.low + box.high);
+        for (std::size_t t = first; t < last; ++t)
+            for (int k = 0; k < 3; ++k) {
+                const glm::vec3 d = glm::vec3(positions[triangles[t][k]]) - middle;
+                square = std::max(square, (d.x * d.x + d.y * d.y) + d.z * d.z);
+            }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        cluster.part[axis][part] = middle[static_cast<int>(axis)];
+    cluster.part[3][part] = std::sqrt(square);
+}
+
 }  // namespace
 
 std::vector<Cluster> make_clusters(const std::vector<glm::uvec4>& triangles,
@@ -44,18 +83,16 @@ std::vector<Cluster> make_clusters(const std::vector<glm::uvec4>& triangles,
     std::vector<Cluster> out;
     for (std::size_t first = 0; first < triangles.size(); first += CLUSTER_TRIANGLES) {
         const std::size_t last = std::min<std::size_t>(first + CLUSTER_TRIANGLES, triangles.size());
-        glm::vec3 low(positions[triangles[first].x]), high = low;
-        for (std::size_t t = first; t < last; ++t)
-            for (int k = 0; k < 3; ++k) {
-                const glm::vec4& p = positions[triangles[t][k]];
-                for (int axis = 0; axis < 3; ++axis) {
-                    // Of 0 and -0 the first one stays, here and on the device.
-                    if (p[axis] < low[axis]) low[axis] = p[axis];
-                    if (p[axis] > high[axis]) high[axis] = p[axis];
-                }
-            }
-        out.push_back({glm::vec4(low, 0.0f), glm::vec4(high, 0.0f),
-                       cone_of(triangles, positions, first, last)});
+        const Corners box = corners_of(triangles, positions, first, last);
+        Cluster& cluster = out.emplace_back();
+        cluster.low = glm::vec4(box.low, 0.0f);
+        cluster.high = glm::vec4(box.high, 0.0f);
+        cluster.cone = cone_of(triangles, positions, first, last);
+        for (std::size_t part = 0; part < CLUSTER_PARTS; ++part) {
+            const std::size_t begin = std::min(first + part * PART_TRIANGLES, last);
+            set_part(triangles, positions, begin, std::min(begin + PART_TRIANGLES, last), cluster,
+                     part);
+        }
     }
     return out;
 }

@@ -33,7 +33,7 @@ kernel void gbuffer_raster(
     uint last = min(first + BATCH_TRIANGLES, params.triangle_count);
 
     Batch batch;
-    batch_sort(&view, &params, first, last, triangles, positions, &batch);
+    batch_sort(&view, &params, first, last, ALL_PARTS, triangles, positions, &batch);
     for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
         small_draw(&view, params.stage, batch.small + n, min(batch.small_count - n, CLGI_WIDTH),
                    triangles, positions, visibility, 1);

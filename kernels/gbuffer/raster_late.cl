@@ -24,7 +24,7 @@ kernel void gbuffer_raster_late(
     uint first = late[slot * params.late_capacity + item] * BATCH_TRIANGLES;
     uint last = min(first + BATCH_TRIANGLES, params.triangle_count);
     Batch batch;
-    batch_sort(&view, &params, first, last, triangles, positions, &batch);
+    batch_sort(&view, &params, first, last, ALL_PARTS, triangles, positions, &batch);
     for (int n = 0; n < batch.rest_count; n += CLGI_WIDTH) {
         RasterPolygon made[CLGI_WIDTH];
         int count = batch_polygons(&view, batch.rest + n, min(batch.rest_count - n, CLGI_WIDTH),

@@ -14,17 +14,20 @@
 #include "gbuffer/small.clh"
 #include "gbuffer/tile.clh"
 
-// Clusters that are drawn between two looks at all pixels: a look costs as much as one of them.
-#define CLUSTERS_A_LOOK 32
+// Clusters that are drawn between two looks at all pixels: one for so many pixels, within limits. A
+// look then costs less than they do.
+#define PIXELS_A_CLUSTER 512
+#define LEAST_CLUSTERS_A_LOOK 8
+#define MOST_CLUSTERS_A_LOOK 32
 
-static void draw_cluster(const View* view, const RasterParams* params, uint cluster,
+static void draw_cluster(const View* view, const RasterParams* params, uint cluster, uint parts,
                          const Occlusion* occlusion, const SceneBuffers* scene,
                          global PixelWord* visibility) {
     uint end = min((cluster + 1) * CLUSTER_TRIANGLES, params->triangle_count);
     for (uint first = cluster * CLUSTER_TRIANGLES; first < end; first += BATCH_TRIANGLES) {
         Batch batch;
-        batch_sort(view, params, first, min(first + BATCH_TRIANGLES, end), scene->triangles,
-                   scene->positions, &batch);
+        batch_sort(view, params, first, min(first + BATCH_TRIANGLES, end), parts,
+                   scene->triangles, scene->positions, &batch);
         for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
             small_draw(view, RASTER_FUSED, batch.small + n, min(batch.small_count - n, CLGI_WIDTH),
                        scene->triangles, scene->positions, visibility, 0);
@@ -54,7 +57,9 @@ kernel void gbuffer_raster_views(RASTER_VIEWS_ARGUMENTS) {
 
     Occlusion occlusion;
     occlusion_begin(&view, &occlusion);
-    int drawn = 0;  // clusters
+    int drawn = 0;  // clusters since the last look
+    int most_drawn = clamp((int)(pixels / PIXELS_A_CLUSTER), LEAST_CLUSTERS_A_LOOK,
+                           MOST_CLUSTERS_A_LOOK);
     uint cluster_count = (params.triangle_count + CLUSTER_TRIANGLES - 1) / CLUSTER_TRIANGLES;
     for (uint next = 0; next < cluster_count;) {
         NearFirst list;
@@ -62,8 +67,12 @@ kernel void gbuffer_raster_views(RASTER_VIEWS_ARGUMENTS) {
         for (int n = 0; n < list.count; ++n) {
             uint cluster = list.cluster[list.order[n]];
             if (occlusion_hides_cluster(&occlusion, &view, clusters + cluster)) continue;
-            draw_cluster(&view, &params, cluster, &occlusion, &scene, visibility);
-            if (++drawn % CLUSTERS_A_LOOK == 0) occlusion_update(&view, visibility, &occlusion);
+            uint parts = occlusion_parts(&occlusion, &view, clusters + cluster);
+            if (parts == 0) continue;
+            draw_cluster(&view, &params, cluster, parts, &occlusion, &scene, visibility);
+            if (++drawn < most_drawn) continue;
+            occlusion_update(&view, visibility, &occlusion);
+            drawn = 0;
         }
     }
 }

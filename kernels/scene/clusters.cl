@@ -1,4 +1,4 @@
-// The box around every cluster of triangles, and the cone of their normals.
+// The box around every cluster of triangles, the cone of their normals and spheres around its parts.
 // [derived: minima and maxima are exact, so the boxes are those of the host at load, bit for bit]
 //
 // Work size    1D, one work-item a cluster; any local size; tail guarded
@@ -41,6 +41,38 @@ static float4 cone_of(global const uint4* triangles, global const float4* positi
     return (float4)(axis, sqrt(1.0f - cosine * cosine));
 }
 
+// Triangles first .. last - 1, or none.
+static void set_part(global const uint4* triangles, global const float4* positions, uint first,
+                     uint last, global Cluster* cluster, int part) {
+    float3 middle = (float3)(0.0f);
+    float radius = 0.0f;
+    if (first < last) {
+        float3 low = positions[triangles[first].x].xyz, high = low;
+        for (uint t = first; t < last; ++t) {
+            uint4 corner = triangles[t];
+            float3 p[3] = {positions[corner.x].xyz, positions[corner.y].xyz,
+                           positions[corner.z].xyz};
+            for (int k = 0; k < 3; ++k) {
+                low = select(low, p[k], p[k] < low);
+                high = select(high, p[k], p[k] > high);
+            }
+        }
+        middle = 0.5f * (low + high);
+        float square = 0.0f;
+        for (uint t = first; t < last; ++t) {
+            uint4 corner = triangles[t];
+            square = max(square, max(sum_of_squares(positions[corner.x].xyz - middle),
+                                     max(sum_of_squares(positions[corner.y].xyz - middle),
+                                         sum_of_squares(positions[corner.z].xyz - middle))));
+        }
+        radius = sqrt(square);
+    }
+    cluster->part[0][part] = middle.x;
+    cluster->part[1][part] = middle.y;
+    cluster->part[2][part] = middle.z;
+    cluster->part[3][part] = radius;
+}
+
 kernel void scene_clusters(
     const uint             triangle_count,
     global const uint4*    restrict triangles,  // [triangle_count] three vertices, material
@@ -66,4 +98,9 @@ kernel void scene_clusters(
     clusters[cluster].low = (float4)(low.xyz, 0.0f);
     clusters[cluster].high = (float4)(high.xyz, 0.0f);
     clusters[cluster].cone = cone_of(triangles, positions, first, last);
+    for (uint part = 0; part < CLUSTER_PARTS; ++part) {
+        uint begin = min(first + part * PART_TRIANGLES, last);
+        set_part(triangles, positions, begin, min(begin + PART_TRIANGLES, last),
+                 clusters + cluster, (int)part);
+    }
 }

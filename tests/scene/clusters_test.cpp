@@ -78,6 +78,33 @@ TEST(Clusters, AreTheLeastBoxesAroundTheirTriangles) {
     }
 }
 
+// Spheres around every eight triangles: no corner is outside, and one is on it.
+TEST(Clusters, HaveSpheresAroundTheirParts) {
+    for (const int count : {1, 8, 9, 63, 65, 1000}) {
+        const DeviceScene scene = test::on_device(dust(count));
+        const auto triangles =
+            test::download<glm::uvec4>(scene.triangles(), scene.info().triangle_count);
+        const auto positions =
+            test::download<glm::vec4>(scene.positions(), scene.info().vertex_count);
+        const std::vector<Cluster> clusters = clusters_of(scene);
+        for (std::size_t p = 0; p < clusters.size() * CLUSTER_PARTS; ++p) {
+            const auto& part = clusters[p / CLUSTER_PARTS].part;
+            const std::size_t k = p % CLUSTER_PARTS;
+            const glm::dvec3 middle(part[0][k], part[1][k], part[2][k]);
+            double farthest = 0.0;
+            for (std::size_t t = 8 * p; t < std::min<std::size_t>(8 * p + 8, triangles.size()); ++t)
+                for (int c = 0; c < 3; ++c)
+                    farthest = std::max(
+                        farthest, glm::distance(middle, glm::dvec3(positions[triangles[t][c]])));
+            EXPECT_NEAR(part[3][k], farthest, 1e-6 * farthest) << count << ", " << p;
+            EXPECT_LT(farthest, 2.0);
+            if (8 * p >= triangles.size()) {
+                EXPECT_EQ(middle, glm::dvec3(0.0));
+            }
+        }
+    }
+}
+
 // Every normal lies in the cone, and triangles seen from both sides have none.
 TEST(Clusters, KnowWhichWayTheirTrianglesFace) {
     Scene both = bumpy_mesh();

@@ -59,12 +59,16 @@ enum {
 // Consecutive triangles of the device's order, which follows space: the box around them, and which
 // way they face.
 enum { CLUSTER_TRIANGLES = 64 };  // the last cluster may have fewer
+enum { CLUSTER_PARTS = 8, PART_TRIANGLES = CLUSTER_TRIANGLES / CLUSTER_PARTS };
 
 typedef struct {
     float4 low;   // xyz, local frame; w: 0
     float4 high;  // xyz, local frame; w: 0
     float4 cone;  // xyz: unit axis of a cone that holds the triangles' normals; w: sine of its half
                   // angle, or 2 where they do not all face one way or are seen from both sides
+    // Spheres around its eighths, in the order of triangles: x, y and z of centres, and radii.
+    // Without triangles: 0.
+    float part[4][CLUSTER_PARTS];
 } Cluster;
 
 typedef struct {
