@@ -24,6 +24,6 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "clgi (= ${PROJECT_VERSION}), ocl-icd-opencl-dev, opencl-clhpp-headers, libglm-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS  # of static libraries
-    "libopenexr-dev, libpng-dev, libepoxy-dev, pkg-config, libmeshoptimizer-dev, libembree-dev, libtbb-dev")
+    "libopenexr-dev, libpng-dev, libmeshoptimizer-dev, libdraco-dev, libwebp-dev, libepoxy-dev, pkg-config, libembree-dev, libtbb-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: headers and kernel sources")
 include(CPack)

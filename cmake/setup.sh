@@ -9,6 +9,7 @@ clgi_packages=(
     g++ cmake ninja-build pkg-config                                             # build
     ocl-icd-opencl-dev opencl-clhpp-headers opencl-headers libglm-dev libstb-dev # clgi::clgi
     libopenexr-dev libpng-dev nlohmann-json3-dev libtinygltf-dev                 # clgi::io
+    libmeshoptimizer-dev libdraco-dev libwebp-dev                                # its codecs
     libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri                 # clgi::gl
     libmeshoptimizer-dev                                                         # clgi::mesh
     libembree-dev libtbb-dev                                                     # clgi::reference

@@ -93,8 +93,10 @@ AccessorReader::Elements AccessorReader::elements(const Document& document, int 
                                                   std::size_t bytes, bool strided) {
     const tinygltf::BufferView& range = document.model.bufferViews[view];
     const Bytes buffer = document.buffers[range.buffer];
-    require(!buffer.empty(),
-            "needs data that only EXT_meshopt_compression gives, which clgi does not read");
+    if (buffer.empty()) {
+        fail("needs data that only ",
+             meshopt_codec.built ? "a fallback buffer has" : missing(meshopt_codec));
+    }
     const std::size_t stride = strided && range.byteStride > 0 ? range.byteStride : bytes;
     require(stride >= bytes, "has elements of ", bytes, " bytes, its view a stride of ", stride);
     // Written with divisions: every one of these numbers may be near 2^64.

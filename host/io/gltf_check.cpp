@@ -22,10 +22,11 @@ void check_primitive(const Primitive& primitive, const Model& model) {
         require(attributes.contains("WEIGHTS_" + std::to_string(set)) == joints,
                 ".attributes has joints without weights or weights alone");
     }
-    if (!extension(primitive.extensions, "KHR_draco_mesh_compression")) return;
+    if (draco_codec.built || !extension(primitive.extensions, draco_codec.extension)) return;
     const int position = attribute(attributes, "POSITION");
-    require(position >= 0 && model.accessors[position].bufferView >= 0,
-            "needs KHR_draco_mesh_compression, which clgi does not read");
+    if (position < 0 || model.accessors[position].bufferView < 0) {
+        fail("needs ", missing(draco_codec));
+    }
 }
 
 void check_mesh(const Mesh& mesh, const Model& model) {

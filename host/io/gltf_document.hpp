@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
+#include "io/gltf_codecs.hpp"
 #include "io/gltf_image.hpp"
 #include "io/gltf_text.hpp"
 #include "io/gltf_tiny.hpp"
@@ -31,7 +32,8 @@ struct Image {
 struct Document {
     std::filesystem::path folder;
     std::vector<std::vector<std::uint8_t>> files;  // what the buffers point into
-    std::vector<Bytes> buffers;  // without bytes where only EXT_meshopt_compression has them
+    std::vector<Bytes> buffers;  // without bytes where only compressed views have them
+    UnpackBudget unpacking;
     std::vector<Image> images;
     Model model;                       // everything else
     bool quantized = false;            // KHR_mesh_quantization is declared
@@ -94,6 +96,14 @@ void guard(nlohmann::json& root);
 // Replaces the buffers and images of the JSON by those of the document. Their uris name data, or
 // files in the folder of the scene.
 void take_sources(nlohmann::json& root, std::optional<Bytes> binary, Document& document);
+
+// Unpacks a view of EXT_meshopt_compression, whose compressed bytes lie in their buffer, and lets
+// it show them. Built with CLGI_MESHOPT alone.
+void unpack_view(nlohmann::json& view, Document& document);
+
+// Gives the primitives of KHR_draco_mesh_compression accessors of their unpacked vertices and
+// triangles, of the latter `most` in all. Built with CLGI_DRACO alone.
+void unpack_meshes(Document& document, std::size_t most);
 
 // That weights, joints, morph targets and keys of animations match in number and shape, and that
 // nothing is missing that only a foreign extension gives.

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "io/gltf_codecs.hpp"
 #include "io/gltf_text.hpp"
 #include "io/png_decode.hpp"
 
@@ -33,6 +34,8 @@ bool has_at(Bytes bytes, std::size_t at, std::string_view expected) {
     return bytes.size() >= at + expected.size() &&
            std::memcmp(bytes.data() + at, expected.data(), expected.size()) == 0;
 }
+
+bool is_webp(Bytes bytes) { return has_at(bytes, 0, "RIFF"sv) && has_at(bytes, 8, "WEBP"sv); }
 
 bool is_png(Bytes bytes) { return has_at(bytes, 0, "\x89PNG\r\n\x1a\n"sv); }
 
@@ -121,12 +124,17 @@ ImageFormat inspect_image(Bytes bytes) {
         check_jpeg_start(bytes.first(std::min(bytes.size(), inspected_bytes)));
         return ImageFormat::jpeg;
     }
-    const bool webp = has_at(bytes, 0, "RIFF"sv) && has_at(bytes, 8, "WEBP"sv);
+    if (webp_codec.built && is_webp(bytes)) return ImageFormat::webp;
     const bool avif = has_at(bytes, 4, "ftyp"sv);
     const bool other = has_at(bytes, 0, "\xabKTX "sv) || has_at(bytes, 0, "DDS "sv) ||
                        has_at(bytes, 0, "GIF8"sv) || has_at(bytes, 0, "BM"sv);
-    require(webp || avif || other, "is neither PNG nor JPEG");
+    require(is_webp(bytes) || avif || other, "is neither PNG nor JPEG nor WebP");
     return ImageFormat::unsupported;
+}
+
+const char* name_of(ImageFormat format) {
+    if (format == ImageFormat::webp) return "WebP";
+    return format == ImageFormat::png ? "PNG" : "JPEG";
 }
 
 bool contradicts(std::string_view media_type, ImageFormat format) {
@@ -134,10 +142,14 @@ bool contradicts(std::string_view media_type, ImageFormat format) {
     for (char& c : type) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (!type.starts_with("image/") || format == ImageFormat::unsupported) return false;
     if (format == ImageFormat::png) return type != "image/png";
+    if (format == ImageFormat::webp) return type != "image/webp";
     return type != "image/jpeg" && type != "image/jpg";
 }
 
 Pixels decode_image(Bytes bytes, std::size_t most) {
+    if constexpr (webp_codec.built) {
+        if (is_webp(bytes)) return decode_webp_file(bytes, most);
+    }
     return is_png(bytes) ? decode_png_file(bytes, most) : decode_jpeg_file(bytes, most);
 }
 

@@ -27,8 +27,7 @@ constexpr const char* supported[] = {
     "KHR_materials_unlit"};  // gets its own warning where a material has it
 
 // Nothing is lost when these are not read.
-constexpr const char* harmless[] = {"KHR_xmp", "KHR_xmp_json_ld", "EXT_meshopt_compression",
-                                    "EXT_texture_webp"};
+constexpr const char* harmless[] = {"KHR_xmp", "KHR_xmp_json_ld"};
 
 bool contains(std::span<const char* const> names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -55,14 +54,37 @@ void read_head(const json& root, Document& document) {
     require(least == "2.0", "asset.minVersion asks for a reader of glTF ", least,
             ", clgi reads 2.0");
     for (const std::string name : head["extensionsRequired"]) {
+        const Codec* codec = find_codec(name);
+        if (codec && codec->built) continue;
+        if (codec) fail("requires the extension ", missing(*codec));
         require(contains(supported, name), "requires the extension ", printable(name),
                 ", which clgi does not read");
     }
     for (const std::string name : head["extensionsUsed"]) {
         if (name == "KHR_mesh_quantization") document.quantized = true;
-        if (contains(supported, name) || contains(harmless, name)) continue;
+        if (find_codec(name) || contains(supported, name) || contains(harmless, name)) continue;
         document.warnings.add("the extension " + printable(name) + " is ignored");
     }
+}
+
+// Compressed primitives have indices without a view, which tinygltf refuses: they move into the
+// extension.
+void move_packed_indices(json& root) {
+    const auto move = [&](json& primitive) {
+        if (!primitive.contains("indices") || !primitive.contains("extensions")) return;
+        const auto packed = primitive["extensions"].find(draco_codec.extension);
+        if (packed == primitive["extensions"].end()) return;
+        const auto accessor = primitive["indices"].get<std::size_t>();
+        if (draco_codec.built) {
+            (*packed)["indices"] = accessor;
+            primitive.erase("indices");
+        } else if (!root["accessors"][accessor].contains("bufferView")) {
+            fail("needs ", missing(draco_codec));
+        }
+    };
+    each("meshes", root["meshes"], [&](json& mesh) {
+        each(".primitives", mesh["primitives"], [&](json& primitive) { move(primitive); });
+    });
 }
 
 std::string last_line(std::string text) {
@@ -83,6 +105,7 @@ Document read_document(const std::filesystem::path& path) {
         require(accessor.contains("bufferView") || !accessor.contains("byteOffset"),
                 "has an offset into no view");
     });
+    move_packed_indices(root);
     take_sources(root, container.binary, document);
     const std::string text = std::exchange(root, nullptr).dump();
     require(text.size() <= INT_MAX, "the JSON is larger than 2 GiB");
@@ -99,6 +122,7 @@ Document read_document(const std::filesystem::path& path) {
 Scene load(const std::filesystem::path& path, const GltfOptions& options) {
     // Everything the document says is checked before anything is built from it.
     Document document = read_document(path);
+    if constexpr (draco_codec.built) unpack_meshes(document, options.max_triangles);
     check_links(document.model);
     check_accessors(document);
     check_meshes(document);

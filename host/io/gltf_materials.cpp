@@ -38,25 +38,26 @@ public:
     int load(int texture) {
         if (texture < 0) return -1;
         const tinygltf::Texture& source = document_.model.textures[texture];
-        if (!is_readable(source.source)) return -1;
+        const int image = image_of(source);
+        if (!is_readable(image)) return -1;
         const tinygltf::Sampler sampler =
             source.sampler < 0 ? tinygltf::Sampler() : document_.model.samplers[source.sampler];
         const Wrap wrap_s = wrap(sampler.wrapS);
         const Wrap wrap_t = wrap(sampler.wrapT);
         const bool nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-        const auto [known, fresh] = loaded_.try_emplace({source.source, wrap_s, wrap_t, nearest},
+        const auto [known, fresh] = loaded_.try_emplace({image, wrap_s, wrap_t, nearest},
                                                         static_cast<int>(scene_.textures.size()));
         if (!fresh) return known->second;
-        Pixels pixels = decode(source.source, texels_left_);
-        scene_.textures.push_back({document_.images[source.source].name, pixels.width,
-                                   pixels.height, std::move(pixels.rgba), wrap_s, wrap_t, nearest});
+        Pixels pixels = decode(image, texels_left_);
+        scene_.textures.push_back({document_.images[image].name, pixels.width, pixels.height,
+                                   std::move(pixels.rgba), wrap_s, wrap_t, nearest});
         return known->second;
     }
 
     // The means of a texture's blue and green, which multiply the factors.
     glm::dvec2 mean_metal_rough(int texture) {
         if (texture < 0) return glm::dvec2(1.0);
-        const int image = document_.model.textures[texture].source;
+        const int image = image_of(document_.model.textures[texture]);
         if (!is_readable(image)) return glm::dvec2(1.0);
         const auto [known, fresh] = means_.try_emplace(image);
         if (!fresh) return known->second;
@@ -78,8 +79,14 @@ private:
         // What a data uri says of itself must be true; files and views are known by their bytes.
         for (const std::string& type : image.types) {
             require(!contradicts(type, formats_.back()), "calls its data ", printable(type),
-                    ", but they are a ", formats_.back() == ImageFormat::png ? "PNG" : "JPEG");
+                    ", but they are a ", name_of(formats_.back()));
         }
+    }
+
+    // The source of EXT_texture_webp goes before the one that is there for other readers.
+    static int image_of(const tinygltf::Texture& texture) {
+        const Value* better = extension(texture.extensions, webp_codec.extension);
+        return webp_codec.built && better ? index_in(*better, "source") : texture.source;
     }
 
     bool is_readable(int image) {

@@ -86,8 +86,29 @@ std::vector<std::uint8_t> decoded(std::string_view base64) {
     return bytes;
 }
 
+// The view's compressed form; null where it has none that is read.
+const json* packed_form(const json& view) {
+    if (!meshopt_codec.built || !view.contains("extensions")) return nullptr;
+    const auto found = view["extensions"].find(meshopt_codec.extension);
+    return found == view["extensions"].end() ? nullptr : &*found;
+}
+
+// The buffers of which only compressed views are shown: their bytes, if there are any, are for
+// readers without the extension.
+std::vector<bool> find_fallbacks(const json& views, std::size_t buffers) {
+    std::vector<bool> shown(buffers), read(buffers);
+    for (const json& view : views) {
+        const json* packed = packed_form(view);
+        shown[view["buffer"].get<std::size_t>()] = true;
+        read[(packed ? *packed : view)["buffer"].get<std::size_t>()] = true;
+    }
+    for (std::size_t i = 0; i < buffers; ++i) shown[i] = shown[i] && !read[i];
+    return shown;
+}
+
 // Fills document.buffers. Several of them may be in one file, which is read once.
-void take_buffers(json& buffers, std::optional<Bytes> binary, Document& document) {
+void take_buffers(const json& buffers, const std::vector<bool>& fallbacks,
+                  std::optional<Bytes> binary, Document& document) {
     std::size_t longest = 0;
     for (const json& buffer : buffers) {
         longest = std::max(longest, buffer["byteLength"].get<std::size_t>());
@@ -110,7 +131,7 @@ void take_buffers(json& buffers, std::optional<Bytes> binary, Document& document
         const auto length = buffer["byteLength"].get<std::size_t>();
         const bool has_uri = buffer.contains("uri");
         const json::json_pointer fallback("/extensions/EXT_meshopt_compression/fallback");
-        if (!has_uri && buffer.value(fallback, false)) {
+        if (fallbacks[document.buffers.size()] || (!has_uri && buffer.value(fallback, false))) {
             document.buffers.emplace_back();
             return;
         }
@@ -123,12 +144,21 @@ void take_buffers(json& buffers, std::optional<Bytes> binary, Document& document
     });
 }
 
-void check_view(const json& view, const json& buffer) {
+void check_range(const json& view, const json& buffers) {
+    const json& buffer = buffers[view["buffer"].get<std::size_t>()];
     const auto length = view["byteLength"].get<std::size_t>();
     const auto offset = view.value("byteOffset", std::size_t{0});
     const auto there = buffer["byteLength"].get<std::size_t>();
     require(length <= there && offset <= there - length, "is ", length, " bytes at ", offset,
             ", its buffer has ", there);
+}
+
+void check_view(const json& view, const json& buffers) {
+    check_range(view, buffers);
+    if (const json* packed = packed_form(view)) {
+        within([] { return std::string(".extensions.") + meshopt_codec.extension; },
+               [&] { check_range(*packed, buffers); });
+    }
     if (!view.contains("byteStride")) return;
     const auto stride = view["byteStride"].get<std::size_t>();
     require(stride >= 4 && stride <= 252 && stride % 4 == 0, "has a byteStride of ", stride,
@@ -160,9 +190,18 @@ Image image_of(const json& source) {
 
 void take_sources(json& root, std::optional<Bytes> binary, Document& document) {
     json buffers = std::exchange(root["buffers"], nullptr);
-    take_buffers(buffers, binary, document);
-    each("bufferViews", root["bufferViews"],
-         [&](const json& view) { check_view(view, buffers[view["buffer"].get<std::size_t>()]); });
+    json& views = root["bufferViews"];
+    take_buffers(buffers, find_fallbacks(views, buffers.size()), binary, document);
+    std::size_t held = 0;
+    for (const std::vector<std::uint8_t>& file : document.files) held += file.size();
+    document.unpacking = UnpackBudget(held);
+    each("bufferViews", views, [&](json& view) {
+        check_view(view, buffers);
+        if constexpr (meshopt_codec.built) {
+            if (packed_form(view)) unpack_view(view, document);
+        }
+        view.erase("extensions");
+    });
     json images = std::exchange(root["images"], nullptr);
     each("images", images, [&](const json& image) { document.images.push_back(image_of(image)); });
 }

@@ -100,9 +100,9 @@ TEST(GltfTextures, SamplersAreKept) {
     EXPECT_TRUE(scene.textures[0].nearest);
 }
 
-TEST(GltfTextures, AWebpWithoutFallbackIsWhiteWithAWarning) {
-    const std::string webp("RIFF\x1a\0\0\0WEBPVP8L", 16);
-    const Scene scene = textured({webp.begin(), webp.end()}).load();
+TEST(GltfTextures, AFormatThatIsNotReadIsWhiteWithAWarning) {
+    const std::string gif("GIF89a\1\0\1\0", 10);
+    const Scene scene = textured({gif.begin(), gif.end()}).load();
     EXPECT_EQ(scene.materials[0].base_texture.texture, -1);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_NE(scene.warnings[0].find("white"), std::string::npos);
@@ -140,18 +140,38 @@ TEST(GltfTextures, ManyTexturesOfOneImageShareTheBudget) {
 
 TEST(GltfExtensions, ARequiredOneThatIsNotReadIsNamed) {
     GltfDraft draft = triangle_draft();
-    draft.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    EXPECT_NE(refusal(draft).find(
-                  "requires the extension KHR_draco_mesh_compression, which clgi does not read"),
-              std::string::npos);
+    draft.document["extensionsRequired"] = {"KHR_texture_basisu"};
+    EXPECT_NE(
+        refusal(draft).find("requires the extension KHR_texture_basisu, which clgi does not read"),
+        std::string::npos);
 }
 
-TEST(GltfExtensions, MeshoptWithoutFallbackIsNamedAlsoWhenItIsNotRequired) {
+TEST(GltfExtensions, CodecsOfTheBuildAreReadAndTheOthersNamed) {
+    const std::tuple<const char*, const char*, bool> codecs[] = {
+        {"EXT_meshopt_compression", "CLGI_MESHOPT", CLGI_HAS_MESHOPT},
+        {"KHR_draco_mesh_compression", "CLGI_DRACO", CLGI_HAS_DRACO},
+        {"EXT_texture_webp", "CLGI_WEBP", CLGI_HAS_WEBP}};
+    for (const auto& [name, option, built] : codecs) {
+        GltfDraft draft = triangle_draft();
+        draft.add("scenes", {{"nodes", {0}}});
+        draft.document["extensionsUsed"] = {name};
+        EXPECT_TRUE(draft.load().warnings.empty()) << name;
+        draft.document["extensionsRequired"] = {name};
+        const std::string line = "requires the extension " + std::string(name) +
+                                 ", which this build of clgi does not read: " + option + " is OFF";
+        const std::string message = refusal(draft);
+        EXPECT_EQ(message.find(line) != std::string::npos, !built) << message;
+        EXPECT_EQ(message.empty(), built) << message;
+    }
+}
+
+TEST(GltfExtensions, ABufferThatIsOnlyAFallbackHasNoData) {
     GltfDraft draft = triangle_draft();
     json buffer = {{"byteLength", draft.bytes.size()}};
     buffer["extensions"]["EXT_meshopt_compression"]["fallback"] = true;
     draft.document["buffers"] = json::array({buffer});
-    EXPECT_NE(refusal(draft).find("EXT_meshopt_compression"), std::string::npos);
+    const char* because = CLGI_HAS_MESHOPT ? "only a fallback buffer has" : "CLGI_MESHOPT is OFF";
+    EXPECT_NE(refusal(draft).find(because), std::string::npos) << refusal(draft);
 }
 
 TEST(GltfWarnings, EqualLinesAreCounted) {
