@@ -19,7 +19,7 @@ const std::filesystem::path packed_folder =
 #define SKIP_WITHOUT_PACKED() \
     if (!std::filesystem::exists(packed_folder)) GTEST_SKIP() << "no scenes at " << packed_folder
 
-std::string bytes_of(const std::filesystem::path& file) {
+[[maybe_unused]] std::string bytes_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
