@@ -183,7 +183,7 @@ PlanCost irradiance_cache(const Plan& plan) {
         plan.on(Effect::area_light) ? static_cast<double>(plan.picture.emitters.area_samples) : 0.0;
     const double lit = lamps.emitters - samples + std::min(samples, samples_at_once);
     Amount frame = picture(plan, false);
-    frame += {records * (0.1 + 2.5e-5 * triangles(plan) + weighed * (4e-5 + 1e-5 * lit) * pixels) +
+    frame += {records * (0.1 + 1.2e-5 * triangles(plan) + weighed * (4e-5 + 1e-5 * lit) * pixels) +
                   2e-6 * records * records,
               records * (8.0 * pixels + 12.0 * records)};
     return {0.0, frame.ms, 1e-6 * frame.bytes};

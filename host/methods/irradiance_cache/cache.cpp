@@ -52,7 +52,7 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     const double records = 1.6 * o.seen + o.met + o.refined;  // as many as a room has
     const double per_record = 5.0 * sizeof(View) + 24.0 * face * face + 12.0 * most + 36.0 +
                               48.0 * picks_per_record + 64.0;
-    constexpr double pairs = 32.0, drawn = 1e-8;  // a pixel; a triangle in a hemicube, seconds
+    constexpr double pairs = 32.0, drawn = 4e-9;  // a pixel; a triangle in a hemicube, seconds
     const double milliseconds = 1e3 * records *
                                 (3.0 * face * face * pairs / pairs_per_second(device) +
                                  drawn * static_cast<double>(scene.info().triangle_count));
