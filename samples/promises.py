@@ -16,6 +16,7 @@ SPDX-License-Identifier: MIT
 import argparse
 import json
 import os
+import sys
 import time
 
 from commands import run
@@ -72,14 +73,14 @@ class Case:
     def trace(self, seconds):
         """The path tracer's picture after as many seconds."""
         command = [self.options.clgi, "reference", self.scene, "--quiet", "--full",
-                   "--size", self.options.size, "-o", self.name + "-peer.exr", *self.sky, "--spp"]
+                   "--size", self.options.size, "-o", self.name + "-peer.exr", "--filter", "box", *self.sky, "--spp"]
         few = 4
         one = timed(*command, few) / few  # loading counts, as it does in the render's time
         timed(*command, max(1, round(seconds / one)))
 
-    def judge(self, name):
+    def judge(self, name, *flags):
         return json.loads(run(self.options.clgi, "verify", name, self.scene, "--quiet", "--json",
-                              "--limit", self.options.truth, "--seed", 7, *self.sky))
+                              "--limit", self.options.truth, "--seed", 7, *self.sky, *flags))
 
 
 def seeds_of(text):
@@ -114,9 +115,10 @@ def main():
     parser.add_argument("--truth", default="4s", help="how long the judge traces paths")
     parser.add_argument("--peer", action="store_true", help="the path tracer beside it")
     parser.add_argument("--plot", help="with --peer: errors by time, .svg")
-    parser.add_argument("flags", nargs="*")
-    options = parser.parse_args()
-    options.flags = options.flags or ["--target-error", "5%"]
+    given = sys.argv[1:]
+    end = given.index("--") if "--" in given else len(given)
+    options = parser.parse_args(given[:end])
+    options.flags = given[end + 1:] or ["--target-error", "5%"]
     os.makedirs(options.out, exist_ok=True)
     peer = " path tracer, % |" if options.peer else ""
     print("| scene | method | said, % | judged, % | energy | picture, s | command, s |" + peer)
@@ -138,7 +140,7 @@ def main():
                f"| {stats['frame_ms']['median'] / 1e3:.2f} | {seconds:.1f} |")
         if options.peer:
             case.trace(seconds)
-            traced = case.judge(case.name + "-peer.exr")
+            traced = case.judge(case.name + "-peer.exr", "--filter", "box")
             rows.append((seconds, judged, traced))
             row += f" {interval(traced)} |"
         print(row, flush=True)
