@@ -66,9 +66,12 @@ kernel void gbuffer_raster_views(RASTER_VIEWS_ARGUMENTS) {
         next = near_first_list(&view, params.cull, clusters, next, cluster_count, &list);
         for (int n = 0; n < list.count; ++n) {
             uint cluster = list.cluster[list.order[n]];
-            if (occlusion_hides_cluster(&occlusion, &view, clusters + cluster)) continue;
-            uint parts = occlusion_parts(&occlusion, &view, clusters + cluster);
-            if (parts == 0) continue;
+            uint parts = ALL_PARTS;
+            if (params.cull) {
+                if (occlusion_hides_cluster(&occlusion, &view, clusters + cluster)) continue;
+                parts = occlusion_parts(&occlusion, &view, clusters + cluster);
+                if (parts == 0) continue;
+            }
             draw_cluster(&view, &params, cluster, parts, &occlusion, &scene, visibility);
             if (++drawn < most_drawn) continue;
             occlusion_update(&view, visibility, &occlusion);
