@@ -25,6 +25,6 @@ out=$clgi_root/out
 mkdir -p "$out"
 "$clgi" devices
 "$clgi" scene box "${mesh[@]}" -o "$out/box.glb"
-"$clgi" render "$out/box.glb" -o "$out/box.exr" --png "$out/box.png" --frames 20 \
+"$clgi" render "$out/box.glb" -o "$out/box.exr" --png "$out/box.png" \
     --stats "$out/box.json"
 echo "picture: $out/box.png (radiance: $out/box.exr, times by pass: $out/box.json)"
