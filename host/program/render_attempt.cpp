@@ -107,14 +107,17 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error) {
     if (!is_still(flags_) || is_given(flags_, "samples")) return;
     const double limit = 1e3 * seconds;
     double& spent = record_.refine_ms;
+    double longest = 0.0;      // some samples draw shadow maps, others do not
     std::uint32_t looked = 2;  // at the error
-    for (double last = 0.0; renderer_.samples() < most && !interrupted(); spent += last) {
-        if (renderer_.samples() >= least && spent + last >= limit) break;
+    while (renderer_.samples() < most && !interrupted()) {
+        if (renderer_.samples() >= least && spent + longest >= limit) break;
         if (renderer_.samples() >= std::max(least, 2 * looked)) {
             looked = renderer_.samples();
             if (renderer_.sampling_error() <= error) break;
         }
-        last = lab::time_frame(session_.queue, [&] { renderer_.refine(); });
+        const double taken = lab::time_frame(session_.queue, [&] { renderer_.refine(); });
+        longest = std::max(longest, taken);
+        spent += taken;
     }
     picture_ = lab::radiance_picture(renderer_);
 }

@@ -34,8 +34,7 @@ std::string unmet(const Plan& plan, bool checked, bool timed) {
 
 // The error that pictures are checked for; none where the last picture is not that of the flags.
 std::optional<double> checked_target(const RenderFlags& flags, const Plan& plan) {
-    const bool one = flags.frames == 1 && !flags.fps && !flags.spin_light && !flags.orbit;
-    return one ? plan.request.error : std::nullopt;
+    return is_still(flags) ? plan.request.error : std::nullopt;
 }
 
 // Plans once more where an error is above the target, and may be brought down in the time.
@@ -190,7 +189,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
     }
     if (!target && !budget) attempts.clear();
     if (target && !found) notice(false, "warning: " + missed(*target, best->record().verified));
-    if (budget && spent > 1.02 * *budget)
+    if (budget && spent > *budget)
         notice(false, fmt::format("warning: {:.3g} s of the {:.3g} s of --time-budget were used",
                                   spent, *budget));
     best->finish(attempts, found || !target, budget ? std::optional<double>(spent) : std::nullopt);

@@ -34,8 +34,7 @@ public:
     // The next sample into the mean.
     PassEvent add(const Radiance& sample, std::size_t pixels, const cl::Event& after);
 
-    // The standard error of the mean's luminance by what samples differ, root of its mean square
-    // over the mean; more than there is, as the points are even. Two samples or more.
+    // Renderer::sampling_error(), of two samples or more.
     double error(std::size_t pixels, const cl::Event& last) const;
 
     // The mean of two samples or more.

@@ -61,7 +61,7 @@ public:
     // the event completes when all of the picture has.
     cl::Event render(const Camera& camera, const WaitList& wait = {});
     // Another picture by the records of the last one, which are nearly the same for a camera that
-    // looks from the same place through other points of its pixels.
+    // looks from the same place through other points of its pixels. Throws Error before render().
     cl::Event render_again(const Camera& camera, const WaitList& wait = {});
     // Picture::sample(): of direct light; records keep what they have.
     void sample(std::uint32_t index);

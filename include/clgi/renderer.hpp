@@ -144,8 +144,9 @@ public:
     std::uint32_t stride() const;        // floats between planes
     std::uint32_t samples() const;       // in the last picture
     // Waits for the last picture: how far its luminance may be from the mean of all samples, root
-    // of the mean square over the mean. Taken from what samples differ, so more than it is, as their
-    // points are even. Infinite for one sample.
+    // of the mean square over the mean. Taken from what samples differ, as if each were drawn by
+    // itself: more than it is at edges, as the points in pixels are even; up to half of it at
+    // borders of shadows, as four samples share their lights. Infinite for one sample.
     double sampling_error() const;
     // Waits for the last picture: R, G and B, cd/m^2, [height * width] each.
     std::array<std::vector<float>, 3> read_radiance() const;

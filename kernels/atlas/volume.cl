@@ -1,5 +1,6 @@
 // The light of an irradiance volume at points of surfaces that an atlas has no place for, such as
 // those of what moves.
+// [derived: Greger98, interpolation; Majercik19, moment-based filtered queries]
 //
 //   E(x, n) = sum_k t_k b_k v_k E_k(n) / sum_k t_k b_k v_k,   k: the points of the eight cubes
 //                                                              around x that have light
@@ -10,7 +11,6 @@
 // t: trilinear in x. y = x + VOLUME_LIFT n, off its own surface. d_k: distance of y from the point.
 // m, s^2: mean and variance of the distances of surfaces that the point sees along -to_k, so v_k is
 // Chebyshev's bound of the share of them beyond y. A sum of no weights is no light.
-//            [derived: Greger98, interpolation; Majercik19, moment-based filtered queries]
 // w comes from a spherical design.
 //
 // Unlike paper: points in solid matter have no light, and weights below 0.2 are not made smaller.

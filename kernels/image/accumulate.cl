@@ -5,6 +5,7 @@
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       the means of its own pixels: between the samples, so finite where they are
+// Cost         13 flops and 44 bytes a pixel
 // SPDX-License-Identifier: MIT
 #include "packet.clh"
 #include "clgi/shared/image.h"

@@ -359,6 +359,9 @@ TEST(IrradianceCache, SaysWhatItCannotDo) {
         return test::refusal<Error>(
             [&] { IrradianceCache(test::programs(), test::device().queue, device, options); });
     };
+    IrradianceCache cache(test::programs(), test::device().queue, device, cache_options());
+    EXPECT_NE(test::refusal<Error>([&] { cache.render_again(Camera()); }).find("no picture yet"),
+              std::string::npos);
     using Options = IrradianceCacheOptions;
     EXPECT_NE(refused([](Options& o) { o.seen = 0; }).find("seen is 0"), std::string::npos);
     EXPECT_NE(refused([](Options& o) { o.met = 20001; }).find("met"), std::string::npos);

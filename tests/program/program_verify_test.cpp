@@ -194,4 +194,43 @@ TEST_F(VerifyProgram, GoesOnUntilTheErrorIsReached) {
     EXPECT_EQ(hard.at("measured_error").at("value"), least);
 }
 
+// Stills by a plan have several samples, and say so wherever they are judged.
+TEST_F(VerifyProgram, JudgesPicturesOfSeveralSamplesByWholePixels) {
+    const std::string scene = make("cornell");
+    const std::string exr = file("a.exr").string(),
+                      to = " --quiet --full -o " + exr + " --stats " + file("s.json").string();
+    const auto stats = [&](const std::string& flags) {
+        const Outcome outcome = run("render " + scene + " --size 48x36 " + flags + to);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return json::parse(read("s.json")).at("samples");
+    };
+    const json still = stats("--verify 0.2s");
+    EXPECT_GE(still.at("count"), 4);
+    EXPECT_LE(still.at("count"), 1024);
+    EXPECT_GT(still.at("refine_ms"), 0.0);
+    EXPECT_EQ(clgi::io::load_image(exr).attributes.at("clgi:filter"), "box");
+    // The lamp's edges are smooth, so that centres of pixels tell another truth.
+    const auto error = [&](const std::string& flags) {
+        const Outcome outcome = run("verify " + exr + " " + scene + " --json --limit 0.5s" + flags);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return json::parse(outcome.out).at("value").get<double>();
+    };
+    EXPECT_EQ(stats("--samples 64 --verify 0.5s").at("count"), 64);
+    const json many = json::parse(read("s.json"));
+    EXPECT_EQ(many.at("samples").at("refine_ms"), 0.0);
+    const double by_centers = error(" --filter center");
+    EXPECT_LT(error(""), 0.5 * by_centers);
+    EXPECT_LT(many.at("measured_error").at("value").get<double>(), 0.5 * by_centers);
+
+    for (const char* flags : {"--frames 2", "--orbit --frames 2", "--method direct"}) {
+        EXPECT_EQ(stats(flags).at("count"), 1) << flags;
+        EXPECT_EQ(clgi::io::load_image(exr).attributes.at("clgi:filter"), "center") << flags;
+    }
+    const Outcome twice = run("render " + scene + " --samples 2 --replicates 2 -o " + exr);
+    EXPECT_EQ(twice.code, 1);
+    EXPECT_NE(twice.err.find("--samples goes not with --gbuffer gl or --replicates"),
+              std::string::npos)
+        << twice.err;
+}
+
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "coverage.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -70,6 +71,41 @@ TEST(ReferencePixel, HasTheMeanOfWhatItShowsAndNotOfOtherPartsOfTheTexture) {
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(radiance[c], static_cast<float>(inside[c]) / 255.0f,
                         1e-4f);  // rough: albedo
+}
+
+// The box filter against the exact area of what pixels show, for a picture and for its check.
+TEST(ReferencePixel, IsLookedThroughAsAWhole) {
+    constexpr int width = 23, height = 17, samples = 4096;
+    const std::vector<glm::dvec2> corners = {{3.3, 2.1}, {19.7, 4.9}, {17.2, 14.6}, {6.9, 12.3}};
+    const glm::vec3 radiance(1.0f, 2.0f, 4.0f);
+    const Scene scene = test::glowing_quad(corners, radiance);
+    const Camera camera = test::pixel_camera(width, height);
+    const std::vector<double> exact = test::coverage(corners, width, height);
+    const reference::PathTracer tracer(scene);
+    reference::Options options;
+    options.width = width;
+    options.height = height;
+    options.samples = samples;
+    const auto centers = tracer.render(camera, options).radiance;
+    options.filter = reference::Filter::box;
+    const auto whole = tracer.render(camera, options).radiance;
+    std::vector<glm::vec3> truth;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(whole[i][c] / radiance[c], exact[i], 4.0 * 0.5 / std::sqrt(samples)) << i;
+            EXPECT_TRUE(centers[i][c] == 0.0f || centers[i][c] == radiance[c]) << i;
+        }
+        truth.push_back(static_cast<float>(exact[i]) * radiance);
+    }
+    reference::VerifyOptions check;
+    check.pixels = width * height;
+    check.samples = samples;
+    const double by_centers = tracer.verify(camera, width, height, truth, check).error.value;
+    EXPECT_LT(tracer.verify(camera, width, height, centers, check).error.value, 1e-6);
+    check.filter = reference::Filter::box;
+    EXPECT_LT(tracer.verify(camera, width, height, truth, check).error.value, 0.02);
+    EXPECT_GT(by_centers, 0.1);
+    EXPECT_GT(tracer.verify(camera, width, height, centers, check).error.value, 0.1);
 }
 
 }  // namespace

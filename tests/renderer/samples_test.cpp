@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apart.hpp"
+#include "coverage.hpp"
 #include "device.hpp"
 #include "scenes.hpp"
 #include "skies.hpp"
@@ -171,45 +172,11 @@ TEST(Samples, LeaveASinglePictureAsItIs) {
     }
 }
 
-// The part of each pixel that a convex polygon covers; counter-clockwise, y up from the bottom row.
-std::vector<double> coverage(const std::vector<glm::dvec2>& polygon) {
-    std::vector<double> out;
-    for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column) {
-            std::vector<glm::dvec2> rest = polygon;
-            const double low[2] = {double(column), double(height - 1 - row)};
-            for (int side = 0; side < 4; ++side) {
-                const int axis = side / 2;
-                const double sign = side % 2 ? -1.0 : 1.0,
-                             limit = side % 2 ? low[axis] + 1.0 : low[axis];
-                std::vector<glm::dvec2> kept;
-                for (std::size_t i = 0; i < rest.size(); ++i) {
-                    const glm::dvec2 a = rest[i], b = rest[(i + 1) % rest.size()];
-                    const double da = sign * (a[axis] - limit), db = sign * (b[axis] - limit);
-                    if (da >= 0.0) kept.push_back(a);
-                    if ((da >= 0.0) != (db >= 0.0)) kept.push_back(a + (b - a) * (da / (da - db)));
-                }
-                rest = kept;
-            }
-            double area = 0.0;
-            for (std::size_t i = 0; i < rest.size(); ++i) {
-                const glm::dvec2 a = rest[i], b = rest[(i + 1) % rest.size()];
-                area += 0.5 * (a.x * b.y - a.y * b.x);
-            }
-            out.push_back(area);
-        }
-    return out;
-}
-
 // Edges against the exact area of what pixels show: the error falls faster than 1 / sqrt(N).
 TEST(Samples, SmoothEdgesToTheirArea) {
     const std::vector<glm::dvec2> polygon = {{5.3, 4.1}, {37.7, 7.9}, {33.2, 24.6}, {11.9, 21.3}};
-    Scene scene = test::plain_scene(glm::vec3(0.0f));
-    scene.materials[0].emission = {1.0f, 2.0f, 4.0f};
-    test::add_quad(scene,
-                   {{{5.3, 4.1, 0.0}, {37.7, 7.9, 3.0}, {33.2, 24.6, 3.0}, {11.9, 21.3, 0.0}}});
-    // Corners need not lie in one plane: seen along z, the outline is what counts.
-    const std::vector<double> exact = coverage(polygon);
+    const Scene scene = test::glowing_quad(polygon, {1.0f, 2.0f, 4.0f});
+    const std::vector<double> exact = test::coverage(polygon, width, height);
     Renderer renderer(test::device().queue, scene, options_of(Method::direct));
     double first = 0.0;
     for (const int samples : {1, 4, 16, 64}) {
@@ -229,6 +196,18 @@ TEST(Samples, SmoothEdgesToTheirArea) {
             EXPECT_LT(error, 1.1 * first / std::sqrt(samples)) << samples;
     }
     EXPECT_GT(first, 0.5);  // there are edges
+    // In each sample a pixel shows all or nothing, so that the mean m of n has the variance
+    // m (1 - m) / (n - 1).
+    const Radiance found = read(renderer);
+    double variance = 0.0, mean = 0.0;
+    for (const glm::vec3& pixel : found) {
+        variance += double{pixel.x} * (1.0 - double{pixel.x}) / 63.0;
+        mean += double{pixel.x};
+    }
+    const double count = static_cast<double>(found.size());
+    EXPECT_NEAR(renderer.sampling_error(), std::sqrt(variance / count) / (mean / count), 1e-5);
+    renderer.render(test::pixel_camera(width, height));
+    EXPECT_TRUE(std::isinf(renderer.sampling_error()));
 }
 
 // Shadows of a sun, a spot and a panel against the path tracer: each sample has its own maps and

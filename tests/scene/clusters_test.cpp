@@ -17,6 +17,18 @@ std::vector<Cluster> clusters_of(const DeviceScene& scene) {
     return test::download<Cluster>(scene.clusters(), scene.info().cluster_count);
 }
 
+// What lies on the device.
+struct Uploaded {
+    explicit Uploaded(const Scene& world) : scene(test::on_device(world)) {}
+
+    DeviceScene scene;
+    std::vector<glm::uvec4> triangles =
+        test::download<glm::uvec4>(scene.triangles(), scene.info().triangle_count);
+    std::vector<glm::vec4> positions =
+        test::download<glm::vec4>(scene.positions(), scene.info().vertex_count);
+    std::vector<Cluster> clusters = clusters_of(scene);
+};
+
 // `count` triangles here and there, some on the planes through the origin.
 Scene dust(int count) {
     Scene scene = test::plain_scene();
@@ -57,12 +69,8 @@ Scene island() {
 
 TEST(Clusters, AreTheLeastBoxesAroundTheirTriangles) {
     for (const int count : {1, 63, 64, 65, 1000}) {
-        const DeviceScene scene = test::on_device(dust(count));
-        const auto triangles =
-            test::download<glm::uvec4>(scene.triangles(), scene.info().triangle_count);
-        const auto positions =
-            test::download<glm::vec4>(scene.positions(), scene.info().vertex_count);
-        const std::vector<Cluster> clusters = clusters_of(scene);
+        const Uploaded on(dust(count));
+        const auto& [scene, triangles, positions, clusters] = on;
         ASSERT_EQ(clusters.size(), static_cast<std::size_t>((count + 63) / 64));
         for (std::size_t c = 0; c < clusters.size(); ++c) {
             glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
@@ -81,12 +89,8 @@ TEST(Clusters, AreTheLeastBoxesAroundTheirTriangles) {
 // Spheres around every eight triangles: no corner is outside, and one is on it.
 TEST(Clusters, HaveSpheresAroundTheirParts) {
     for (const int count : {1, 8, 9, 63, 65, 1000}) {
-        const DeviceScene scene = test::on_device(dust(count));
-        const auto triangles =
-            test::download<glm::uvec4>(scene.triangles(), scene.info().triangle_count);
-        const auto positions =
-            test::download<glm::vec4>(scene.positions(), scene.info().vertex_count);
-        const std::vector<Cluster> clusters = clusters_of(scene);
+        const Uploaded on(dust(count));
+        const auto& [scene, triangles, positions, clusters] = on;
         for (std::size_t p = 0; p < clusters.size() * CLUSTER_PARTS; ++p) {
             const auto& part = clusters[p / CLUSTER_PARTS].part;
             const std::size_t k = p % CLUSTER_PARTS;
@@ -112,12 +116,8 @@ TEST(Clusters, KnowWhichWayTheirTrianglesFace) {
     both.materials.back().double_sided = true;
     both.triangles[70].material = static_cast<std::uint32_t>(both.materials.size() - 1);
     for (const Scene& world : {bumpy_mesh(), both, dust(1000)}) {
-        const DeviceScene scene = test::on_device(world);
-        const auto triangles =
-            test::download<glm::uvec4>(scene.triangles(), scene.info().triangle_count);
-        const auto positions =
-            test::download<glm::vec4>(scene.positions(), scene.info().vertex_count);
-        const std::vector<Cluster> clusters = clusters_of(scene);
+        const Uploaded on(world);
+        const auto& [scene, triangles, positions, clusters] = on;
         std::size_t narrow = 0;
         for (std::size_t c = 0; c < clusters.size(); ++c) {
             const glm::dvec3 axis(clusters[c].cone);

@@ -181,7 +181,8 @@ TEST(Emitters, ShiftMapsWithinTheirTexels) {
         constexpr std::uint32_t samples = 100;
         for (std::uint32_t sample = 1; sample <= samples; ++sample) {
             const EmitterSet moved = make_emitters(scene, {.shadow_size = size, .sample = sample});
-            for (std::size_t i = 0; i < 2; ++i) {  // the spot and the sun
+            EXPECT_EQ(moved.emitters.size(), usual.emitters.size() - 12u);  // points: 4 of 16
+            for (std::size_t i = 0; i < 2; ++i) {                           // the spot and the sun
                 const View &was = usual.views[i], &is = moved.views[i];
                 ASSERT_EQ(static_cast<int>(is.width), size);
                 const double texel = 2.0 * double{is.right.w} / size;

@@ -155,6 +155,7 @@ cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
 
 cl::Event IrradianceCache::render_again(const Camera& camera, const WaitList& wait) {
     State& s = *state_;
+    if (s.shown.empty()) throw Error("irradiance-cache: render_again(): there is no picture yet");
     const View view = s.picture.begin(camera, wait);
     if (!s.records.empty()) s.show();
     s.picture.combine(view);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/picture.hpp>
 #include <clgi/advanced/planes.hpp>
@@ -16,14 +15,10 @@ PictureOptions checked(PictureOptions options, const DeviceScene& scene, const s
     return options;
 }
 
-// Shadow maps serve direct light, and solvers that ask for them. Later samples of a picture have
-// fewer points of emissive surfaces: together they have enough.
-EmitterOptions emitters_of(const PictureOptions& options, std::uint32_t lights = 0) {
+// Shadow maps serve direct light, and solvers that ask for them.
+EmitterOptions emitters_of(const PictureOptions& options, std::uint32_t sample = 0) {
     EmitterOptions out = options.emitters;
-    constexpr int later = 4;  // times fewer
-    out.sample = lights;
-    if (lights > 0 && out.area_samples > 0)
-        out.area_samples = std::max(out.area_samples / later, 1);
+    out.sample = sample;
     out.shadows = out.shadows && (options.direct || options.shadow_maps);
     return out;
 }

@@ -167,7 +167,7 @@ std::vector<Source> environment_lights(const DeviceScene& scene, const EmitterOp
     return out;
 }
 
-// `count` points on the emissive triangles, each standing for an equal share of their power.
+// Points on the emissive triangles, each standing for an equal share of their power.
 std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions& options) {
     const std::vector<EmissiveTriangle>& triangles = scene.emissive();
     std::vector<Source> out;
@@ -182,8 +182,10 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
     for (const EmissiveTriangle& t : triangles)
         cumulative.push_back(total += is_beyond(t) ? 0.0 : pi * t.area * luminance(t.radiance));
     if (!(total > 0.0)) return out;
-    const double share = total / options.area_samples;
-    for (int k = 0; k < options.area_samples; ++k) {
+    const int count =
+        options.sample == 0 ? options.area_samples : std::max(options.area_samples / 4, 1);
+    const double share = total / count;
+    for (int k = 0; k < count; ++k) {
         // Every replicate and sample moves the points within their strata.
         const double within = seed_of(options) == 0
                                   ? 0.5

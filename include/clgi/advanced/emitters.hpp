@@ -20,8 +20,9 @@ struct EmitterOptions {
     // 0: the Halton points themselves. Other values: randomised shifts of them (Cranley and
     // Patterson). The differences between replicates estimate the error of one.
     std::uint32_t replicate = 0;
-    // 0: as `replicate` says. Other values: samples of a picture, with other shifts, and with shadow
-    // maps of spot and directional lights that lie differently within their texels.
+    // 0: as `replicate` says. Other values: later samples of a picture, with other shifts, a quarter
+    // of the points of emissive surfaces, as there are many samples, and shadow maps of spot and
+    // directional lights that lie differently within their texels.
     std::uint32_t sample = 0;
     // false: nothing lies between lights and surfaces. Emitters then have no views and no shadow
     // maps, and light every point that faces them. No VPL can be placed without views, so vpls
