@@ -303,13 +303,13 @@ TEST(Visibility, IsTheSameInTwoStagesAndAtEveryWidth) {
     for (const auto& [width, height] : {std::pair(97, 61), {33, 65}, {5, 3}}) {
         const View view = looking(Looking::perspective, placed, width, height);
         const Drawing usual = test::draw(placed, view);
-        for (const int lanes : {1, 4, 8, 16})
-            for (const bool atomics64 : {true, false}) {
-                const GBufferPasses passes(test::programs(),
-                                           {.packet_width = lanes, .atomics64 = atomics64});
-                EXPECT_TRUE(test::draw(placed, view, passes).visibility == usual.visibility)
-                    << lanes << (atomics64 ? "" : ", two stages");
-            }
+        for (const auto& [lanes, atomics64] :
+             {std::pair(1, true), {1, false}, {4, true}, {8, false}, {16, true}}) {
+            const GBufferPasses passes(test::programs(),
+                                       {.packet_width = lanes, .atomics64 = atomics64});
+            EXPECT_TRUE(test::draw(placed, view, passes).visibility == usual.visibility)
+                << lanes << (atomics64 ? "" : ", two stages");
+        }
     }
 }
 
