@@ -9,6 +9,7 @@
 #include "core/kit/ranges.hpp"
 #include "methods/light_atlas/estimate.hpp"
 #include "plan/method.hpp"
+#include "plan/reach.hpp"
 #include "plan/sky.hpp"
 #include "plan/static_part.hpp"
 
@@ -56,10 +57,12 @@ Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment
     if (plan.on(Effect::point_light))
         add(static_cast<double>(lights.points), 6.0, options.face_size);
     if (plan.on(Effect::spot_light)) add(static_cast<double>(lights.spots), 1.0, map);
-    if (plan.on(Effect::directional_light)) add(static_cast<double>(lights.directional), 1.0, map);
+    const double views = sun_maps(plan.reach.value_or(Reach())).count;
+    if (plan.on(Effect::directional_light))
+        add(static_cast<double>(lights.directional), views, map);
     // A whole face and four halves. What has no area here may have some on the device, rounded.
     if (plan.on(Effect::area_light)) add(options.area_samples, 3.0, options.face_size);
-    if (environment) add(options.environment_lights, 1.0, map);
+    if (environment) add(options.environment_lights, views, map);
     return out;
 }
 

@@ -12,9 +12,6 @@
 namespace clgi {
 namespace {
 
-// Of the scene, what the picture reaches: below these it is a small part of it.
-constexpr double small_size = 0.125, small_area = 0.1, small_power = 0.5;
-
 bool kept(const Light& light, const Plan& plan) {
     if (light.intensity == glm::vec3(0.0f) && !plan.request.lights_change) return false;
     switch (light.kind) {
@@ -121,13 +118,6 @@ void drop_motion(Scene& scene, const Plan& plan) {
     const bool moves = !animation.ranges.empty() || !animation.lights.empty() ||
                        !animation.cameras.empty() || plan.request.animated;
     if (!moves) scene.animation.reset();
-}
-
-// None where the picture reaches most of the scene.
-std::optional<Focus> focus_of(const Reach& reach) {
-    if (reach.size >= small_size && reach.area >= small_area && reach.power >= small_power)
-        return std::nullopt;
-    return Focus{reach.sphere.centre, 2.0 * reach.sphere.radius};
 }
 
 }  // namespace

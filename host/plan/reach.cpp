@@ -23,6 +23,9 @@ constexpr double beyond = 1.5;            // what else may light them
 constexpr std::size_t area_points = 512;  // that measure its area
 constexpr std::size_t lamp_points = 32, sight_lines = 16;
 
+// Of the scene, what the picture reaches: below these it is a small part of it.
+constexpr double small_size = 0.125, small_area = 0.1, small_power = 0.5;
+
 struct Place {
     glm::dvec3 position;  // local
     glm::dvec3 normal;    // towards where the path came from
@@ -48,14 +51,20 @@ double at(std::size_t i, std::uint32_t base) {
     return radical_inverse(static_cast<std::uint32_t>(i) + 1, base);
 }
 
-// All places that paths meet.
-std::vector<Place> met(const LocalScene& local, const Camera& camera, int width, int height) {
+// All places that paths meet, those first that the picture shows.
+struct Met {
+    std::vector<Place> places;
+    std::size_t shown = 0;
+};
+
+Met met(const LocalScene& local, const Camera& camera, int width, int height) {
     const SceneFrame& frame = local.frame;
     const double wished = wished_tests / static_cast<double>(std::max<std::size_t>(
                                              surfaces * local.triangles.size(), 1));
     const auto paths = static_cast<std::size_t>(std::clamp(wished, fewest_paths, most_paths));
     const View view = make_view(camera, frame, width, height);
-    std::vector<Place> places, out;
+    Met out;
+    std::vector<Place> places;
     std::vector<glm::dvec3> along;
     for (std::size_t i = 0; i < paths; ++i) {
         const double x = 2.0 * at(i, 2) - 1.0, y = 2.0 * at(i, 3) - 1.0;
@@ -70,14 +79,30 @@ std::vector<Place> met(const LocalScene& local, const Camera& camera, int width,
     for (std::size_t depth = 0; depth < surfaces && !places.empty(); ++depth) {
         Rays rays;
         places = ends(rays, places, along, local);
+        if (depth == 0) out.shown = places.size();
         along.clear();
         for (std::size_t i = 0; i < places.size(); ++i) {
-            out.push_back(places[i]);
+            out.places.push_back(places[i]);
             along.push_back(
                 about(places[i].normal, at(i, depth == 0 ? 5 : 11), at(i, depth == 0 ? 7 : 13)));
         }
     }
     return out;
+}
+
+// Local; a quarter of what is shown lies nearer.
+double pixel_size(const Met& found, const Camera& camera, const SceneFrame& frame, int height) {
+    if (found.shown == 0) return 0.0;
+    const glm::dvec3 eye = (camera.position - frame.origin) * frame.scale;
+    std::vector<double> depths;
+    for (std::size_t i = 0; i < found.shown; ++i)
+        depths.push_back(glm::dot(found.places[i].position - eye, glm::dvec3(camera.forward)));
+    const auto quarter = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 4);
+    std::nth_element(depths.begin(), quarter, depths.end());
+    const bool parallel = camera.kind == Camera::Kind::orthographic;
+    return (parallel ? 2.0 * double{camera.half_height} * frame.scale
+                     : 2.0 * std::tan(0.5 * double{camera.vertical_fov}) * *quarter) /
+           height;
 }
 
 double radius_of_share(const std::vector<Place>& places, const glm::dvec3& centre, double share) {
@@ -211,7 +236,9 @@ Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera
     const auto start = timing::Clock::now();
     Reach out;
     const SceneFrame& frame = local.frame;
-    const std::vector<Place> places = met(local, camera, width, height);
+    const Met found = met(local, camera, width, height);
+    const std::vector<Place>& places = found.places;
+    out.pixel = pixel_size(found, camera, frame, height) / frame.scale;
     out.points = places.size();
     out.sphere = {frame.origin, frame.radius / frame.scale};
     if (places.empty()) return out;
@@ -237,6 +264,19 @@ Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera
     out.hidden = lamps.hidden;
     out.milliseconds = timing::milliseconds(timing::Clock::now() - start);
     return out;
+}
+
+std::optional<Focus> focus_of(const Reach& reach) {
+    if (reach.size >= small_size && reach.area >= small_area && reach.power >= small_power)
+        return std::nullopt;
+    return Focus{reach.sphere.centre, 2.0 * reach.sphere.radius};
+}
+
+SunMaps sun_maps(const Reach& reach) {
+    const double whole = reach.sphere.radius / reach.size;
+    const std::optional<Focus> focus = focus_of(reach);
+    if (!focus || !(focus->radius < 0.7 * whole)) return {1, whole};
+    return {2, focus->radius};
 }
 
 }  // namespace clgi

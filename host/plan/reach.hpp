@@ -5,6 +5,7 @@
 
 #include <clgi/advanced/reach.hpp>
 #include <clgi/scene.hpp>
+#include <optional>
 
 #include "plan/local_scene.hpp"
 
@@ -14,5 +15,15 @@ namespace clgi {
 // The camera has passed validate().
 Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera, int width,
                int height);
+
+// None where the picture reaches most of the scene.
+std::optional<Focus> focus_of(const Reach& reach);
+
+// Shadow maps of a directional light, and the radius in metres that the finest of them covers.
+struct SunMaps {
+    int count = 1;
+    double radius = 0.0;
+};
+SunMaps sun_maps(const Reach& reach);
 
 }  // namespace clgi

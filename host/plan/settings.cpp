@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/opencl/variants.hpp"
+#include "plan/reach.hpp"
 #include "plan/sky.hpp"
 
 namespace clgi {
@@ -75,6 +76,28 @@ bool lamps_are_large(const Plan& plan) {
     return reach.hidden > few || (reach.points > 0 && point > small * reach.sphere.radius);
 }
 
+// Side of shadow maps. Of few lights with a sun, a texel is a third of what a pixel covers: edges
+// are two texels wide.
+int map_side(const Plan& plan, int fineness) {
+    constexpr int step = 256;
+    constexpr double texels = 3.0;           // a pixel
+    constexpr double most_pixels = 1 << 25;  // of all maps
+    constexpr std::size_t few = 4;
+    const int usual = fineness * EmitterOptions().shadow_size;
+    const Reach reach = plan.reach.value_or(Reach());
+    const LightAnalysis& lights = plan.analysis.lights;
+    const bool suns = plan.on(Effect::directional_light) && lights.directional > 0;
+    const bool many =
+        (has_sky(plan) && has_sky_lights(plan.method)) || lights.directional + lights.spots > few;
+    const bool frames = plan.request.animated || plan.request.lights_change;
+    if (!suns || many || frames || !(reach.pixel > 0.0)) return usual;
+    const SunMaps suns_have = sun_maps(reach);
+    const auto maps = static_cast<double>(suns_have.count * lights.directional + lights.spots);
+    const double most = std::min(4096.0, step * std::floor(std::sqrt(most_pixels / maps) / step));
+    const double wanted = texels * 2.0 * suns_have.radius / reach.pixel;
+    return std::max(usual, step * static_cast<int>(std::ceil(std::min(wanted, most) / step)));
+}
+
 // The settings of a preset.
 void use_preset(Plan& plan, const Preset& preset) {
     plan.picture.width = plan.second_order.width = plan.request.width;
@@ -115,7 +138,7 @@ void set(Plan& plan, const Preset& preset, int fineness) {
     plan.animated = request.animated;
     plan.picture = PictureOptions();
     change_emitters(plan, [&](EmitterOptions& options) {
-        options.shadow_size = request.shadow_size.value_or(fineness * EmitterOptions().shadow_size);
+        options.shadow_size = request.shadow_size.value_or(map_side(plan, fineness));
         options.face_size = request.face_size.value_or(fineness * EmitterOptions().face_size);
         options.area_samples =
             request.area_samples.value_or(fineness * EmitterOptions().area_samples);

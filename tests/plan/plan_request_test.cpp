@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "device.hpp"
+#include "plan/settings.hpp"
 #include "rooms.hpp"
 
 namespace clgi {
@@ -201,6 +202,67 @@ TEST(Plan, TakesSettingsOfDirectLightFromTheWish) {
             EXPECT_EQ(options.area_samples, 5);
         }
     }
+}
+
+// The map of a sun over 40 m has three texels for each centimetre that a pixel covers, within
+// bounds; of many lights, of a sky by lights, and of frames, the usual ones.
+TEST(Plan, HasShadowMapsAsFineAsThePicture) {
+    Plan plan;
+    for (EffectChoice& effect : plan.effects) effect.on = true;
+    plan.analysis.lights.directional = 1;
+    Reach reach;
+    reach.points = 200;
+    reach.sphere.radius = 5.0;
+    reach.size = 0.25;
+    reach.pixel = 0.05;
+    const auto side = [&](Method method = Method::irradiance_cache, int fineness = 1) {
+        plan.reach = reach;
+        set(plan, {method, 32, 300, {}}, fineness);
+        EXPECT_EQ(plan.picture.emitters.shadow_size, plan.light_atlas.emitters.shadow_size);
+        return plan.picture.emitters.shadow_size;
+    };
+    const int usual = EmitterOptions().shadow_size;
+    EXPECT_EQ(side(), 2560);  // 2400 in steps of 256
+    reach.size = 0.1;
+    EXPECT_EQ(side(), 1280);  // of the focus, 20 m
+    reach.pixel = 1e-4;
+    plan.analysis.lights.spots = 3;
+    EXPECT_EQ(side(), 2560);  // five maps of 2^25 pixels in all
+    plan.analysis.lights.spots = 0;
+    reach.pixel = 0.05;
+    reach.size = 0.8;
+    reach.power = 0.1;
+    EXPECT_EQ(side(), 768);  // a focus as large as the scene is none: 12.5 m, 750 texels
+    reach.power = 1.0;
+    reach.size = 0.25;
+    EXPECT_EQ(side(Method::irradiance_cache, 8), 8 * usual);
+    reach.pixel = 0.01;
+    EXPECT_EQ(side(), 4096);
+    reach.pixel = 1.0;
+    EXPECT_EQ(side(), usual);
+    reach.pixel = 0.0;
+    EXPECT_EQ(side(), usual);
+    reach.pixel = 0.05;
+    plan.analysis.lights.environment = true;
+    EXPECT_EQ(side(), 2560);  // by hemicubes
+    EXPECT_EQ(side(Method::second_order), usual);
+    plan.analysis.lights.environment = false;
+    EXPECT_EQ(side(Method::second_order), 2560);
+    plan.analysis.lights.spots = 4;
+    EXPECT_EQ(side(), usual);
+    plan.analysis.lights.spots = 3;
+    EXPECT_EQ(side(), 2560);
+    plan.analysis.lights.directional = 0;
+    EXPECT_EQ(side(), usual);
+    plan.analysis.lights.directional = 1;
+    plan.request.animated = true;
+    EXPECT_EQ(side(), usual);
+    plan.request = {};
+    plan.request.lights_change = true;
+    EXPECT_EQ(side(), usual);
+    plan.request = {};
+    plan.request.shadow_size = 300;
+    EXPECT_EQ(side(), 300);
 }
 
 }  // namespace

@@ -52,6 +52,31 @@ TEST(Reach, IsTheWholeOfARoom) {
     EXPECT_LT(found.sphere.radius, 4.0);
 }
 
+// A wall in front of the camera, and one through which a ramp leads away: a quarter of the depths
+// of what is shown lies below the first quartile.
+TEST(Reach, KnowsWhatAPixelCovers) {
+    Scene scene = test::plain_scene();
+    test::add_quad(scene, {{{-9, -9, -3}, {9, -9, -3}, {9, 9, -3}, {-9, 9, -3}}});
+    test::add_quad(scene, {{{-9, -9, 5}, {-9, 9, 5}, {9, 9, 5}, {9, -9, 5}}});  // behind
+    Camera camera = test::camera_at({0.2, 0.1, 1.0}, {0.2, 0.1, 0.0}, 0.8f);
+    scene.cameras = {camera};
+    EXPECT_NEAR(reached(scene).pixel, 2.0 * std::tan(0.4) * 4.0 / 120, 1e-5);
+    scene.cameras[0].kind = Camera::Kind::orthographic;
+    scene.cameras[0].half_height = 1.5f;
+    EXPECT_NEAR(reached(scene).pixel, 3.0 / 120, 1e-6);
+    // Depth grows across the picture from 2 to 4: a quarter is less than 2.5.
+    scene.cameras = {camera};
+    scene.positions.clear();
+    scene.normals.clear();
+    scene.triangles.clear();
+    const double half = std::tan(0.4) * 4.0 / 3.0;  // of the window, at depth 1
+    test::add_quad(scene, {{{0.2 - 2 * half, -9, -1},
+                            {0.2 + 4 * half, -9, -3},
+                            {0.2 + 4 * half, 9, -3},
+                            {0.2 - 2 * half, 9, -1}}});
+    EXPECT_NEAR(reached(scene).pixel, 2.0 * std::tan(0.4) * 2.29 / 120, 4e-4);
+}
+
 // Of twenty equal rooms, one: a twentieth of area and power; the sphere is that of the room alone.
 TEST(Reach, IsOneRoomOfMany) {
     const Scene one = rooms(1), many = rooms(20);

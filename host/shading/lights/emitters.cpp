@@ -134,6 +134,9 @@ Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterO
     return out;
 }
 
+// Of a scene's radius: a smaller focus has a shadow map of its own.
+constexpr float focused = 0.7f;
+
 Source directional(const Light& light, const SceneFrame& frame, const EmitterOptions& options) {
     Source out;
     const glm::vec3 axis = glm::normalize(light.direction);
@@ -148,12 +151,17 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
     e.kind = EMITTER_DIRECTIONAL;
     e.measure = static_cast<float>(pi) * radius * radius;
     out.power = luminance(lux) * e.measure;
-    View view = window(glm::vec3(e.position), right, glm::cross(right, axis), axis, radius, radius,
-                       0.0f, options.shadow_size, options.shadow_size);
-    view.eye.w = 1.0f;
-    view.window.z = 2.05f * radius;
-    shift_texels(view, options);
-    out.views = {view};
+    const auto add_view = [&](float extent) {
+        View view = window(glm::vec3(e.position), right, glm::cross(right, axis), axis, extent,
+                           extent, 0.0f, options.shadow_size, options.shadow_size);
+        view.eye.w = 1.0f;
+        view.window.z = 2.05f * radius;
+        shift_texels(view, options);
+        out.views.push_back(view);
+    };
+    // The origin lies in the middle of the focus, if there is one.
+    if (frame.detail < focused * radius) add_view(frame.detail);
+    add_view(radius);
     return out;
 }
 

@@ -20,6 +20,8 @@ struct Reach {
     double hidden = 0.0;
     // Radius of the sphere over that of the scene.
     double size = 1.0;
+    // Metres that a pixel covers, across, of what is seen at first hand: a quarter covers less.
+    double pixel = 0.0;
     double milliseconds = 0.0;
 };
 

@@ -26,7 +26,8 @@ typedef struct {
     float area;        // area lights: of the emitting surface that this sample represents;
                        // directional: of the disc, for one VPL of all that share it
     uint kind;         // EMITTER_..., EMITTER_MAPPED
-    uint first_view;   // its views of the scene: 1 (spot, directional), 5 (area) or 6 (point)
+    uint first_view;   // its views of the scene: 1 (spot, directional), 5 (area) or 6 (point); 2
+                       // (directional, with a focus): around the focus, and of all
     uint view_count;   // 0: nothing lies between it and any surface
     uint first_vpl;  // its share of the VPLs
     uint vpl_count;
