@@ -30,11 +30,13 @@ typedef struct {
     cl_float4 base_color, emission, reflectance;
     cl_int base_texture, base_uv_set, emission_texture, emission_uv_set;
     cl_float4 base_u, base_v, emission_u, emission_v;
+    cl_int normal_texture, normal_uv_set, finish_texture, finish_uv_set;
+    cl_float4 normal_u, normal_v, finish_u, finish_v;
 } MaterialRecord;
 
 enum { width = 160, height = 120, pixels = width * height, stride = pixels };
 enum { boxes = 2, vertex_count = 24 * boxes, triangle_count = 12 * boxes, vpl_count = 64 };
-enum { gbuffer_planes = 16, id_planes = 2, point_planes = 6, irradiance_planes = 3 };
+enum { gbuffer_planes = 16, id_planes = 4, point_planes = 6, irradiance_planes = 3 };
 enum { small_triangle = 12 }; /* pixels */
 
 static cl_context context;

@@ -39,8 +39,8 @@ std::string constants() {
     number("MATERIAL_EMISSION", MATERIAL_EMISSION);
     number("MATERIAL_REFLECTANCE", MATERIAL_REFLECTANCE);
     number("MATERIAL_TEXTURES", offsetof(MaterialRecord, base_texture) / row);
-    number("MATERIAL_BASE_UV", offsetof(MaterialRecord, base_u) / row);
-    number("MATERIAL_EMISSION_UV", offsetof(MaterialRecord, emission_u) / row);
+    number("MATERIAL_BASE_UV", MATERIAL_BASE_UV);
+    number("MATERIAL_EMISSION_UV", MATERIAL_EMISSION_UV);
     number("TEXTURE_LEVELS_SHIFT", TEXTURE_LEVELS_SHIFT);
     word("TRIANGLE_MATERIAL", TRIANGLE_MATERIAL);
     word("TRIANGLE_MASKED", TRIANGLE_MASKED);
@@ -48,6 +48,7 @@ std::string constants() {
     word("TEXTURE_WRAP_S", TEXTURE_WRAP_S);
     word("TEXTURE_WRAP_T", TEXTURE_WRAP_T);
     word("TEXTURE_NEAREST", TEXTURE_NEAREST);
+    word("TEXTURE_LINEAR", TEXTURE_LINEAR);
     word("SCENE_HAS_UVS", SCENE_HAS_UVS);
     word("SCENE_HAS_COLORS", SCENE_HAS_COLORS);
     word("SCENE_HAS_TEXTURES", SCENE_HAS_TEXTURES);

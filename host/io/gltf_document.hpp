@@ -125,8 +125,8 @@ void read_lights(Document& document);
 void place_nodes(Document& document);
 
 // Fills scene.materials, one for one, and scene.textures. Only images that a base color, an
-// emission or a metallic-roughness texture needs are decoded; of the others only the start is
-// looked at.
+// emission, a metallic-roughness or a normal texture needs are decoded; of the others only the
+// start is looked at.
 void load_materials(Document& document, const GltfOptions& options, Scene& scene);
 
 // The nodes of a scene, parents first. scene -1: the default scene, else the first, else, in a

@@ -58,7 +58,7 @@ constexpr const char* schema = R"({
 
 "images": [{"name": "text", "bufferView": "index bufferViews", "uri": "text",
     "mimeType": "text"}, 65536],
-"$texture": {"index!": "index textures", "texCoord": "int", "extensions":
+"$texture": {"index!": "index textures", "texCoord": "int", "scale": "number", "extensions":
     {"KHR_texture_transform": {"offset": "numbers 2", "scale": "numbers 2",
                                "rotation": "number", "texCoord": "int"}}},
 "samplers": [{"magFilter": "code 9728 9729", "minFilter": "code 9728 9729 9984 9985 9986 9987",
@@ -68,7 +68,7 @@ constexpr const char* schema = R"({
 "materials": [{
     "name": "text", "alphaMode": "word OPAQUE MASK BLEND", "alphaCutoff": "number",
     "doubleSided": "flag", "emissiveFactor": "numbers 3",
-    "emissiveTexture": "$texture", "*Texture": {"index!": "index textures"},
+    "emissiveTexture": "$texture", "normalTexture": "$texture", "*Texture": {"index!": "index textures"},
     "pbrMetallicRoughness": {"baseColorFactor": "numbers 4", "metallicFactor": "number",
         "roughnessFactor": "number", "*Texture": "$texture"},
     "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": "number"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "io/gltf_document.hpp"
 #include "io/gltf_image.hpp"
@@ -22,6 +23,21 @@ Wrap wrap(int code) {
     return Wrap::repeat;
 }
 
+// What a texture says of blue, metalness, and green, roughness.
+struct Finish {
+    Finish() = default;
+    explicit Finish(const std::vector<std::uint8_t>& rgba) {
+        glm::dvec2 sum(0.0);
+        for (std::size_t i = 0; i < rgba.size(); i += 4) {
+            sum += glm::dvec2(rgba[i + 2], rgba[i + 1]);
+            varies = varies || rgba[i + 2] != rgba[2] || rgba[i + 1] != rgba[1];
+        }
+        mean = sum / (255.0 * static_cast<double>(rgba.size() / 4));
+    }
+    glm::dvec2 mean = glm::dvec2(1.0);
+    bool varies = false;
+};
+
 class TextureLoader {
 public:
     // Looks at every image, used or not: it must exist and be what it says.
@@ -30,12 +46,13 @@ public:
           scene_(scene),
           most_texels_(options.max_texels),
           texels_left_(options.max_texels),
-          averaged_left_(options.max_texels) {
+          detail_left_(options.max_texels) {
         each("images", document.images, [&](const Image& image) { inspect(image); });
     }
 
-    // Index into scene.textures; -1 where there is no image that can be read.
-    int load(int texture) {
+    // Index into scene.textures; -1 where there is no image that can be read. decoded: its pixels,
+    // if they are at hand.
+    int load(int texture, bool srgb = true, Pixels decoded = {}) {
         if (texture < 0) return -1;
         const tinygltf::Texture& source = document_.model.textures[texture];
         const int image = image_of(source);
@@ -45,31 +62,35 @@ public:
         const Wrap wrap_s = wrap(sampler.wrapS);
         const Wrap wrap_t = wrap(sampler.wrapT);
         const bool nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-        const auto [known, fresh] = loaded_.try_emplace({image, wrap_s, wrap_t, nearest},
+        const auto [known, fresh] = loaded_.try_emplace({image, wrap_s, wrap_t, nearest, srgb},
                                                         static_cast<int>(scene_.textures.size()));
         if (!fresh) return known->second;
-        Pixels pixels = decode(image, texels_left_);
+        std::size_t& budget = srgb ? texels_left_ : detail_left_;
+        Pixels pixels = decoded.rgba.empty() ? decode(image, budget) : std::move(decoded);
         scene_.textures.push_back({document_.images[image].name, pixels.width, pixels.height,
-                                   std::move(pixels.rgba), wrap_s, wrap_t, nearest});
+                                   std::move(pixels.rgba), wrap_s, wrap_t, nearest, srgb});
         return known->second;
     }
 
-    // The means of a texture's blue and green, which multiply the factors.
-    glm::dvec2 mean_metal_rough(int texture) {
-        if (texture < 0) return glm::dvec2(1.0);
-        const int image = image_of(document_.model.textures[texture]);
-        if (!is_readable(image)) return glm::dvec2(1.0);
-        const auto [known, fresh] = means_.try_emplace(image);
-        if (!fresh) return known->second;
-        const Pixels pixels = decode(image, averaged_left_);
-        std::uint64_t green = 0;
-        std::uint64_t blue = 0;
-        for (std::size_t i = 0; i < pixels.rgba.size(); i += 4) {
-            green += pixels.rgba[i + 1];
-            blue += pixels.rgba[i + 2];
+    // Metalness and roughness. The material keeps the means, and the texture only where it varies.
+    void load_finish(const TextureSlot& slot, Material& material) {
+        if (slot.texture < 0) return;
+        const int image = image_of(document_.model.textures[slot.texture]);
+        if (!is_readable(image)) return;
+        Pixels pixels;
+        const auto [known, fresh] = finishes_.try_emplace(image);
+        if (fresh) {
+            pixels = decode(image, detail_left_);
+            known->second = Finish(pixels.rgba);
         }
-        const double full = 255.0 * static_cast<double>(pixels.rgba.size() / 4);
-        return known->second = glm::dvec2(blue, green) / full;
+        const Finish& finish = known->second;
+        const glm::vec2 factor(material.metallic, material.roughness);
+        material.metallic *= static_cast<float>(finish.mean.x);
+        material.roughness *= static_cast<float>(finish.mean.y);
+        if (!finish.varies) return;
+        material.finish = factor;
+        material.finish_texture = slot;
+        material.finish_texture.texture = load(slot.texture, false, std::move(pixels));
     }
 
 private:
@@ -118,11 +139,11 @@ private:
     Scene& scene_;
     std::size_t most_texels_;
     std::size_t texels_left_;
-    std::size_t averaged_left_;
+    std::size_t detail_left_;           // for textures that are linear
     std::size_t encoded_ = 0;           // bytes
     std::vector<ImageFormat> formats_;  // of every image
-    std::map<std::tuple<int, Wrap, Wrap, bool>, int> loaded_;
-    std::map<int, glm::dvec2> means_;
+    std::map<std::tuple<int, Wrap, Wrap, bool, bool>, int> loaded_;
+    std::map<int, Finish> finishes_;  // of images
 };
 
 // What an object of an extension says; the fallback where it says nothing.
@@ -153,7 +174,9 @@ glm::mat3 uv_transform(const Value& transform) {
                                 offset.x, offset.y, 1.0));
 }
 
-TextureSlot read_slot(const tinygltf::TextureInfo& info, Warnings& warnings) {
+// Info: of a colour or of normals.
+template <typename Info>
+TextureSlot read_slot(const Info& info, Warnings& warnings) {
     TextureSlot slot;
     if (info.index < 0) return slot;
     slot.texture = info.index;
@@ -186,6 +209,10 @@ Material read_material(const tinygltf::Material& source, const std::string& name
     material.metallic = unit(metal_rough.metallicFactor);
     material.roughness = unit(metal_rough.roughnessFactor);
     material.base_texture = read_slot(metal_rough.baseColorTexture, warnings);
+    material.finish_texture = read_slot(metal_rough.metallicRoughnessTexture, warnings);
+    material.normal_texture = read_slot(source.normalTexture, warnings);
+    material.normal_scale =
+        static_cast<float>(std::clamp(source.normalTexture.scale, -100.0, 100.0));
     const Value* emissive = extension(source.extensions, "KHR_materials_emissive_strength");
     double strength = 1.0;
     if (emissive && source.emissiveFactor != std::vector<double>(3, 0.0)) {
@@ -223,13 +250,8 @@ void load_materials(Document& document, const GltfOptions& options, Scene& scene
         const bool dark = material.emission == glm::vec3(0.0f);
         material.emission_texture.texture =
             dark ? -1 : textures.load(material.emission_texture.texture);
-        const TextureSlot metal_rough = of_entry("materials", i, [&] {
-            return read_slot(source.pbrMetallicRoughness.metallicRoughnessTexture,
-                             document.warnings);
-        });
-        const glm::vec2 mean(textures.mean_metal_rough(metal_rough.texture));
-        material.metallic *= mean.x;
-        material.roughness *= mean.y;
+        textures.load_finish(std::exchange(material.finish_texture, {}), material);
+        material.normal_texture.texture = textures.load(material.normal_texture.texture, false);
         scene.materials.push_back(std::move(material));
     }
 }

@@ -33,8 +33,8 @@ public:
           poser_(document),
           textured_(lightmaps) {
         for (const Material& material : scene.materials) {
-            textured_ = textured_ || material.base_texture.texture >= 0 ||
-                        material.emission_texture.texture >= 0;
+            for (const TextureSlot* slot : texture_slots(material))
+                textured_ = textured_ || slot->texture >= 0;
         }
     }
 
@@ -175,9 +175,9 @@ private:
     void warn_of_missing_uv(const Primitive& primitive) {
         if (primitive.material < 0) return;
         const Material& material = scene_.materials[primitive.material];
-        for (const TextureSlot& slot : {material.base_texture, material.emission_texture}) {
-            const char* uv = slot.uv_set == 0 ? "TEXCOORD_0" : "TEXCOORD_1";
-            if (slot.texture >= 0 && attribute(primitive.attributes, uv) < 0) {
+        for (const TextureSlot* slot : texture_slots(material)) {
+            const char* uv = slot->uv_set == 0 ? "TEXCOORD_0" : "TEXCOORD_1";
+            if (slot->texture >= 0 && attribute(primitive.attributes, uv) < 0) {
                 document_.warnings.add("a textured primitive has no texture coordinates");
             }
         }

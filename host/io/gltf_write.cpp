@@ -103,9 +103,18 @@ private:
         tinygltf::Material written;
         written.name = utf8(material.name);
         written.pbrMetallicRoughness.baseColorFactor = numbers(material.base_color);
-        written.pbrMetallicRoughness.metallicFactor = material.metallic;
-        written.pbrMetallicRoughness.roughnessFactor = material.roughness;
+        const bool finished = material.finish_texture.texture >= 0;
+        written.pbrMetallicRoughness.metallicFactor =
+            finished ? material.finish.x : material.metallic;
+        written.pbrMetallicRoughness.roughnessFactor =
+            finished ? material.finish.y : material.roughness;
         written.pbrMetallicRoughness.baseColorTexture = info_of(material.base_texture);
+        written.pbrMetallicRoughness.metallicRoughnessTexture = info_of(material.finish_texture);
+        const tinygltf::TextureInfo normal = info_of(material.normal_texture);
+        written.normalTexture.index = normal.index;
+        written.normalTexture.texCoord = normal.texCoord;
+        written.normalTexture.extensions = normal.extensions;
+        written.normalTexture.scale = material.normal_scale;
         written.doubleSided = material.double_sided;
         if (material.alpha_mode == AlphaMode::mask) {
             written.alphaMode = "MASK";

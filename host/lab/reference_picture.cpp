@@ -117,11 +117,11 @@ std::string scene_key(const Scene& scene) {
     Hash hash;
     hash.add(scene.positions, scene.normals, scene.uvs, scene.colors, scene.triangles);
     for (const Material& material : scene.materials) {
-        const TextureSlot &base = material.base_texture, &emission = material.emission_texture;
-        hash.add(material.base_color, base.texture, base.uv_set, base.transform, material.metallic,
-                 material.roughness, material.emission, emission.texture, emission.uv_set,
-                 emission.transform, material.alpha_mode, material.alpha_cutoff,
-                 material.double_sided);
+        for (const TextureSlot* slot : texture_slots(material))
+            hash.add(slot->texture, slot->uv_set, slot->transform);
+        hash.add(material.base_color, material.metallic, material.roughness, material.finish,
+                 material.normal_scale, material.emission, material.alpha_mode,
+                 material.alpha_cutoff, material.double_sided);
     }
     for (const Texture& texture : scene.textures)
         hash.add(texture.rgba, texture.width, texture.wrap_s, texture.wrap_t, texture.nearest,

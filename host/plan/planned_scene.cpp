@@ -71,6 +71,7 @@ private:
 
 void drop_textures(Material& material, const Plan& plan, const MeanColours& colours) {
     const bool all = !plan.on(Effect::textures);
+    if (all) material.finish_texture = material.normal_texture = TextureSlot();
     const auto dropped = [&](const TextureSlot& slot) {
         return slot.texture >= 0 && (all || colours.plain(slot.texture));
     };
@@ -95,7 +96,7 @@ void drop_unread(Scene& scene) {
     std::vector<Texture> kept;
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         Material& material = scene.materials[m];
-        for (TextureSlot* slot : {&material.base_texture, &material.emission_texture}) {
+        for (TextureSlot* slot : texture_slots(material)) {
             if (!used[m]) *slot = TextureSlot();
             if (slot->texture < 0) continue;
             const auto texture = static_cast<std::size_t>(slot->texture);
@@ -138,7 +139,10 @@ Scene planned_scene(const Scene& scene, const Plan& plan) {
             material.emission = glm::vec3(0.0f);
             material.emission_texture = TextureSlot();
         }
-        if (!plan.on(Effect::gloss)) material.roughness = 1.0f;  // Lambert with the base colour
+        if (!plan.on(Effect::gloss)) {  // Lambert with the base colour
+            material.roughness = 1.0f;
+            material.finish_texture = TextureSlot();
+        }
         if (!plan.on(Effect::cutouts)) material.alpha_mode = AlphaMode::opaque;
         drop_textures(material, plan, colours);
     }

@@ -45,7 +45,8 @@ bool has_textures(const Scene& scene, const Material& material) {
         return slot.texture >= 0 &&
                !one_colour(scene.textures[static_cast<std::size_t>(slot.texture)]);
     };
-    return varies(material.base_texture) ||
+    return material.normal_texture.texture >= 0 || material.finish_texture.texture >= 0 ||
+           varies(material.base_texture) ||
            (material.emission != glm::vec3(0.0f) && varies(material.emission_texture));
 }
 

@@ -199,6 +199,8 @@ void RenderAttempt::warn() {
         notice(false, "warning: " + warning);
     if (!gl_) return;
     notice(flags_.device.quiet, fmt::format("OpenGL {}; {}", gl_->renderer(), gl_->path()));
+    if (renderer_.scene().info().flags & SCENE_HAS_DETAIL)
+        notice(false, "warning: OpenGL's view is without normal and metallic-roughness textures");
     if (const std::uint32_t texels = gl_->non_finite())
         notice(false, fmt::format("warning: {} texels of the G-buffer were not finite and became "
                                   "background",

@@ -16,12 +16,55 @@ T between(const std::vector<T>& values, const Geometry& geometry, const Hit& hit
            values[triangle.vertex[1]] * hit.b1 + values[triangle.vertex[2]] * hit.b2;
 }
 
+// Where a slot reads at texture coordinates of both sets.
+glm::dvec2 slot_uv(const TextureSlot& slot, const glm::dvec4& both) {
+    const glm::dvec2 uv =
+        slot.uv_set == 0 ? glm::dvec2(both.x, both.y) : glm::dvec2(both.z, both.w);
+    return glm::dvec2(glm::dmat3(slot.transform) * glm::dvec3(uv, 1.0));
+}
+
 glm::vec4 textured(const Geometry& geometry, const TextureSlot& slot, const Hit& hit) {
     if (slot.texture < 0 || geometry.uvs.empty()) return glm::vec4(1.0f);
-    const glm::vec4 both = between(geometry.uvs, geometry, hit);
-    const glm::vec2 uv = slot.uv_set == 0 ? glm::vec2(both.x, both.y) : glm::vec2(both.z, both.w);
     return texel(geometry.textures[static_cast<std::size_t>(slot.texture)],
-                 glm::vec2(slot.transform * glm::vec3(uv, 1.0f)));
+                 glm::vec2(slot_uv(slot, glm::dvec4(between(geometry.uvs, geometry, hit)))));
+}
+
+// The normal that a normal texture gives in place of `normal`, of the front, unit.
+//                                                                    [glTF 2.0, section 3.9.3]
+glm::dvec3 mapped(const Geometry& geometry, const Material& material, const Hit& hit,
+                  const Hit& texture_at, const glm::dvec3& normal) {
+    const SceneTriangle& triangle = geometry.triangles[hit.triangle];
+    const TextureSlot& slot = material.normal_texture;
+    glm::dvec3 corner[3];
+    glm::dvec2 uv[3];
+    for (int k = 0; k < 3; ++k) {
+        corner[k] = glm::dvec3(geometry.positions[triangle.vertex[k]]);
+        uv[k] = slot_uv(slot, glm::dvec4(geometry.uvs[triangle.vertex[k]]));
+    }
+    // The plane's point moves by these for a step in u and in v.
+    const glm::dmat2 steps(uv[1] - uv[0], uv[2] - uv[0]);
+    if (glm::determinant(steps) == 0.0) return normal;
+    const glm::dmat2 inverse = glm::inverse(steps);
+    const glm::dvec3 e1 = corner[1] - corner[0], e2 = corner[2] - corner[0];
+    const glm::dvec3 along_u = e1 * inverse[0][0] + e2 * inverse[0][1];
+    const glm::dvec3 along_v = e1 * inverse[1][0] + e2 * inverse[1][1];
+    const glm::dvec3 flat = along_u - normal * glm::dot(along_u, normal);
+    if (!(glm::length(flat) > 0.0)) return normal;
+    const glm::dvec3 tangent = glm::normalize(flat);
+    // Up in the picture, where v falls.
+    const bool mirrored = glm::dot(glm::cross(along_u, along_v), glm::cross(e1, e2)) > 0.0;
+    const glm::dvec3 bitangent = glm::cross(normal, tangent) * (mirrored ? -1.0 : 1.0);
+    const glm::dvec3 read = 2.0 * glm::dvec3(textured(geometry, slot, texture_at)) - 1.0;
+    const double scale = double{material.normal_scale};
+    const glm::dvec3 out = scale * read.x * tangent + scale * read.y * bitangent + read.z * normal;
+    return glm::length(out) > 0.0 ? glm::normalize(out) : normal;
+}
+
+// Bends a normal that faces away from the viewer, or nearly, until its cosine is 0.01 before it is
+// unit again.
+glm::dvec3 bent(const glm::dvec3& normal, const glm::dvec3& direction) {
+    const double away = glm::dot(normal, direction) + 0.01;
+    return away > 0.0 ? glm::normalize(normal - away * direction) : normal;
 }
 
 // Textures go on beside the triangle, vertex colours end with it.
@@ -76,7 +119,16 @@ Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::vec3& di
                                                                          : out.geometric;
     out.reflects = front || material.double_sided;
     if (!out.reflects) return out;
-    const Gloss shares = gloss(material.metallic, material.roughness);
+    if (material.normal_texture.texture >= 0 && !geometry.uvs.empty())
+        out.normal = glm::vec3(bent(double{side} * mapped(geometry, material, hit, texture_at,
+                                                          double{side} * glm::dvec3(out.normal)),
+                                    glm::dvec3(direction)));
+    glm::vec2 finish(material.metallic, material.roughness);
+    if (material.finish_texture.texture >= 0 && !geometry.uvs.empty()) {
+        const glm::vec4 read = textured(geometry, material.finish_texture, texture_at);
+        finish = material.finish * glm::vec2(read.z, read.y);
+    }
+    const Gloss shares = gloss(finish.x, finish.y);
     const glm::vec3 color = glm::vec3(base(geometry, hit, texture_at));
     out.albedo = color * shares.diffuse;
     out.lobe = color * shares.lobe + shares.coat;

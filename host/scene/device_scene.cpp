@@ -39,6 +39,17 @@ MaterialRecord record_of(const Material& material, double exposure) {
     out.base_v = row(material.base_texture.transform, 1);
     out.emission_u = row(material.emission_texture.transform, 0);
     out.emission_v = row(material.emission_texture.transform, 1);
+    out.normal_texture = material.normal_texture.texture;
+    out.normal_uv_set = material.normal_texture.uv_set;
+    out.finish_texture = material.finish_texture.texture;
+    out.finish_uv_set = material.finish_texture.uv_set;
+    out.normal_u = row(material.normal_texture.transform, 0);
+    out.normal_v = row(material.normal_texture.transform, 1);
+    out.finish_u = row(material.finish_texture.transform, 0);
+    out.finish_v = row(material.finish_texture.transform, 1);
+    out.normal_u.w = material.normal_scale;
+    out.finish_u.w = material.finish.x;
+    out.finish_v.w = material.finish.y;
     return out;
 }
 
@@ -128,8 +139,10 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         materials.push_back(record_of(material, frame_.exposure));
         emits = emits || luminance(material.emission) > 0.0f;
         const Reflectance shares = reflectance(material.metallic, material.roughness);
-        has_lobes_ = has_lobes_ || shares.coat + shares.lobe > 1e-4f;
-        if (shares.diffuse != 1.0f) info_.flags |= SCENE_HAS_SHARES;
+        const bool finished = material.finish_texture.texture >= 0;
+        has_lobes_ = has_lobes_ || finished || shares.coat + shares.lobe > 1e-4f;
+        if (finished || shares.diffuse != 1.0f) info_.flags |= SCENE_HAS_SHARES;
+        if (finished || material.normal_texture.texture >= 0) info_.flags |= SCENE_HAS_DETAIL;
         has_masks_ = has_masks_ || material.alpha_mode == AlphaMode::mask;
     }
     const EmissionMeans emission(scene);

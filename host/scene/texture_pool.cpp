@@ -11,17 +11,24 @@ double decode_srgb(double s) {
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-// Encoding by table: nearest of 4096 steps is well within half a byte's width.
-class Encoder {
+// Between bytes and linear light, by the curve of one texture. Encoding by table: nearest of 4096
+// steps is well within half a byte's width.
+class ByteCurve {
 public:
-    Encoder() : bytes_(4097) {
-        for (int i = 0; i <= 4096; ++i) bytes_[i] = srgb_byte(i / 4096.0);
+    explicit ByteCurve(bool srgb) : decode_(srgb_decode_table()), bytes_(4097) {
+        for (int i = 0; !srgb && i < 256; ++i) decode_[i] = static_cast<float>(i / 255.0);
+        for (int i = 0; i <= 4096; ++i) {
+            const double linear = i / 4096.0;
+            bytes_[i] = srgb ? srgb_byte(linear) : static_cast<std::uint8_t>(linear * 255.0 + 0.5);
+        }
     }
-    std::uint32_t operator()(float linear) const {
+    float decode(std::uint32_t byte) const { return decode_[byte & 255]; }
+    std::uint32_t encode(float linear) const {
         return bytes_[static_cast<int>(std::clamp(linear, 0.0f, 1.0f) * 4096.0f + 0.5f)];
     }
 
 private:
+    std::vector<float> decode_;
     std::vector<std::uint32_t> bytes_;
 };
 
@@ -49,7 +56,7 @@ std::vector<std::vector<Tap>> box_taps(int size, int half) {
     return taps;
 }
 
-Level halve(const Level& level, const std::vector<float>& decode, const Encoder& encode) {
+Level halve(const Level& level, const ByteCurve& curve) {
     Level out{std::max(level.width / 2, 1), std::max(level.height / 2, 1), {}};
     out.texels.reserve(static_cast<std::size_t>(out.width) * out.height);
     const auto columns = box_taps(level.width, out.width);
@@ -63,10 +70,11 @@ Level halve(const Level& level, const std::vector<float>& decode, const Encoder&
                     const std::uint32_t t =
                         level.texels[static_cast<std::size_t>(y.texel) * level.width + x.texel];
                     const float weight = x.weight * y.weight;
-                    for (int c = 0; c < 3; ++c) rgb[c] += weight * decode[t >> (8 * c) & 255];
+                    for (int c = 0; c < 3; ++c) rgb[c] += weight * curve.decode(t >> (8 * c));
                     alpha += weight * static_cast<float>(t >> 24);
                 }
-            out.texels.push_back(encode(rgb[0]) | encode(rgb[1]) << 8 | encode(rgb[2]) << 16 |
+            out.texels.push_back(curve.encode(rgb[0]) | curve.encode(rgb[1]) << 8 |
+                                 curve.encode(rgb[2]) << 16 |
                                  static_cast<std::uint32_t>(alpha) << 24);
         }
     return out;
@@ -76,27 +84,18 @@ std::uint32_t wrap_bits(Wrap wrap) {
     return wrap == Wrap::repeat ? 0 : wrap == Wrap::mirrored_repeat ? 1 : 2;
 }
 
-// Linear pictures are stored as sRGB too: one table decodes all of them.
-Level first_level(const Texture& texture, const Encoder& encode) {
+Level first_level(const Texture& texture) {
     Level level{texture.width, texture.height, {}};
     level.texels.resize(static_cast<std::size_t>(texture.width) * texture.height);
-    for (std::size_t i = 0; i < level.texels.size(); ++i) {
-        std::uint32_t t = 0;
-        for (int c = 0; c < 4; ++c) {
-            std::uint32_t byte = texture.rgba[4 * i + c];
-            if (!texture.srgb && c < 3) byte = encode(static_cast<float>(byte) / 255.0f);
-            t |= byte << (8 * c);
-        }
-        level.texels[i] = t;
-    }
+    for (std::size_t i = 0; i < level.texels.size(); ++i)
+        for (int c = 0; c < 4; ++c)
+            level.texels[i] |= std::uint32_t{texture.rgba[4 * i + c]} << (8 * c);
     return level;
 }
 
-std::vector<Level> levels_of(const Texture& texture, const std::vector<float>& decode,
-                             const Encoder& encode) {
-    std::vector<Level> out{first_level(texture, encode)};
-    while (out.back().width > 1 || out.back().height > 1)
-        out.push_back(halve(out.back(), decode, encode));
+std::vector<Level> levels_of(const Texture& texture, const ByteCurve& curve) {
+    std::vector<Level> out{first_level(texture)};
+    while (out.back().width > 1 || out.back().height > 1) out.push_back(halve(out.back(), curve));
     return out;
 }
 
@@ -104,9 +103,9 @@ std::vector<Level> levels_of(const Texture& texture, const std::vector<float>& d
 
 std::vector<Texture> texture_levels(const Texture& texture) {
     std::vector<Texture> out;
-    for (const Level& level : levels_of(texture, srgb_decode_table(), Encoder())) {
+    for (const Level& level : levels_of(texture, ByteCurve(texture.srgb))) {
         Texture as{texture.name,   level.width,    level.height,    {},
-                   texture.wrap_s, texture.wrap_t, texture.nearest, true};
+                   texture.wrap_s, texture.wrap_t, texture.nearest, texture.srgb};
         as.rgba.reserve(4 * level.texels.size());
         for (const std::uint32_t texel : level.texels)
             for (int c = 0; c < 4; ++c)
@@ -131,18 +130,18 @@ std::vector<float> srgb_decode_table() {
 TexturePool make_texture_pool(const std::vector<Texture>& textures) {
     TexturePool pool;
     if (textures.empty()) return pool;
-    const std::vector<float> decode = srgb_decode_table();
-    const Encoder encode;
+    const ByteCurve srgb(true), linear(false);
     for (const Texture& texture : textures) {
         TextureRecord record{};
         record.first_texel = static_cast<std::uint32_t>(pool.texels.size());
         record.width = texture.width;
         record.height = texture.height;
-        const std::vector<Level> levels = levels_of(texture, decode, encode);
+        const std::vector<Level> levels = levels_of(texture, texture.srgb ? srgb : linear);
         for (const Level& level : levels)
             pool.texels.insert(pool.texels.end(), level.texels.begin(), level.texels.end());
         record.flags = wrap_bits(texture.wrap_s) | wrap_bits(texture.wrap_t) << 2 |
                        (texture.nearest ? std::uint32_t{TEXTURE_NEAREST} : 0u) |
+                       (texture.srgb ? 0u : std::uint32_t{TEXTURE_LINEAR}) |
                        static_cast<std::uint32_t>(levels.size()) << TEXTURE_LEVELS_SHIFT;
         pool.records.push_back(record);
     }

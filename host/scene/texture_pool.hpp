@@ -16,7 +16,7 @@ struct TexturePool {
 // Mip levels are averaged in linear light.
 TexturePool make_texture_pool(const std::vector<Texture>& textures);
 
-// The mip levels of one, as sRGB, from all of its size to 1x1.
+// The mip levels of one, from all of its size to 1x1.
 std::vector<Texture> texture_levels(const Texture& texture);
 
 // Linear value of every sRGB byte, IEC 61966-2-1. [256]

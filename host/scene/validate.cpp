@@ -140,6 +140,14 @@ void check_materials(const Scene& scene) {
         }
         check_slot(scene, material.base_texture, name);
         check_slot(scene, material.emission_texture, name);
+        check_slot(scene, material.finish_texture, name);
+        check_slot(scene, material.normal_texture, name);
+        for (int c = 0; c < 2; ++c) {
+            if (!is_within(material.finish[c], 0.0f, 1.0f))
+                fail(name + " has a finish outside 0..1");
+        }
+        if (!is_within(material.normal_scale, -100.0f, 100.0f))
+            fail(name + " has a normal scale outside -100..100");
     }
 }
 

@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <clgi/advanced/animation.hpp>
 #include <clgi/advanced/export.hpp>
 #include <cstdint>
@@ -43,14 +44,28 @@ struct Material {
     std::string name;
     glm::vec4 base_color = glm::vec4(1.0f);  // linear rgb in [0,1], alpha
     TextureSlot base_texture;
-    float metallic = 0.0f;                 // [0,1]
-    float roughness = 1.0f;                // [0,1]
+    float metallic = 0.0f;   // [0,1]; with finish_texture: the mean
+    float roughness = 1.0f;  // [0,1]; with finish_texture: the mean
+    // Where views show the surface: metalness is finish.x times the texture's blue, roughness
+    // finish.y times its green. Each in [0,1].
+    TextureSlot finish_texture;
+    glm::vec2 finish = glm::vec2(1.0f);
+    // Normals in the frame of the texture's coordinates, x and y times the scale, -100 to 100.
+    TextureSlot normal_texture;
+    float normal_scale = 1.0f;
     glm::vec3 emission = glm::vec3(0.0f);  // radiance, cd/m^2 (factor times strength)
     TextureSlot emission_texture;
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
 };
+
+// All textures that a material may read.
+template <typename AnyMaterial>
+auto texture_slots(AnyMaterial& material) {
+    return std::array{&material.base_texture, &material.emission_texture, &material.finish_texture,
+                      &material.normal_texture};
+}
 
 // Vertices of a triangle in Scene's vertex arrays, counter-clockwise seen from the front.
 struct SceneTriangle {

@@ -15,6 +15,7 @@
 #include "antiradiance/lobe.clh"
 #include "antiradiance/seen.clh"
 #include "clgi/shared/scene.h"
+#include "detail_codes.clh"
 #include "gloss.clh"
 
 CLGI_INLINE float lane_sum(floatp packet) {
@@ -48,7 +49,7 @@ kernel void antiradiance_show_gloss(
     int triangle = seen_triangle(ids, stride, pixel, params.triangle_count);
     int material = ids[GBUFFER_MATERIAL * stride + pixel];
     if (triangle < 0 || material < 0) return;
-    float4 reflectance = materials[material].reflectance;
+    float4 reflectance = pixel_reflectance(ids, materials, stride, pixel);
     if (!(reflectance.y + reflectance.z > 0.0f)) return;
     SeenLeaf seen =
         seen_leaf(seen_at(params.eye, triangles[triangle], positions, planes, stride, pixel),
@@ -65,7 +66,7 @@ kernel void antiradiance_show_gloss(
     float3 eye = to_eye(params.eye, point);
     eye /= sqrt(dot(eye, eye));
     float3 mirror = mirrored(normal, eye);
-    float exponent = lobe_exponent(reflectance.w);
+    float exponent = lobe_exponent(materials[material].reflectance.w);
     floatp all = packet_zero, sums[3] = {packet_zero, packet_zero, packet_zero};
     floatp a = packet_splat(seen.weights.x), b = packet_splat(seen.weights.y),
            c = packet_splat(seen.weights.z);

@@ -7,7 +7,7 @@
 // Writes       its own pixels of the planes asked for; past the last pixel of the view, inside
 //              the stride, zeros
 // SPDX-License-Identifier: MIT
-#include "gbuffer/hit.clh"
+#include "gbuffer/detail.clh"
 #include "gbuffer/visibility.clh"
 #include "gbuffer/window.clh"
 #include "planes.clh"
@@ -82,6 +82,10 @@ kernel void gbuffer_resolve(
     if (params.write & RESOLVE_DEPTH)
         row_store(surface.depth, gbuffer_row(planes, GBUFFER_DEPTH, stride), pixel);
     packet_store(material, ids + GBUFFER_MATERIAL * stride + pixel);
+    intp mapped, finish;
+    gbuffer_detail(&view, x, y, triangle, &scene, info.flags, &surface, &mapped, &finish);
+    packet_store(mapped, ids + GBUFFER_DETAIL * stride + pixel);
+    packet_store(finish, ids + GBUFFER_FINISH * stride + pixel);
     if (params.write & RESOLVE_TRIANGLE)
         packet_store(triangle, ids + GBUFFER_TRIANGLE * stride + pixel);
 }

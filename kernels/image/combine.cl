@@ -11,6 +11,7 @@
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
 //              that were not
 // SPDX-License-Identifier: MIT
+#include "detail_codes.clh"
 #include "lights/direct.clh"
 #include "lobe_mean.clh"
 #include "planes.clh"
@@ -57,6 +58,8 @@ kernel void image_combine(
     for (int c = 0; c < 3; ++c)
         base[c] = row_load(gbuffer_row(planes, GBUFFER_BASE + c, stride), pixel);
     uintp worst = max(packet_magnitude(nx), max(packet_magnitude(ny), packet_magnitude(nz)));
+    if (params.effects & COMBINE_DETAIL)
+        detail_normals(packet_load(ids + GBUFFER_DETAIL * stride + pixel), &nx, &ny, &nz);
 
     // What the material makes of its base colour: a diffuse share, and a lobe. No material: all of
     // it diffuse.
@@ -65,10 +68,9 @@ kernel void image_combine(
         float lanes[4][CLGI_WIDTH];
         for (int k = 0; k < CLGI_WIDTH; ++k) {
             // Past the last pixel another renderer may have left anything.
-            int material = pixel + k < params.width * params.height
-                               ? ids[GBUFFER_MATERIAL * stride + pixel + k] : -1;
-            float4 r = material < 0 ? (float4)(1.0f, 0.0f, 0.0f, 0.0f)
-                                    : materials[material].reflectance;
+            float4 r = (float4)(1.0f, 0.0f, 0.0f, 0.0f);
+            if (pixel + k < params.width * params.height)
+                r = pixel_reflectance(ids, materials, stride, pixel + k);
             lanes[0][k] = r.x;
             lanes[1][k] = r.y;
             lanes[2][k] = r.z;

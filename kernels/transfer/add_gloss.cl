@@ -10,6 +10,7 @@
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/receivers.h"
 #include "clgi/shared/scene.h"
+#include "detail_codes.clh"
 #include "gloss.clh"
 
 kernel void transfer_add_gloss(
@@ -24,9 +25,7 @@ kernel void transfer_add_gloss(
     uint pixel = (uint)get_global_id(0);
     if (pixel >= params.pixel_count) return;
     uint stride = params.pixel_stride;
-    int material = ids[GBUFFER_MATERIAL * stride + pixel];
-    if (material < 0) return;
-    float4 reflectance = materials[material].reflectance;
+    float4 reflectance = pixel_reflectance(ids, materials, stride, pixel);
     if (!(reflectance.y + reflectance.z > 0.0f)) return;
     float arrives[3];
     for (int c = 0; c < 3; ++c)

@@ -14,6 +14,7 @@
 #include "clgi/shared/gbuffer.h"
 #include "clgi/shared/receivers.h"
 #include "clgi/shared/scene.h"
+#include "detail_codes.clh"
 #include "finite.clh"
 #include "planes.clh"
 #include "transfer/probe.clh"
@@ -32,9 +33,7 @@ kernel void transfer_compare_gloss(
     uint probe = (uint)get_global_id(0);
     if (probe >= params.columns * params.rows) return;
     uint stride = params.pixel_stride, pixel = probe_pixel(params, probe);
-    int material = ids[GBUFFER_MATERIAL * stride + pixel];
-    float4 share = (float4)(0.0f);
-    if (material >= 0) share = materials[material].reflectance;
+    float4 share = pixel_reflectance(ids, materials, stride, pixel);
     int has_lobe = share.y + share.z > 0.0f;
     float apart = 0.0f, whole_a = 0.0f, whole_b = 0.0f, rest = 0.0f, sum = 0.0f;
     for (int c = 0; c < 3; ++c) {

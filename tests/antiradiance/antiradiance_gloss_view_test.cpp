@@ -76,6 +76,55 @@ TEST_P(GlossyPixels, ShowTheAlbedoUnderAnEvenSky) {
         }
 }
 
+// Half of a square is metal by its texture: shares are those of the pixel, the lobe's width that of
+// the mean.
+TEST_P(GlossyPixels, HaveTheFinishOfATexture) {
+    Scene scene = test::plain_scene();
+    Material both = metal({0.9f, 0.5f, 0.2f}, 0.6f);
+    both.double_sided = true;
+    both.metallic = 0.5f;
+    both.finish_texture.texture = 0;
+    Texture halves{"halves", 2, 1, {0, 153, 255, 255, 0, 153, 0, 255}};  // roughness 0.6
+    halves.nearest = true;
+    halves.srgb = false;
+    scene.textures.push_back(halves);
+    test::add_quad(scene, {glm::dvec3(-1, 0, 1), {1, 0.3, 1}, {1, 0.3, -1}, {-1, 0, -1}},
+                   test::add_material(scene, both));
+    for (const float u : {0.0f, 1.0f, 1.0f, 0.0f}) scene.uvs.emplace_back(u, 0.5f, 0.0f, 0.0f);
+    scene.environment = Environment();
+    scene.environment->factor = {2.0f, 3.0f, 5.0f};
+    scene.cameras = {test::camera_at({0.3, 1.0, 1.8}, {0, 0, 0})};
+    GlossyPicture shown(scene, antiradiance_options(GetParam(), 128, 60));
+    ASSERT_TRUE(shown.solver.run());
+    const auto found = shown.picture(scene.cameras[0]);
+    const Picture& picture = shown.view.picture();
+    const auto seen = test::places_of(picture);
+    const auto ids = test::download<cl_int>(picture.gbuffer().ids,
+                                            GBUFFER_ID_PLANES * std::size_t{picture.stride()});
+    const std::vector<float> curve = lobe_albedos(reflectance(0.5f, 0.6f).exponent);
+    const glm::dvec3 n = glm::normalize(glm::dvec3(-0.3, 2.0, 0.0)), light(2.0, 3.0, 5.0);
+    int counted[2] = {0, 0};
+    for (std::size_t p = 0; p < found.size(); ++p) {
+        if (ids[GBUFFER_TRIANGLE * picture.stride() + p] < 0) continue;
+        const SceneFrame& frame = shown.scene.frame();
+        const glm::dvec3 at = glm::dvec3(seen[p]) / frame.scale + frame.origin;
+        if (std::abs(at.x) < 0.02) continue;
+        const bool metallic = at.x < 0.0;
+        const Reflectance shares = reflectance(metallic ? 1.0f : 0.0f, 0.6f);
+        const double gloss =
+            lobe_albedo_at(curve, glm::dot(n, glm::normalize(scene.cameras[0].position - at)));
+        for (int c = 0; c < 3; ++c) {
+            const double base = c == 0 ? 0.9 : c == 1 ? 0.5 : 0.2;
+            const double wanted =
+                light[c] * (base * shares.diffuse + (base * shares.lobe + shares.coat) * gloss);
+            ASSERT_NEAR(found[p][c], wanted, 5e-3 * wanted) << p;
+        }
+        ++counted[metallic];
+    }
+    EXPECT_GT(counted[0], 200);
+    EXPECT_GT(counted[1], 200);
+}
+
 // One bright bin: it is seen about the mirrored direction to the eye, through the pixel's own
 // normal, interpolated between the corners of leaves.
 TEST_P(GlossyPixels, ShowABinWhereItIsMirrored) {

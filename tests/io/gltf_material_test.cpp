@@ -69,14 +69,53 @@ TEST(GltfTextures, PixelsArriveAsTheyWere) {
     EXPECT_EQ(scene.uvs.size(), 3u);
 }
 
-TEST(GltfTextures, MetalAndRoughnessEnterByTheirMean) {
+TEST(GltfTextures, MetalAndRoughnessHaveTheirMeanAndTheirTexture) {
     // Green (roughness) averages 51, blue (metal) 102 of 255.
+    GltfDraft draft =
+        textured(png(2, 1, {9, 0, 204, 255, 9, 102, 0, 255}), "metallicRoughnessTexture");
+    json& factors = draft.document["materials"][0]["pbrMetallicRoughness"];
+    factors["roughnessFactor"] = 0.5;
+    factors["metallicFactor"] = 0.25;
+    // A second material reads the same texels.
+    draft.document["materials"].push_back(draft.document["materials"][0]);
+    const Scene scene = draft.load();
+    for (const Material& material : scene.materials) {
+        EXPECT_FLOAT_EQ(material.roughness, 0.1f);
+        EXPECT_FLOAT_EQ(material.metallic, 0.1f);
+        EXPECT_EQ(material.finish, glm::vec2(0.25f, 0.5f));
+        EXPECT_EQ(material.finish_texture.texture, 0);
+    }
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_FALSE(scene.textures[0].srgb);
+    EXPECT_EQ(scene.uvs.size(), 3u);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfTextures, AFinishOfOneValueNeedsNoTexture) {
+    // Red says nothing.
     const Scene scene =
-        textured(png(2, 1, {9, 0, 204, 255, 9, 102, 0, 255}), "metallicRoughnessTexture").load();
+        textured(png(2, 1, {9, 51, 102, 255, 7, 51, 102, 255}), "metallicRoughnessTexture").load();
     EXPECT_FLOAT_EQ(scene.materials[0].roughness, 0.2f);
     EXPECT_FLOAT_EQ(scene.materials[0].metallic, 0.4f);
+    EXPECT_EQ(scene.materials[0].finish_texture.texture, -1);
     EXPECT_TRUE(scene.textures.empty());
-    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfTextures, NormalsAreLinearAndKeepTheirScale) {
+    GltfDraft draft = textured(png(1, 1, {10, 200, 220, 255}));
+    json& material = draft.document["materials"][0];
+    material["normalTexture"] = {{"index", 0}, {"scale", -0.5}, {"texCoord", 1}};
+    material["normalTexture"]["extensions"]["KHR_texture_transform"]["scale"] = {2, 3};
+    const Scene scene = draft.load();
+    // The same image, once as a colour and once as numbers.
+    ASSERT_EQ(scene.textures.size(), 2u);
+    EXPECT_TRUE(scene.textures[0].srgb);
+    EXPECT_FALSE(scene.textures[1].srgb);
+    const Material& read = scene.materials[0];
+    EXPECT_EQ(read.normal_texture.texture, 1);
+    EXPECT_EQ(read.normal_texture.uv_set, 1);
+    EXPECT_EQ(read.normal_scale, -0.5f);
+    EXPECT_EQ(read.normal_texture.transform[1][1], 3.0f);
 }
 
 TEST(GltfTextures, TheTransformScalesThenTurnsThenShifts) {

@@ -40,6 +40,16 @@ Scene furnished() {
     scene.materials[1].roughness = 0.3f;
     scene.materials[1].metallic = 0.6f;
     scene.materials[1].emission = {17, 12, 4};
+    scene.textures.push_back({"normals", 2, 1, {9, 200, 250, 255, 128, 90, 200, 255}});
+    scene.textures.back().srgb = false;
+    scene.textures.push_back({"finish", 1, 2, {0, 51, 102, 255, 0, 153, 204, 255}});
+    scene.textures.back().srgb = false;
+    scene.materials[0].normal_texture = {1, 0, glm::mat3(2, 0, 0, 0, 3, 0, 0, 0, 1)};
+    scene.materials[0].normal_scale = -0.75f;
+    scene.materials[0].finish_texture = {2, 1};
+    scene.materials[0].finish = {0.5f, 0.25f};
+    scene.materials[0].metallic = 0.5f * 0.6f;
+    scene.materials[0].roughness = 0.25f * 0.4f;
 
     Light spot;
     spot.name = "lamp";
@@ -102,7 +112,19 @@ TEST(SaveGlb, KeepsMaterialsAndTextures) {
     EXPECT_EQ(after.materials[1].metallic, 0.6f);
     EXPECT_VEC_NEAR(after.materials[1].emission, before.materials[1].emission, 2e-6);
 
-    ASSERT_EQ(after.textures.size(), 1u);
+    EXPECT_EQ(red.normal_scale, -0.75f);
+    EXPECT_EQ(red.normal_texture.transform[1], glm::vec3(0.0f, 3.0f, 0.0f));
+    EXPECT_EQ(red.finish_texture.uv_set, 1);
+    EXPECT_EQ(red.finish, before.materials[0].finish);
+    EXPECT_FLOAT_EQ(red.metallic, before.materials[0].metallic);
+    EXPECT_FLOAT_EQ(red.roughness, before.materials[0].roughness);
+
+    ASSERT_EQ(after.textures.size(), 3u);
+    const Texture& normals = after.textures[static_cast<std::size_t>(red.normal_texture.texture)];
+    const Texture& finish = after.textures[static_cast<std::size_t>(red.finish_texture.texture)];
+    EXPECT_EQ(normals.rgba, before.textures[1].rgba);
+    EXPECT_EQ(finish.rgba, before.textures[2].rgba);
+    EXPECT_FALSE(normals.srgb || finish.srgb);
     EXPECT_EQ(after.textures[0].rgba, before.textures[0].rgba);
     EXPECT_EQ(after.textures[0].name, "picture");
     EXPECT_EQ(after.textures[0].wrap_s, Wrap::clamp_to_edge);

@@ -11,6 +11,7 @@
 #include "drawing.hpp"
 #include "frames.hpp"
 #include "scenes.hpp"
+#include "shading.hpp"
 
 namespace clgi {
 namespace {
@@ -31,7 +32,7 @@ TEST(ReferenceMaterial, ReducesAsTheLibraryDoes) {
 }
 
 // Random textures, UV transforms, wrap modes and vertex colours: what the library's G-buffer holds
-// is what the path tracer reads at the same point.
+// is what the path tracer reads at the same point, normals and finish with it.
 TEST(ReferenceMaterial, ReadsTheColourThatTheGBufferHolds) {
     test::Random random(5);
     for (int round = 0; round < 24; ++round) {
@@ -54,6 +55,16 @@ TEST(ReferenceMaterial, ReadsTheColourThatTheGBufferHolds) {
         material.base_texture.uv_set = round % 2;
         material.base_texture.transform = glm::mat3(random(-1, 1), random(-1, 1), 0, random(-1, 1),
                                                     random(-1, 1), 0, random(-2, 2), 0.3, 1);
+        Texture linear = texture;
+        linear.srgb = false;
+        for (std::size_t i = 0; i < linear.rgba.size(); ++i)
+            linear.rgba[i] = static_cast<std::uint8_t>(random(i % 4 == 2 ? 160 : 40, 215));
+        scene.textures.push_back(linear);
+        material.normal_texture = material.finish_texture = material.base_texture;
+        material.normal_texture.texture = material.finish_texture.texture = 1;
+        material.normal_texture.uv_set = 1 - round % 2;
+        material.normal_scale = static_cast<float>(random(-1, 1));
+        material.finish = {static_cast<float>(random(0, 1)), static_cast<float>(random(0.3, 1))};
         for (int k = 0; k < 4; ++k) {
             scene.uvs.emplace_back(random(-1, 2), random(-1, 2), random(-1, 2), random(-1, 2));
             scene.colors.emplace_back(random(0, 1), random(0, 1), random(0, 1), 1);
@@ -70,11 +81,19 @@ TEST(ReferenceMaterial, ReadsTheColourThatTheGBufferHolds) {
                     u > v ? reference::Hit{0, u - v, v} : reference::Hit{1, u, v - u};
                 const reference::Surface surface =
                     reference::surface_at(geometry, hit, glm::vec3(0, 0, -1));
-                const glm::vec3 other = drawing.at(GBUFFER_BASE, size * y + x) *
-                                        reflectance(material.metallic, material.roughness).diffuse;
-                int differ = 0;
-                for (int c = 0; c < 3; ++c)
-                    differ += std::abs(surface.albedo[c] - other[c]) > 4e-5f;
+                const int code = drawing.ids[GBUFFER_FINISH * drawing.stride + size * y + x];
+                const glm::vec2 finish =
+                    glm::vec2(code >> FINISH_BITS, code & FINISH_STEPS) / float{FINISH_STEPS};
+                const Reflectance shares = reflectance(finish.x, finish.y);
+                const glm::vec3 base = drawing.at(GBUFFER_BASE, size * y + x);
+                const glm::dvec3 normal = test::detail_normal(
+                    drawing.ids[GBUFFER_DETAIL * drawing.stride + size * y + x]);
+                int differ = glm::length(normal - glm::dvec3(surface.normal)) > 5e-4;
+                for (int c = 0; c < 3; ++c) {
+                    differ += std::abs(surface.albedo[c] - base[c] * shares.diffuse) > 1e-4f;
+                    differ +=
+                        std::abs(surface.lobe[c] - base[c] * shares.lobe - shares.coat) > 1e-4f;
+                }
                 // The nearest texel changes from one pixel to the next: there float rounding
                 // decides.
                 if (differ && texture.nearest) continue;

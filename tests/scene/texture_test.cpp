@@ -41,6 +41,25 @@ TEST(Texture, DecodesEverySrgbByte) {
         EXPECT_NEAR(drawing.at(GBUFFER_BASE, i).x, decoded(i / 255.0), 6e-8) << i;
 }
 
+TEST(Texture, KeepsLinearBytes) {
+    Texture ramp = picture(16, 16, true);
+    ramp.srgb = false;
+    for (int i = 0; i < 256; ++i) ramp.rgba[4 * i + 1] = static_cast<std::uint8_t>(i);
+    const Drawing drawing = test::draw(textured(ramp, 16, 16), test::pixel_camera(16, 16), 16, 16);
+    for (int i = 0; i < 256; ++i)  // two roundings
+        EXPECT_NEAR(drawing.at(GBUFFER_BASE, i).y, i / 255.0, 1.2e-7) << i;
+}
+
+// Black and white of the same area, far away: half, and not the byte of half as sRGB has it.
+TEST(Texture, HasLinearMipLevels) {
+    Texture checker = picture(8, 8, false);
+    checker.srgb = false;
+    for (int i = 0; i < 64; ++i)
+        if ((i + i / 8) % 2) checker.rgba[4 * i] = 0;
+    const Drawing drawing = test::draw(textured(checker, 3, 3), test::pixel_camera(3, 3), 3, 3);
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(drawing.at(GBUFFER_BASE, i).x, 0.5, 0.5 / 255 + 1e-6);
+}
+
 TEST(Texture, ShowsACheckerTexelByTexel) {
     Texture checker = picture(8, 4, true);
     for (int y = 0; y < 4; ++y)

@@ -202,6 +202,28 @@ TEST(Combine, AddsAllSourcesAndTakesEachEffectAlone) {
     }
 }
 
+// Any code is a direction: those of all faces of the octahedron, and pixels without one between.
+TEST(Combine, TakesNormalsAndFinishOfTextures) {
+    for (const bool detail : {false, true}) {
+        Shading in = oblique_shading({spot, point, sun, lamp},
+                                     COMBINE_DIRECT | COMBINE_SPECULAR | COMBINE_INDIRECT |
+                                         COMBINE_SPREAD_LOBES | (detail ? COMBINE_DETAIL : 0));
+        Random random(31);
+        for (test::ShadedPixel& pixel : in.pixels) {
+            if (random(0, 1) < 0.7)
+                pixel.detail = static_cast<int>(
+                    static_cast<std::uint32_t>(random.integer(0, DETAIL_STEPS)) |
+                    static_cast<std::uint32_t>(random.integer(0, DETAIL_STEPS)) << 16);
+            if (random(0, 1) < 0.7)
+                pixel.finish = random.integer(0, FINISH_STEPS) << FINISH_BITS |
+                               random.integer(FINISH_STEPS / 4, FINISH_STEPS);
+        }
+        const auto [compared, bright] = expect_truth(in, detail ? "detail" : "finish");
+        EXPECT_GT(compared, 500);
+        EXPECT_GT(bright, 200);
+    }
+}
+
 TEST(Combine, SeesNothingWhereNothingIs) {
     Shading in = oblique_shading({sun}, COMBINE_DIRECT | COMBINE_INDIRECT | COMBINE_EMISSION);
     for (test::ShadedPixel& pixel : in.pixels) pixel.normal = glm::vec3(0);

@@ -306,7 +306,7 @@ TEST(Import, ReadsHalvesAndBytes) {
     params.normal_format = TEXEL_RGBA16F;
     params.albedo_format = TEXEL_RGBA8;
     params.emission_format = TEXEL_RGBA16F;
-    const GBuffer out{test::empty<float>(16 * 16), test::empty<cl_int>(32), 16};
+    const GBuffer out{test::empty<float>(16 * 16), test::empty<cl_int>(GBUFFER_ID_PLANES * 16), 16};
     const cl::Buffer count = test::upload(std::vector<cl_uint>{0});
     passes.buffers(test::device().queue, view_of(picture), params, texels, out, count);
     const auto planes = test::download<float>(out.planes, 16 * 16);
@@ -335,7 +335,7 @@ TEST(Import, RefusesWhatDoesNotFit) {
     const View view = view_of(picture);
     const ImportPasses passes(test::programs());
     const cl::CommandQueue& queue = test::device().queue;
-    const GBuffer out{test::empty<float>(16 * 16), test::empty<cl_int>(32), 16};
+    const GBuffer out{test::empty<float>(16 * 16), test::empty<cl_int>(GBUFFER_ID_PLANES * 16), 16};
     const cl::Buffer count = test::empty<cl_uint>(1);
     ImportParams params = import_params(room(), 16);
     params.flags = everything;
@@ -361,7 +361,7 @@ TEST(Import, RefusesWhatDoesNotFit) {
         refused(texels, out, "holds 0 bytes");
     }
     refused(whole, {test::empty<cl_uchar>(1023), out.ids, 16}, "planes holds 1023 bytes, 1024");
-    refused(whole, {out.planes, test::empty<cl_uchar>(127), 16}, "ids holds 127 bytes, 128");
+    refused(whole, {out.planes, test::empty<cl_uchar>(255), 16}, "ids holds 255 bytes, 256");
     refused(whole, {out.planes, out.ids, 32}, "stride is 32, 16 needed");
     refused(whole, {out.planes, out.ids, 16, Storage::half}, "storage is half, full needed");
     params.normal_format = 3;

@@ -16,9 +16,36 @@ struct ShadedPixel {
     glm::vec3 position{0}, normal{0}, geometric{0};  // local frame; no normal: nothing is there
     glm::vec3 base{0};                               // colour, before the share that is diffuse
     glm::vec3 emission{0};
-    glm::vec3 irradiance{0};  // indirect
-    int material = -1;        // -1: unknown, all of the colour is diffuse
+    glm::vec3 irradiance{0};       // indirect
+    int material = -1;             // -1: unknown, all of the colour is diffuse
+    int detail = -1, finish = -1;  // of textures; -1: normal and material hold
 };
+
+// A normal of GBUFFER_DETAIL, from the faces of the octahedron |x| + |y| + |z| = 1.
+inline glm::dvec3 detail_normal(int code) {
+    const auto step = [&](int shift) {
+        return 2.0 * (static_cast<std::uint32_t>(code) >> shift & 0xffffu) / double{DETAIL_STEPS} -
+               1.0;
+    };
+    glm::dvec3 out(step(0), step(16), 0.0);
+    out.z = 1.0 - std::abs(out.x) - std::abs(out.y);
+    if (out.z < 0.0) {
+        const glm::dvec2 mirrored(1.0 - std::abs(out.y), 1.0 - std::abs(out.x));
+        out.x = std::copysign(mirrored.x, out.x);
+        out.y = std::copysign(mirrored.y, out.y);
+    }
+    return glm::normalize(out);
+}
+
+// What a pixel reflects: of its finish, of its material, or of neither.
+inline Reflectance shown_reflectance(const ShadedPixel& pixel,
+                                     const std::vector<Material>& materials) {
+    if (pixel.material < 0) return {1, 0, 0, 0};
+    const Material& of = materials[pixel.material];
+    if (pixel.finish < 0) return reflectance(of.metallic, of.roughness);
+    const glm::vec2 steps(pixel.finish >> FINISH_BITS, pixel.finish & FINISH_STEPS);
+    return reflectance(steps.x / float{FINISH_STEPS}, steps.y / float{FINISH_STEPS});
+}
 
 // What is left of a pixel that is stored.
 inline ShadedPixel stored(ShadedPixel pixel) {
@@ -70,6 +97,8 @@ inline Combined combine(const Shading& in, const ImagePasses& passes = image_pas
         put(GBUFFER_BASE, pixel.base);
         put(GBUFFER_EMISSION, pixel.emission);
         ids[GBUFFER_MATERIAL * stride + i] = pixel.material;
+        ids[GBUFFER_DETAIL * stride + i] = pixel.detail;
+        ids[GBUFFER_FINISH * stride + i] = pixel.finish;
         for (int c = 0; c < 3; ++c) irradiance[c * stride + i] = pixel.irradiance[c];
     }
     CombineParams params = in.params;
@@ -122,10 +151,11 @@ struct ShadedTruth {
 inline ShadedTruth shaded_truth(const Shading& in, const ShadedPixel& pixel) {
     constexpr double pi = std::numbers::pi, u = 0x1p-24;
     ShadedTruth out;
-    const glm::dvec3 n(pixel.normal), g(pixel.geometric), p(pixel.position);
+    glm::dvec3 n(pixel.normal);
+    const glm::dvec3 g(pixel.geometric), p(pixel.position);
     if (pixel.normal == glm::vec3(0)) return out;
-    const Material* m = pixel.material < 0 ? nullptr : &in.materials[pixel.material];
-    const Reflectance r = m ? reflectance(m->metallic, m->roughness) : Reflectance{1, 0, 0, 0};
+    if (pixel.detail != -1 && (in.params.effects & COMBINE_DETAIL)) n = detail_normal(pixel.detail);
+    const Reflectance r = shown_reflectance(pixel, in.materials);
     const glm::dvec3 base(pixel.base), rho = base * double{r.diffuse};
     const glm::dvec3 gloss = base * double{r.lobe} + double{r.coat};
     const glm::dvec3 toward_eye = in.view.eye.w == 0.0f

@@ -34,6 +34,15 @@ struct SurfaceTruth {
     bool near_border = false;  // of a nearest texel
 };
 
+// What normal and finish textures make of a pixel.
+struct DetailTruth {
+    bool mapped = false, finished = false;
+    glm::dvec3 normal{0};  // towards the viewer
+    glm::dvec2 finish{0};  // metalness, roughness
+    double certain = 1.0;  // the least length that was brought to 1, of a length around 1
+    bool bent = false, mirrored = false;
+};
+
 // value(vertex) of the three corners, weighed.
 template <typename Value>
 auto between(const SceneTriangle& t, const glm::dvec3& weights, const Value& value) {
@@ -80,6 +89,53 @@ public:
         if (out.emission != glm::dvec3(0.0))
             out.emission *=
                 glm::dvec3(textured(material.emission_texture, view, corners, column, row, out));
+        return out;
+    }
+
+    // truth: of the same pixel.
+    DetailTruth detail(const View& view, int triangle, double column, double row,
+                       SurfaceTruth& truth) const {
+        const SceneTriangle& t = scene_.triangles[static_cast<std::size_t>(triangle)];
+        const Material& material = scene_.materials[t.material];
+        DetailTruth out;
+        const TextureSlot &normal = material.normal_texture, &finish = material.finish_texture;
+        out.finished = finish.texture >= 0;
+        if (out.finished) {
+            const glm::dvec4 texel = textured(finish, view, t, column, row, truth);
+            out.finish = glm::dvec2(material.finish) * glm::dvec2(texel.z, texel.y);
+        }
+        if (normal.texture < 0) return out;
+        out.mapped = true;
+        // Along the surface u grows in the direction that keeps v, which is across v's gradient.
+        const glm::dvec3 wound = normal_of(t), a = local(t.vertex[0]);
+        const glm::dvec3 e1 = local(t.vertex[1]) - a, e2 = local(t.vertex[2]) - a;
+        const glm::dvec2 at[3] = {uv(normal, t, {1, 0, 0}), uv(normal, t, {0, 1, 0}),
+                                  uv(normal, t, {0, 0, 1})};
+        const auto gradient = [&](int c) {
+            const glm::dvec3 of_e1 = glm::cross(e2, wound), of_e2 = glm::cross(wound, e1);
+            return of_e1 * (at[1][c] - at[0][c]) / glm::dot(of_e1, e1) +
+                   of_e2 * (at[2][c] - at[0][c]) / glm::dot(of_e2, e2);
+        };
+        const glm::dvec3 up_u = gradient(0), up_v = gradient(1);
+        out.mirrored = glm::dot(glm::cross(up_u, up_v), wound) > 0.0;
+        const glm::dvec3 along =
+            glm::normalize(glm::cross(up_v, wound)) * (out.mirrored ? 1.0 : -1.0);
+        const glm::dvec3 n = truth.normal * (truth.front ? 1.0 : -1.0);
+        const glm::dvec3 flat = along - n * glm::dot(along, n);
+        const glm::dvec3 tangent = glm::normalize(flat);
+        const glm::dvec3 bitangent = glm::cross(n, tangent) * (out.mirrored ? -1.0 : 1.0);
+        const glm::dvec3 read =
+            2.0 * glm::dvec3(textured(normal, view, t, column, row, truth)) - 1.0;
+        glm::dvec3 found =
+            double{material.normal_scale} * (read.x * tangent + read.y * bitangent) + read.z * n;
+        out.certain = std::min(glm::length(flat), glm::length(found));
+        found = glm::normalize(found) * (truth.front ? 1.0 : -1.0);
+        const glm::dvec3 sight = glm::normalize(pixel_ray(view, column, row).direction);
+        const double cosine = -glm::dot(found, sight);
+        out.bent = cosine < 0.01;
+        if (out.bent) found -= sight * (0.01 - cosine);
+        out.normal = glm::normalize(found);
+        out.certain = std::min(out.certain, glm::length(found));
         return out;
     }
 

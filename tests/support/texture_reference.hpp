@@ -63,7 +63,8 @@ inline TextureTexel level_texel(const Textures& textures, const TextureRecord& r
         glm::dvec4 out;
         for (int c = 0; c < 4; ++c) {
             const double byte = (word >> (8 * c) & 255u) / 255.0;
-            out[c] = c < 3 ? decoded_srgb(byte) : byte;
+            const bool linear = c == 3 || (record.flags & TEXTURE_LINEAR);
+            out[c] = linear ? byte : decoded_srgb(byte);
         }
         return out;
     };

@@ -27,7 +27,7 @@ const ProbeParams probing{6, 5, picture_stride, probe_stride, 2, 3, 2, 0.25f};
 
 TEST_P(TransferProbes, AreComparedWithWhatIsShown) {
     std::vector<float> shown(3 * picture_stride), probes(4 * probe_stride);
-    std::vector<int> ids(2 * picture_stride, 3);
+    std::vector<int> ids(GBUFFER_ID_PLANES * picture_stride, 3);
     for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = static_cast<float>(i % 13) + 1.0f;
     const std::size_t pixels[] = {7, 9, 11, 19, 21, 23};
     for (std::size_t k = 0; k < 6; ++k)
@@ -70,7 +70,7 @@ TEST_P(TransferProbes, ThatFailFlagPixelsAndTheOthersMend) {
         for (std::size_t c = 0; c < 3; ++c)
             missing[c * probe_stride + k] = lacks(1 + 2.0 * (k % 3), 1 + 2.0 * (k / 3), c);
     for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = static_cast<float>(i % 7);
-    std::vector<int> ids(2 * picture_stride, 0);
+    std::vector<int> ids(GBUFFER_ID_PLANES * picture_stride, 0);
     ids[GBUFFER_TRIANGLE * picture_stride + 8] = -1;
     GBuffer seen;
     seen.planes = test::empty<float>(GBUFFER_PLANES * picture_stride);
@@ -121,7 +121,7 @@ TEST_P(TransferProbes, MendBySoMuchOfWhatIsShown) {
     {
         GBuffer seen;
         seen.planes = test::empty<float>(GBUFFER_PLANES * picture_stride);
-        seen.ids = test::upload(std::vector<int>(2 * picture_stride, 0));
+        seen.ids = test::upload(std::vector<int>(GBUFFER_ID_PLANES * picture_stride, 0));
         seen.stride = picture_stride;
         const cl::Buffer values = test::upload(shown);
         // The last probe sees nothing: what is left weighs less than 1.
@@ -176,7 +176,7 @@ TEST_P(TransferProbes, AreComparedWithTheGlossThatIsShown) {
     const double gloss[] = {9.0, 0.99 * edge(1), 1.01 * edge(1), 0.99 * edge(2), 1.01 * edge(2), 1};
     std::vector<float> planes(GBUFFER_PLANES * picture_stride, 0.0f),
         light(3 * picture_stride, 0.0f), shown(3 * picture_stride, 0.0f), probes(4 * probe_stride);
-    std::vector<int> ids(2 * picture_stride, -1);
+    std::vector<int> ids(GBUFFER_ID_PLANES * picture_stride, -1);
     for (std::size_t k = 0; k < 6; ++k) {
         ids[GBUFFER_MATERIAL * picture_stride + pixels[k]] = materials[k];
         for (std::size_t c = 0; c < 3; ++c) {

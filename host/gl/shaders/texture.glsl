@@ -15,13 +15,16 @@ int texture_wrap(int i, int extent, uint mode) {
 
 float texture_decode(uint value) { return texelFetch(decode, ivec2(int(value), 0), 0).x; }
 
-vec4 texture_texel(uint first, int width, int x, int y) {
+vec4 texture_texel(bool linear, uint first, int width, int x, int y) {
     uint texel = texelFetch(texels, data_at(first + uint(y) * uint(width) + uint(x)), 0).x;
+    vec4 bytes = vec4(texel & 255u, (texel >> 8) & 255u, (texel >> 16) & 255u, texel >> 24);
+    if (linear) return bytes * (1.0 / 255.0);
     return vec4(texture_decode(texel & 255u), texture_decode((texel >> 8) & 255u),
-                texture_decode((texel >> 16) & 255u), float(texel >> 24) * (1.0 / 255.0));
+                texture_decode((texel >> 16) & 255u), bytes.w * (1.0 / 255.0));
 }
 
 vec4 texture_level(uvec4 record, int level, vec2 uv) {
+    bool linear = (record.w & TEXTURE_LINEAR) != 0u;
     uint first = record.x;
     int width = int(record.y);
     int height = int(record.z);
@@ -37,7 +40,7 @@ vec4 texture_level(uvec4 record, int level, vec2 uv) {
     float x = clamp(uv.x, -2.0, 3.0) * float(width) - 0.5;
     float y = clamp(uv.y, -2.0, 3.0) * float(height) - 0.5;
     if ((record.w & TEXTURE_NEAREST) != 0u)
-        return texture_texel(first, width, texture_wrap(int(floor(x + 0.5)), width, wrap_s),
+        return texture_texel(linear, first, width, texture_wrap(int(floor(x + 0.5)), width, wrap_s),
                              texture_wrap(int(floor(y + 0.5)), height, wrap_t));
     float xf = floor(x);
     float yf = floor(y);
@@ -45,9 +48,10 @@ vec4 texture_level(uvec4 record, int level, vec2 uv) {
     int x1 = texture_wrap(int(xf) + 1, width, wrap_s);
     int y0 = texture_wrap(int(yf), height, wrap_t);
     int y1 = texture_wrap(int(yf) + 1, height, wrap_t);
-    vec4 top = mix(texture_texel(first, width, x0, y0), texture_texel(first, width, x1, y0), x - xf);
-    vec4 bottom =
-        mix(texture_texel(first, width, x0, y1), texture_texel(first, width, x1, y1), x - xf);
+    vec4 top = mix(texture_texel(linear, first, width, x0, y0),
+                   texture_texel(linear, first, width, x1, y0), x - xf);
+    vec4 bottom = mix(texture_texel(linear, first, width, x0, y1),
+                      texture_texel(linear, first, width, x1, y1), x - xf);
     return mix(top, bottom, y - yf);
 }
 

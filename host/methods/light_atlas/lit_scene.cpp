@@ -65,6 +65,7 @@ Material lit(const Material& material, std::uint32_t page, bool named, int first
     out.emission = glm::vec3(page == no_index ? 0.0f : 1.0f);
     out.emission_texture = {};
     if (page != no_index) out.emission_texture = {first_page + static_cast<int>(page), 1};
+    out.finish_texture = out.normal_texture = {};
     if (options.lights) return out;
     out.base_color = glm::vec4(0.0f, 0.0f, 0.0f, material.base_color.a);
     out.metallic = out.roughness = 1.0f;
@@ -79,7 +80,7 @@ void drop_unread(Scene& scene) {
     std::vector<int> kept(scene.textures.size(), -1);
     std::vector<Texture> textures;
     for (Material& material : scene.materials)
-        for (TextureSlot* slot : {&material.base_texture, &material.emission_texture}) {
+        for (TextureSlot* slot : texture_slots(material)) {
             if (slot->texture < 0) continue;
             const auto old = static_cast<std::size_t>(slot->texture);
             if (kept[old] < 0) {

@@ -124,8 +124,17 @@ enum {
     GBUFFER_PLANES = 16
 };
 
-// Integer planes beside them.
-enum { GBUFFER_MATERIAL = 0, GBUFFER_TRIANGLE = 1, GBUFFER_ID_PLANES = 2 };  // -1: nothing
+// Integer planes beside them; -1: nothing.
+enum {
+    GBUFFER_MATERIAL = 0,
+    GBUFFER_TRIANGLE = 1,
+    GBUFFER_DETAIL = 2,  // normal by a normal texture, unit, towards the viewer, by the octahedron:
+                         // 16 bits each of x and y, DETAIL_STEPS; -1: GBUFFER_NORMAL holds
+    GBUFFER_FINISH = 3,  // roughness and metalness by textures, FINISH_BITS each; -1: the
+                         // material's
+    GBUFFER_ID_PLANES = 4
+};
+enum { DETAIL_STEPS = 65534, FINISH_BITS = 15, FINISH_STEPS = 32767 };
 
 // Which groups of planes `resolve` writes.
 enum {

@@ -50,7 +50,8 @@ enum {
     COMBINE_SPECULAR = 8,    // with COMBINE_MATERIALS
     COMBINE_MATERIALS = 16,  // some material's diffuse share is not 1
     // Lobes reflect indirect light as diffuse surfaces of their mean albedo do; with COMBINE_MATERIALS.
-    COMBINE_SPREAD_LOBES = 32
+    COMBINE_SPREAD_LOBES = 32,
+    COMBINE_DETAIL = 64  // normals and materials by textures, GBUFFER_DETAIL and GBUFFER_FINISH
 };
 
 // Radiance planes: rgb, stride apart.

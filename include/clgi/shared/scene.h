@@ -27,11 +27,27 @@ typedef struct {
     float4 base_u;  // u' = dot(base_u.xyz, (u, v, 1))
     float4 base_v;
     float4 emission_u;
-    float4 emission_v;  //--- 128 B
-} MaterialRecord;
+    float4 emission_v;
+    int normal_texture;
+    int normal_uv_set;
+    int finish_texture;  // of metalness and roughness
+    int finish_uv_set;
+    float4 normal_u;  // w: scale of the normal's x and y
+    float4 normal_v;
+    float4 finish_u;  // w: metalness, times the texture's blue
+    float4 finish_v;  // w: roughness, times the texture's green
+} MaterialRecord;     //--- 208 B
 
-enum { MATERIAL_ROWS = 8 };  // float4 rows of a MaterialRecord
-enum { MATERIAL_BASE = 0, MATERIAL_EMISSION = 1, MATERIAL_REFLECTANCE = 2 };
+enum { MATERIAL_ROWS = 13 };  // float4 rows of a MaterialRecord
+enum {
+    MATERIAL_BASE = 0,
+    MATERIAL_EMISSION = 1,
+    MATERIAL_REFLECTANCE = 2,
+    MATERIAL_BASE_UV = 4,  // two rows each
+    MATERIAL_EMISSION_UV = 6,
+    MATERIAL_NORMAL_UV = 9,
+    MATERIAL_FINISH_UV = 11
+};
 
 // One texture in the texel pool: RGBA8, mip levels one after the other, each half the size.
 typedef struct {
@@ -45,6 +61,7 @@ enum {
     TEXTURE_WRAP_S = 0x3,   // 0 repeat, 1 mirrored, 2 clamp
     TEXTURE_WRAP_T = 0xc,   // the same, shifted by 2
     TEXTURE_NEAREST = 0x10,
+    TEXTURE_LINEAR = 0x20,  // rgb are linear, not sRGB
     TEXTURE_LEVELS_SHIFT = 8
 };
 
@@ -53,7 +70,8 @@ enum {
     SCENE_HAS_COLORS = 2,
     SCENE_HAS_TEXTURES = 4,
     SCENE_HAS_EMISSION = 8,
-    SCENE_HAS_SHARES = 16  // some material's diffuse share is not 1
+    SCENE_HAS_SHARES = 16,  // some material's diffuse share is not 1
+    SCENE_HAS_DETAIL = 32   // textures of normals, or of metalness and roughness
 };
 
 // Consecutive triangles of the device's order, which follows space: the box around them, and which
