@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <clgi/error.hpp>
+#include <clgi/reference.hpp>
 
 #include "lab/scenes/drawn.hpp"
 #include "plan/reach.hpp"
@@ -45,9 +46,29 @@ TEST(DrawnScenes, GrowAroundTheSameRoom) {
     const Scene small = drawn("window", {.seed = 2, .extent = 100.0}),
                 large = drawn("window", {.seed = 2, .extent = 10000.0});
     EXPECT_EQ(small.cameras[0].position, large.cameras[0].position);
-    const Reach a = reached(small),
-                b = reached(large);
+    const Reach a = reached(small), b = reached(large);
     EXPECT_LT(b.size, 0.05 * a.size);
+}
+
+// The camera of the room of some seeds shows what the sun lights, and in no other way is light
+// direct.
+TEST(DrawnScenes, HaveTheSunThroughTheirWindow) {
+    reference::Options options;
+    options.effects = reference::parse_effects("direct");
+    options.width = 48;
+    options.height = 36;
+    options.samples = 1;
+    int lit = 0;
+    for (std::uint32_t seed = 0; seed < 8; ++seed) {
+        const Scene scene = drawn("sunlit", {.seed = seed});
+        EXPECT_EQ(scene.positions.size(), drawn("window", {.seed = seed}).positions.size());
+        const auto picture = reference::PathTracer(scene).render(scene.cameras[0], options);
+        int pixels = 0;
+        for (const glm::vec3& radiance : picture.radiance) pixels += radiance != glm::vec3(0.0f);
+        EXPECT_LT(pixels, 48 * 36 / 2) << seed;
+        lit += pixels > 0;
+    }
+    EXPECT_GE(lit, 4);
 }
 
 TEST(DrawnScenes, SayWhatIsWrong) {

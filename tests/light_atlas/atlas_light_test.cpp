@@ -238,6 +238,31 @@ TEST_F(LitScene, HasTheRadianceOfEveryTexelInItsFile) {
     }
 }
 
+// Its light holds for the smooth surface and the mean finish, with lights and without.
+TEST_F(LitScene, HasNoNormalsAndNoFinishOfTextures) {
+    if (scene.uvs.empty()) scene.uvs.assign(scene.positions.size(), glm::vec4(0.0f));
+    for (const char* name : {"normals", "finish"})
+        scene.textures.push_back({name, 2, 1, {128, 99, 255, 255, 90, 128, 220, 255}});
+    for (Material& material : scene.materials) {
+        material.normal_texture.texture = static_cast<int>(scene.textures.size()) - 2;
+        material.finish_texture.texture = static_cast<int>(scene.textures.size()) - 1;
+        material.metallic = 0.25f;
+    }
+    lay_out(1);
+    for (const bool lights : {false, true}) {
+        LitSceneOptions options;
+        options.lights = lights;
+        const Scene found = with_atlas_light(scene, atlas, radiance, options);
+        for (const Material& material : found.materials) {
+            EXPECT_EQ(material.normal_texture.texture, -1);
+            EXPECT_EQ(material.finish_texture.texture, -1);
+            EXPECT_EQ(material.metallic, lights ? 0.25f : 1.0f);
+        }
+        for (const Texture& texture : found.textures)
+            EXPECT_EQ(texture.name.find("finish"), std::string::npos);
+    }
+}
+
 // Each corner of each triangle has its place in its page as UV set 1, and the material of the page
 // emits and reflects nothing.
 TEST_F(LitScene, ShowsEveryTriangleItsOwnPage) {

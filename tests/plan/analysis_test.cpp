@@ -245,6 +245,11 @@ TEST(SurfaceAnalysis, ReadTextures) {
     scene.materials.push_back(scene.materials[0]);
     scene.materials[0].base_texture.texture = -1;
     EXPECT_FALSE(scene_analysis(scene).surfaces.textures) << "of a material not in use";
+    for (TextureSlot Material::*slot : {&Material::normal_texture, &Material::finish_texture}) {
+        Scene detailed = scene;
+        (detailed.materials[0].*slot).texture = 0;
+        EXPECT_TRUE(scene_analysis(detailed).surfaces.textures);
+    }
     EXPECT_NEAR(
         scene_analysis(textured({0, 0, 0, 255, 255, 255, 255, 255})).surfaces.largest_albedo, 0.5,
         1e-7);

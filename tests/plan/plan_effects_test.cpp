@@ -232,6 +232,29 @@ TEST(PlannedScene, LosesWhatIsOff) {
     EXPECT_EQ(left.emission, glm::vec3(1.0f, 2.0f, 3.0f));
 }
 
+TEST(PlannedScene, LosesDetailWithTexturesAndFinishWithGloss) {
+    Scene scene = full_scene();
+    scene.textures.push_back(chessboard(3, 250));
+    scene.textures.push_back(chessboard(40, 90));
+    scene.materials[0].normal_texture.texture = 2;
+    scene.materials[0].finish_texture.texture = 3;
+    Scene left = planned_scene(scene, plan_without(Effect::cutouts));
+    ASSERT_EQ(left.textures.size(), 3u);
+    const Material& kept = left.materials[0];
+    const auto texels = [&](const TextureSlot& slot) {
+        return left.textures[static_cast<std::size_t>(slot.texture)].rgba;
+    };
+    EXPECT_EQ(texels(kept.normal_texture), scene.textures[2].rgba);
+    EXPECT_EQ(texels(kept.finish_texture), scene.textures[3].rgba);
+    left = planned_scene(scene, plan_without(Effect::gloss));
+    EXPECT_GE(left.materials[0].normal_texture.texture, 0);
+    EXPECT_EQ(left.materials[0].finish_texture.texture, -1);
+    left = planned_scene(scene, plan_without(Effect::textures));
+    EXPECT_EQ(left.materials[0].normal_texture.texture, -1);
+    EXPECT_EQ(left.materials[0].finish_texture.texture, -1);
+    EXPECT_TRUE(left.textures.empty());
+}
+
 TEST(PlannedScene, KeepsDarkLightsThatMayChange) {
     Plan plan = plan_without(Effect::point_light);
     plan.request.lights_change = true;

@@ -217,6 +217,8 @@ TEST(Combine, TakesNormalsAndFinishOfTextures) {
             if (random(0, 1) < 0.7)
                 pixel.finish = random.integer(0, FINISH_STEPS) << FINISH_BITS |
                                random.integer(FINISH_STEPS / 4, FINISH_STEPS);
+            else if (random(0, 1) < 0.3)
+                pixel.finish = 0;  // a smooth dielectric
         }
         const auto [compared, bright] = expect_truth(in, detail ? "detail" : "finish");
         EXPECT_GT(compared, 500);

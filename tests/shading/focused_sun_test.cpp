@@ -114,12 +114,37 @@ TEST(FocusedSun, HasSharpShadowsWhereThePictureLooksAndCoarseOnesElsewhere) {
     }
 }
 
-// Where the first map ends the other goes on: lit ground around a square of four metres.
+// Where the first map ends the other goes on, to all sides: shadows that lie across its edges.
 TEST(FocusedSun, HasNoSeamBetweenItsMaps) {
-    Renderer renderer(test::device().queue, plain(), direct_light(64));
-    const Judged seen = judge(renderer, {0.0, 0.0, 0.0}, 9.0, {0.1, 0.5, -0.2}, 0.125, 0.5);
-    EXPECT_GT(seen.lit, 8000);
-    EXPECT_EQ(seen.wrong, 0);
+    constexpr double half = 1.0, height = 1.5;
+    const auto scene_of = [&](const glm::dvec3& cast) {
+        Scene scene = plain();
+        scene.positions.clear();
+        scene.normals.clear();
+        scene.triangles.clear();
+        test::add_floor(scene, 30.0);
+        const glm::dvec3 at = cast + sunlight * (height / sunlight.y);
+        test::add_quad(scene, {at + glm::dvec3(-half, 0, half), at + glm::dvec3(half, 0, half),
+                               at + glm::dvec3(half, 0, -half), at + glm::dvec3(-half, 0, -half)});
+        return scene;
+    };
+    const EmitterSet set = make_emitters(test::on_device(scene_of(glm::dvec3(0.0))), {});
+    ASSERT_EQ(set.views.size(), 2u);
+    const glm::dvec3 right(set.views[0].right), up(set.views[0].up);
+    const glm::dmat2 on_map(right.x, up.x, right.z, up.z);  // of x and z of the floor
+    for (const glm::dvec2& place :
+         {glm::dvec2(2.1, 0.0), {-2.1, 0.0}, {0.0, 2.1}, {0.0, -2.1}, {0.0, 0.0}}) {
+        const glm::dvec2 floor = glm::inverse(on_map) * place;
+        const glm::dvec3 cast(floor.x, 0.0, floor.y);
+        const Scene scene = scene_of(cast);
+        DeviceScene placed = test::on_device(scene);
+        Renderer renderer(test::programs(), test::device().queue, scene, placed, direct_light(512));
+        const glm::dvec3 plate = cast + sunlight * (height / sunlight.y);
+        const Judged seen = judge(renderer, cast, 5.0, plate, half, 0.45);  // texels of 17 cm
+        EXPECT_GT(seen.lit, 3000) << place.x << ", " << place.y;
+        EXPECT_GT(seen.dark, 300) << place.x << ", " << place.y;
+        EXPECT_EQ(seen.wrong, 0) << place.x << ", " << place.y;
+    }
 }
 
 TEST(FocusedSun, HasOneMapWhereTheFocusIsMostOfTheScene) {

@@ -48,6 +48,33 @@ Scene draw_windowed(const DrawnOptions& options) {
     return scene;
 }
 
+void add_sun(Scene& scene, const glm::vec3& direction, const glm::vec3& lux) {
+    Light& sun = scene.lights.emplace_back();
+    sun.name = "sun";
+    sun.kind = Light::Kind::directional;
+    sun.direction = glm::normalize(direction);
+    sun.intensity = lux;
+}
+
+// Through the window; what it lights is about ten times as bright as a sky of 1 cd/m^2.
+Scene draw_sunlit(const DrawnOptions& options) {
+    Scene scene;
+    Draws draws(options.seed);
+    const Chamber chamber = draw_chamber(draws);
+    const Hole window = draw_window(draws, chamber);
+    add_chamber(scene, draws, chamber, window);
+    add_furniture(scene, draws, chamber);
+    add_view(scene, draws, chamber);
+    if (options.extent > 0.0) add_ground(scene, draws, chamber, options.extent, 0.0);
+    const float inward = window.wall % 2 == 0 ? 1.0f : -1.0f;
+    const auto aside = static_cast<float>(draws.between(-0.5, 0.5));
+    const auto down = static_cast<float>(draws.between(-1.0, -0.4));
+    add_sun(scene,
+            window.wall < 2 ? glm::vec3(inward, down, aside) : glm::vec3(aside, down, inward),
+            31.0f * glm::vec3(1.0f, 0.95f, 0.9f));
+    return scene;
+}
+
 // A wall with a slit from floor to roof; the lamp is behind it.
 Scene draw_slit(const DrawnOptions& options) {
     Scene scene;
@@ -198,13 +225,8 @@ Scene draw_hole(const DrawnOptions& options) {
     hole.lintel = hole.sill + 0.1;
     add_chamber(scene, draws, chamber, hole);
     add_view(scene, draws, chamber);
-    Light sun;
-    sun.name = "sun";
-    sun.kind = Light::Kind::directional;
-    sun.direction = glm::normalize(glm::vec3(hole.wall == 0 ? 1.0f : -1.0f, -0.4f,
-                                             static_cast<float>(draws.between(-0.3, 0.3))));
-    sun.intensity = glm::vec3(1e5f, 0.95e5f, 0.9e5f);
-    scene.lights.push_back(sun);
+    const auto aside = static_cast<float>(draws.between(-0.3, 0.3));
+    add_sun(scene, {hole.wall == 0 ? 1.0f : -1.0f, -0.4f, aside}, {1e5f, 0.95e5f, 0.9e5f});
     return scene;
 }
 
@@ -216,6 +238,7 @@ const std::vector<DrawnKind>& drawn_kinds() {
     static const std::vector<DrawnKind> kinds = {
         {"room", "furnished, with a panel lamp", false, draw_room},
         {"window", "a furnished room with a window", true, draw_windowed},
+        {"sunlit", "the sun through the window of a furnished room", true, draw_sunlit},
         {"slit", "a room whose light comes through a slit", false, draw_slit},
         {"courtyard", "a court that is open above", true, draw_courtyard},
         {"pit", "a pit with nearly white walls", true, draw_pit},
