@@ -11,6 +11,7 @@
 #include "core/opencl/timing.hpp"
 #include "plan/about.hpp"
 #include "plan/surface_points.hpp"
+#include "scene/local_frame.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
@@ -275,7 +276,7 @@ std::optional<Focus> focus_of(const Reach& reach) {
 SunMaps sun_maps(const Reach& reach) {
     const double whole = reach.sphere.radius / reach.size;
     const std::optional<Focus> focus = focus_of(reach);
-    if (!focus || !(focus->radius < 0.7 * whole)) return {1, whole};
+    if (!focus || !(focus->radius < small_focus * whole)) return {1, whole};
     return {2, focus->radius};
 }
 

@@ -15,4 +15,7 @@ SceneFrame local_frame(const Bounds& box, const std::optional<Focus>& focus = st
 // The power of two that brings the brightest source near 1 in local units.
 double common_exposure(const Scene& scene, const SceneFrame& frame);
 
+// Of the scene's radius: a smaller focus has shadow maps of its own for directional lights.
+constexpr double small_focus = 0.7;
+
 }  // namespace clgi

@@ -118,17 +118,14 @@ TEST(Detail, IsTheSameForEveryPacketWidth) {
     const Scene scene = detailed_patchwork(82);
     const DeviceScene placed = test::on_device(scene);
     const View view = looking(Looking::perspective, placed, 101, 77);
-    const test::Device& on = test::device();
-    Drawing first;
-    for (const int width : {1, 4, 8, 16}) {
-        const Drawing other =
-            test::draw(placed, view, GBufferPasses(on.context, on.device, {.packet_width = width}));
-        if (first.ids.empty()) first = other;
-        for (const int plane : {GBUFFER_DETAIL, GBUFFER_FINISH})
-            for (std::size_t p = 0; p < first.pixels(); ++p)
-                ASSERT_EQ(other.ids[plane * other.stride + p], first.ids[plane * first.stride + p])
-                    << width << ", pixel " << p;
-    }
+    test::draw_at_every_width(placed, view,
+                              [](const Drawing& other, const Drawing& first, int width) {
+                                  for (const int plane : {GBUFFER_DETAIL, GBUFFER_FINISH})
+                                      for (std::size_t p = 0; p < first.pixels(); ++p)
+                                          ASSERT_EQ(other.ids[plane * other.stride + p],
+                                                    first.ids[plane * first.stride + p])
+                                              << width << ", pixel " << p;
+                              });
 }
 
 // A tilted square whose normal texture says one normal everywhere, under a sun.

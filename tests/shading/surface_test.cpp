@@ -90,15 +90,11 @@ TEST(Surface, IsTheSameForEveryPacketWidth) {
     const Scene scene = patchwork(90, 62);
     const DeviceScene placed = test::on_device(scene);
     const View view = looking(Looking::perspective, placed, 101, 77);
-    const test::Device& on = test::device();
-    Drawing first;
-    for (const int width : {1, 4, 8, 16}) {
-        const Drawing other =
-            test::draw(placed, view, GBufferPasses(on.context, on.device, {.packet_width = width}));
-        if (first.planes.empty()) first = other;
-        EXPECT_TRUE(other.visibility == first.visibility) << width;
-        EXPECT_TRUE(other.planes == first.planes) << width;
-    }
+    test::draw_at_every_width(placed, view,
+                              [](const Drawing& other, const Drawing& first, int width) {
+                                  EXPECT_TRUE(other.visibility == first.visibility) << width;
+                                  EXPECT_TRUE(other.planes == first.planes) << width;
+                              });
 }
 
 TEST(Surface, NeverLiesOutsideItsTriangle) {

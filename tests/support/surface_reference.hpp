@@ -4,6 +4,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "drawing.hpp"
 #include "texture_reference.hpp"
 
@@ -190,5 +192,18 @@ private:
     SceneFrame frame_;
     Textures textures_;
 };
+
+// The same view at every packet width. visit(drawing, first, width)
+template <typename Visit>
+void draw_at_every_width(const DeviceScene& placed, const View& view, const Visit& visit) {
+    std::optional<Drawing> first;
+    for (const int width : {1, 4, 8, 16}) {
+        const Drawing other =
+            draw(placed, view,
+                 GBufferPasses(device().context, device().device, {.packet_width = width}));
+        if (!first) first = other;
+        visit(other, *first, width);
+    }
+}
 
 }  // namespace clgi::test

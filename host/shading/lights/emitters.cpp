@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/opencl/check.hpp"
+#include "scene/local_frame.hpp"
 #include "scene/luminance.hpp"
 #include "shading/lights/replicate.hpp"
 #include "shading/lights/single_view.hpp"
@@ -134,9 +135,6 @@ Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterO
     return out;
 }
 
-// Of a scene's radius: a smaller focus has a shadow map of its own.
-constexpr float focused = 0.7f;
-
 Source directional(const Light& light, const SceneFrame& frame, const EmitterOptions& options) {
     Source out;
     const glm::vec3 axis = glm::normalize(light.direction);
@@ -160,7 +158,7 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
         out.views.push_back(view);
     };
     // The origin lies in the middle of the focus, if there is one.
-    if (frame.detail < focused * radius) add_view(frame.detail);
+    if (frame.detail < static_cast<float>(small_focus) * radius) add_view(frame.detail);
     add_view(radius);
     return out;
 }
