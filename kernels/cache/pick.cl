@@ -48,8 +48,8 @@ kernel void cache_pick(
     y = view.up.w - ((float)down + 0.5f) * (2.0f * view.up.w / (float)view.height) + view.window.y;
     int triangle = visibility_triangle(
         visibility[view.first_pixel + (uint)down * view.width + (uint)across]);
-    Surface surface = gbuffer_surface(&view, packet_splat(x), packet_splat(y), (intp)(triangle),
-                                      &scene, info.flags);
+    Surface surface = view_surface(&view, packet_splat(x), packet_splat(y), (intp)(triangle),
+                                   &scene, info.flags);
     int front[CLGI_WIDTH];
     packet_store(surface.front, front);
     int sends = triangle >= 0 &&

@@ -7,10 +7,10 @@
 // SPDX-License-Identifier: MIT
 #include "gbuffer/tile.clh"
 
-#define MOST_LANES 64
+#define LARGE_LANES 64
 
 kernel void gbuffer_raster_large_group(RASTER_LARGE_ARGUMENTS) {
-    local uint found[MOST_LANES];
+    local uint found[LARGE_LANES];
     local uint found_count;
     uint slot = (uint)get_global_id(1);
     uint run_count = counts[slot].runs;

@@ -10,7 +10,7 @@
 #include "gbuffer/small.clh"
 #include "gbuffer/tile.clh"
 
-#define MOST_LANES 256
+#define VIEW_LANES 256
 #define MOST_POLYGONS 32
 #define TEAM 32
 
@@ -43,7 +43,7 @@ static void draw_large(const View* view, const RasterParams* params, uint stage,
 }
 
 kernel void gbuffer_raster_views_group(RASTER_VIEWS_ARGUMENTS) {
-    local uint seen[MOST_LANES], large[MOST_LANES];
+    local uint seen[VIEW_LANES], large[VIEW_LANES];
     local uint seen_count, large_count;
     local RasterPolygon polygons[MOST_POLYGONS];
     uint lane = (uint)get_local_id(0), lanes = (uint)get_local_size(0);

@@ -12,13 +12,6 @@
 #include "gbuffer/window.clh"
 #include "planes.clh"
 
-static void store3(floatp x, floatp y, floatp z, global float* planes, int plane, uint stride,
-                   uint pixel) {
-    row_store(x, gbuffer_row(planes, plane, stride), pixel);
-    row_store(y, gbuffer_row(planes, plane + 1, stride), pixel);
-    row_store(z, gbuffer_row(planes, plane + 2, stride), pixel);
-}
-
 // Triangles of a packet of pixels; -1 past the last. The lower half of a word is the triangle, and
 // all bits set, which stands for nothing, is -1 there as well.
 static intp visible_triangles(global const ulong* words, uint pixel, uint pixels) {
@@ -66,19 +59,20 @@ kernel void gbuffer_resolve(
 
     floatp x, y;
     gbuffer_window(&view, pixel, &x, &y);
-    Surface surface = gbuffer_surface(&view, x, y, triangle, &scene, info.flags);
+    Surface surface = view_surface(&view, x, y, triangle, &scene, info.flags);
 
     uint stride = params.stride;
-    store3(surface.x, surface.y, surface.z, planes, GBUFFER_POSITION, stride, pixel);
-    store3(surface.normal_x, surface.normal_y, surface.normal_z, planes, GBUFFER_NORMAL, stride,
-           pixel);
+    gbuffer_store3(surface.x, surface.y, surface.z, planes, GBUFFER_POSITION, stride, pixel);
+    gbuffer_store3(surface.normal_x, surface.normal_y, surface.normal_z, planes, GBUFFER_NORMAL,
+                   stride, pixel);
     if (params.write & RESOLVE_GEOMETRIC)
-        store3(surface.geometric_x, surface.geometric_y, surface.geometric_z, planes,
-               GBUFFER_GEOMETRIC, stride, pixel);
-    store3(surface.base_r, surface.base_g, surface.base_b, planes, GBUFFER_BASE, stride, pixel);
+        gbuffer_store3(surface.geometric_x, surface.geometric_y, surface.geometric_z, planes,
+                       GBUFFER_GEOMETRIC, stride, pixel);
+    gbuffer_store3(surface.base_r, surface.base_g, surface.base_b, planes, GBUFFER_BASE, stride,
+                   pixel);
     if (params.write & RESOLVE_EMISSION)
-        store3(surface.emission_r, surface.emission_g, surface.emission_b, planes,
-               GBUFFER_EMISSION, stride, pixel);
+        gbuffer_store3(surface.emission_r, surface.emission_g, surface.emission_b, planes,
+                       GBUFFER_EMISSION, stride, pixel);
     if (params.write & RESOLVE_DEPTH)
         row_store(surface.depth, gbuffer_row(planes, GBUFFER_DEPTH, stride), pixel);
     packet_store(material, ids + GBUFFER_MATERIAL * stride + pixel);

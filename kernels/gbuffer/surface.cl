@@ -8,13 +8,6 @@
 #include "gbuffer/surface.clh"
 #include "planes.clh"
 
-static void store3(floatp x, floatp y, floatp z, global float* planes, int plane, uint stride,
-                   uint point) {
-    row_store(x, gbuffer_row(planes, plane, stride), point);
-    row_store(y, gbuffer_row(planes, plane + 1, stride), point);
-    row_store(z, gbuffer_row(planes, plane + 2, stride), point);
-}
-
 kernel void gbuffer_surface(
     const SurfaceParams          params,
     const SceneInfo              info,
@@ -44,14 +37,15 @@ kernel void gbuffer_surface(
     Surface surface = surface_at(triangle, b1, b2, packet_load(lane_footprint), &scene, info.flags);
 
     uint stride = params.stride;
-    store3(surface.x, surface.y, surface.z, planes, GBUFFER_POSITION, stride, point);
-    store3(surface.normal_x, surface.normal_y, surface.normal_z, planes, GBUFFER_NORMAL, stride,
-           point);
-    store3(surface.geometric_x, surface.geometric_y, surface.geometric_z, planes,
-           GBUFFER_GEOMETRIC, stride, point);
-    store3(surface.base_r, surface.base_g, surface.base_b, planes, GBUFFER_BASE, stride, point);
-    store3(surface.emission_r, surface.emission_g, surface.emission_b, planes, GBUFFER_EMISSION,
-           stride, point);
+    gbuffer_store3(surface.x, surface.y, surface.z, planes, GBUFFER_POSITION, stride, point);
+    gbuffer_store3(surface.normal_x, surface.normal_y, surface.normal_z, planes, GBUFFER_NORMAL,
+                   stride, point);
+    gbuffer_store3(surface.geometric_x, surface.geometric_y, surface.geometric_z, planes,
+                   GBUFFER_GEOMETRIC, stride, point);
+    gbuffer_store3(surface.base_r, surface.base_g, surface.base_b, planes, GBUFFER_BASE, stride,
+                   point);
+    gbuffer_store3(surface.emission_r, surface.emission_g, surface.emission_b, planes,
+                   GBUFFER_EMISSION, stride, point);
     row_store(surface.depth, gbuffer_row(planes, GBUFFER_DEPTH, stride), point);
     packet_store(packet_load(lane_material), ids + GBUFFER_MATERIAL * stride + point);
     packet_store(triangle, ids + GBUFFER_TRIANGLE * stride + point);

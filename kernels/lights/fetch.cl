@@ -52,8 +52,8 @@ kernel void lights_fetch(
             uint y = min((uint)seen.pixel.y, view.height - 1);
             int triangle = visibility_triangle(visibility[view.first_pixel + y * view.width + x]);
             floatp zero = packet_zero;
-            Surface surface = gbuffer_surface(&view, packet_splat(seen.plane.x), packet_splat(seen.plane.y),
-                                              (intp)(triangle), &scene, info.flags);
+            Surface surface = view_surface(&view, packet_splat(seen.plane.x), packet_splat(seen.plane.y),
+                                           (intp)(triangle), &scene, info.flags);
             float lanes[11][CLGI_WIDTH];
             int front[CLGI_WIDTH];
             packet_store(surface.x, lanes[0]);

@@ -2,12 +2,15 @@
 // and the compiler has nothing to remark.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <map>
 #include <sstream>
 
+#include "core/opencl/embedded.hpp"
 #include "device.hpp"
 
 namespace clgi {
@@ -105,6 +108,25 @@ TEST(Kernels, BuildWith64BitAtomics) {
 
 TEST(Kernels, BuildForDepthAlone) {
     expect_content("-Werror -DCLGI_WIDTH=4 -DCLGI_DEPTH_ONLY", "CLGI_DEPTH_ONLY");
+}
+
+// A pass is built with the others of its folder: names of one do not meet those of another. The
+// folder "transfer" holds two families that draw into targets of their own.
+TEST(Kernels, OfAFolderBuildAsOneProgram) {
+    std::map<std::string, std::vector<std::string>> folders;
+    for (const std::string& name : kernel_names()) {
+        const std::string folder = name.substr(0, name.find('/'));
+        const bool nearest = kernel_source(name).find("nearest.clh") != std::string::npos;
+        folders[folder + (nearest ? ", nearest" : "")].push_back(name);
+    }
+    EXPECT_GT(folders.size(), 8u);
+    const auto folder_file = std::filesystem::temp_directory_path() /
+                             ("clgi_folder_" + std::to_string(::getpid()) + ".cl");
+    for (const auto& [folder, names] : folders) {
+        std::ofstream(folder_file) << kernels_source(names);
+        EXPECT_EQ(remarks(folder_file, "-Werror -DCLGI_WIDTH=4"), "") << folder;
+    }
+    std::filesystem::remove(folder_file);
 }
 
 // Four lanes wide. Eight differ from four and sixteen in the types of kernels/packet.clh alone.

@@ -4,6 +4,7 @@
 #include <clgi/procedural.hpp>
 #include <thread>
 
+#include "core/opencl/kernel_slot.hpp"
 #include "frames.hpp"
 #include "math_modes.hpp"
 
@@ -27,6 +28,58 @@ TEST(Programs, BuildAKernelWhenItIsFirstEnqueued) {
     EXPECT_EQ(programs.built(), 3u);
     EXPECT_THROW(passes.build({"counts"}), Error);
     EXPECT_THROW(programs.kernel("image", "nothing"), Error);
+}
+
+cl_program program_of(const PassKernel& pass) {
+    return pass.slot->with_kernel(
+        [](const cl::Kernel& kernel) { return kernel.getInfo<CL_KERNEL_PROGRAM>()(); });
+}
+
+TEST(Programs, AreOneForTheKernelsOfAFolderWithTheSameOptions) {
+    const Programs programs(test::device().context, test::device().device);
+    const BuildOptions fast{.math = Math::fast};
+    const PassKernel count = programs.kernel("image", "count"),
+                     place = programs.kernel("image", "place"),
+                     compact = programs.kernel("image", "compact", fast),
+                     alone = programs.kernel("image", "upsample"),
+                     offsets = programs.kernel("parallel", "offsets");
+    build({count, place, compact, offsets, count});
+    EXPECT_EQ(programs.built(), 4u);
+    EXPECT_EQ(program_of(count), program_of(place));
+    EXPECT_NE(program_of(count), program_of(compact));
+    EXPECT_NE(program_of(count), program_of(offsets));
+    EXPECT_NE(program_of(count), program_of(alone));
+    EXPECT_THROW(build({programs.kernel("image", "tonemap", {}, "-DCLGI_WIDTH=5"),
+                        programs.kernel("image", "gather", {}, "-DCLGI_WIDTH=5")}),
+                 DeviceError);
+}
+
+// Kernels of the folder "transfer" that would not build as one program do so each alone.
+TEST(Programs, BuildAloneWhatDoesNotBuildTogether) {
+    const Programs programs(test::device().context, test::device().device);
+    const PassKernel mask = programs.kernel("transfer", "mask"),
+                     bounce = programs.kernel("transfer", "bounce");
+    build({mask, bounce});
+    EXPECT_EQ(programs.built(), 2u);
+    EXPECT_NE(program_of(mask), program_of(bounce));
+}
+
+TEST(Programs, ShareKernelsThatAnOptionDoesNotChange) {
+    const Programs programs(test::device().context, test::device().device);
+    const auto same = [&](const char* folder, const char* pass, const BuildOptions& options,
+                          const std::string& defines = "") {
+        return programs.kernel(folder, pass, {}, "-DCLGI_BINS=32").slot ==
+               programs.kernel(folder, pass, options, "-DCLGI_BINS=32" + defines).slot;
+    };
+    EXPECT_TRUE(same("antiradiance", "global", {.textures = false}));
+    EXPECT_FALSE(same("gbuffer", "resolve", {.textures = false}));
+    EXPECT_FALSE(same("antiradiance", "global", {.storage = Storage::half}));
+    EXPECT_TRUE(same("antiradiance", "refit", {.storage = Storage::half}));
+    EXPECT_FALSE(same("gbuffer", "raster", {.math = Math::fast}));
+    EXPECT_TRUE(same("gbuffer", "raster", {}, " -DCLGI_SH_BANDS=5"));
+    EXPECT_FALSE(same("gbuffer", "raster", {}, " -DCLGI_DEPTH_ONLY"));
+    EXPECT_EQ(options_for("#if CLGI_WIDTH == 1", "-a -DCLGI_WIDTH=4 -DCLGI_BINS=32 -DCLGI_HALF -b"),
+              "-a -DCLGI_WIDTH=4 -b");
 }
 
 CLGI_IN_ALL_MODES(KernelsOfEffects);

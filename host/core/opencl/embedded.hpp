@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace clgi {
 
@@ -14,7 +15,7 @@ struct EmbeddedFile {
 extern const EmbeddedFile embedded_files[];
 extern const unsigned embedded_file_count;
 
-// Throws Error unless there is a kernel "<folder>/<pass>".
-void need_kernel(const std::string& name);
+// The kernels "<folder>/<pass>" as one text, each header once. Throws Error for an unknown name.
+std::string kernels_source(const std::vector<std::string>& names);
 
 }  // namespace clgi

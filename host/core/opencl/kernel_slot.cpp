@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/opencl/kernel_slot.hpp"
 
-#include <clgi/advanced/kernel_source.hpp>
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
+#include <sstream>
 #include <utility>
 
+#include "core/opencl/embedded.hpp"
 #include "core/opencl/error_text.hpp"
 
 namespace clgi {
@@ -23,6 +24,18 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
 
 }  // namespace
 
+std::string options_for(const std::string& source, const std::string& options) {
+    std::string out;
+    std::istringstream words(options);
+    for (std::string word; words >> word;) {
+        const bool defines = word.compare(0, 2, "-D") == 0;
+        if (defines && source.find(word.substr(2, word.find('=') - 2)) == std::string::npos)
+            continue;
+        out += (out.empty() ? "" : " ") + word;
+    }
+    return out;
+}
+
 KernelSlot::KernelSlot(const cl::Context& context, const cl::Device& device, std::string file,
                        std::string function, std::string options)
     : context_(context),
@@ -31,20 +44,46 @@ KernelSlot::KernelSlot(const cl::Context& context, const cl::Device& device, std
       function_(std::move(function)),
       options_(std::move(options)) {}
 
-void KernelSlot::build() {
+cl::Program KernelSlot::compiled(const std::vector<std::string>& files) const {
+    const std::string source = kernels_source(files);
+    cl::Program program(context_, source);
+    try {
+        program.build(device_, options_for(source, options_).c_str());
+    } catch (const cl::Error& error) {
+        throw DeviceError("program: " + files.front() + ".cl does not build on " +
+                          describe(device_) + ": " + error_text(error.err()) + "\n" +
+                          build_log(program, device_));
+    }
+    return program;
+}
+
+void KernelSlot::take(const cl::Program& program) {
     std::call_once(once_, [&] {
-        cl::Program program;
-        try {
-            program = cl::Program(context_, kernel_source(file_));
-            program.build(device_, options_.c_str());
-            kernel_ = cl::Kernel(program, function_.c_str());
-            most_items_ = kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_);
-        } catch (const cl::Error& error) {
-            throw DeviceError("program: " + file_ + ".cl does not build on " + describe(device_) +
-                              ": " + error_text(error.err()) + "\n" + build_log(program, device_));
-        }
+        kernel_ = cl::Kernel(program() ? program : compiled({file_}), function_.c_str());
+        most_items_ = kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_);
         built_ = true;
     });
+}
+
+void KernelSlot::build() {
+    try {
+        take(cl::Program());
+    } catch (const cl::Error& error) {
+        throw DeviceError("program: " + file_ + ".cl gives no kernel on " + describe(device_) +
+                          ": " + error_text(error.err()));
+    }
+}
+
+void KernelSlot::build_together(const std::vector<std::shared_ptr<KernelSlot>>& slots) {
+    std::vector<std::string> files;
+    for (const auto& slot : slots) files.push_back(slot->file_);
+    cl::Program program;
+    try {
+        if (files.size() > 1) program = slots.front()->compiled(files);
+        for (const auto& slot : slots) slot->take(program);
+    } catch (const std::exception&) {
+        for (const auto& slot : slots) slot->build();
+    }
 }
 
 std::size_t KernelSlot::most_items() {

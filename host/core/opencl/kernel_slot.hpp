@@ -6,19 +6,25 @@
 #include <atomic>
 #include <clgi/advanced/pass.hpp>
 #include <clgi/opencl.hpp>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace clgi {
 
 class KernelSlot {
 public:
-    // file: "room/pass" of the embedded kernel. function: its entry point.
+    // file: "folder/pass" of the embedded kernel. function: its entry point.
     KernelSlot(const cl::Context& context, const cl::Device& device, std::string file,
                std::string function, std::string options);
 
     // Builds once. Throws DeviceError with the compiler's log.
     void build();
+
+    // Builds kernels of equal options as one program: a compiler takes longer to read the built-in
+    // functions of OpenCL C than most kernels. What does not build with others is built alone.
+    static void build_together(const std::vector<std::shared_ptr<KernelSlot>>& slots);
 
     // calls use(kernel) while no other thread sets arguments of it or enqueues it.
     template <typename Use>
@@ -33,7 +39,14 @@ public:
 
     bool built() const { return built_; }
 
+    const cl::Context& context() const { return context_; }
+    const std::string& file() const { return file_; }
+    const std::string& options() const { return options_; }
+
 private:
+    cl::Program compiled(const std::vector<std::string>& files) const;
+    void take(const cl::Program& program);
+
     cl::Context context_;
     cl::Device device_;
     std::string file_, function_, options_;
@@ -43,6 +56,10 @@ private:
     cl::Kernel kernel_;
     std::size_t most_items_ = 1;
 };
+
+// The options without the macros that the source does not name: they would change nothing, and
+// kernels that differ by them alone are one.
+std::string options_for(const std::string& source, const std::string& options);
 
 // The group that a pass is enqueued with.
 inline std::size_t group_size(const PassKernel& pass) {

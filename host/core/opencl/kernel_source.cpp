@@ -81,15 +81,15 @@ std::vector<std::string> kernel_names() {
     return out;
 }
 
-void need_kernel(const std::string& name) {
-    if (!find(file_of(name))) throw Error("program: no embedded kernel is called " + name);
-}
-
-std::string kernel_source(const std::string& name) {
-    need_kernel(name);
+std::string kernels_source(const std::vector<std::string>& names) {
     Flattener flattener;
-    flattener.append(file_of(name));
+    for (const std::string& name : names) {
+        if (!find(file_of(name))) throw Error("program: no embedded kernel is called " + name);
+        flattener.append(file_of(name));
+    }
     return flattener.take();
 }
+
+std::string kernel_source(const std::string& name) { return kernels_source({name}); }
 
 }  // namespace clgi

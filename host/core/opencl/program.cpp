@@ -9,6 +9,7 @@
 #include <future>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include "core/opencl/embedded.hpp"
 #include "core/opencl/kernel_slot.hpp"
@@ -81,6 +82,7 @@ std::size_t items_each(const PassKernel& pass, bool grouped) {
 
 struct Programs::Store {
     std::mutex mutex;
+    std::map<std::string, std::string> sources;                // by file
     std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file and options
 };
 
@@ -90,9 +92,6 @@ Programs::Programs(const cl::Context& context, const cl::Device& device)
 PassKernel Programs::kernel(const std::string& room, const std::string& pass,
                             const BuildOptions& options, const std::string& defines) const {
     const std::string file = room + "/" + pass;
-    need_kernel(file);
-    std::string text = compiler_options(device_, options);
-    if (!defines.empty()) text += " " + defines;
     PassKernel out;
     out.name = room + "." + pass;
     out.local_size = options.local_size > 0 ? options.local_size : 64;
@@ -100,9 +99,12 @@ PassKernel Programs::kernel(const std::string& room, const std::string& pass,
     out.storage = options.storage;
     out.parallel = options.parallel && builds_from_threads(device_);
     const std::lock_guard lock(store_->mutex);
-    std::shared_ptr<KernelSlot>& slot = store_->slots[file + " " + text];
+    std::string& source = store_->sources[file];
+    if (source.empty()) source = kernel_source(file);
+    const std::string asked = compiler_options(device_, options) + " " + defines;
+    std::shared_ptr<KernelSlot>& slot = store_->slots[file + " " + options_for(source, asked)];
     if (!slot)
-        slot = std::make_shared<KernelSlot>(context_, device_, file, room + "_" + pass, text);
+        slot = std::make_shared<KernelSlot>(context_, device_, file, room + "_" + pass, asked);
     out.slot = slot;
     return out;
 }
@@ -123,11 +125,26 @@ std::vector<std::string> Programs::built_kernels() const {
 }
 
 void build(const std::vector<PassKernel>& kernels) {
-    std::vector<std::future<void>> builds;
+    struct Program {
+        std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file
+        bool parallel = true;
+    };
+    std::map<std::pair<cl_context, std::string>, Program> programs;  // by folder and options
     for (const PassKernel& kernel : kernels) {
         if (!kernel.slot || kernel.slot->built()) continue;
-        builds.push_back(std::async(kernel.parallel ? std::launch::async : std::launch::deferred,
-                                    [slot = kernel.slot] { slot->build(); }));
+        const std::string& file = kernel.slot->file();
+        Program& program = programs[{kernel.slot->context()(),
+                                     file.substr(0, file.find('/')) + kernel.slot->options()}];
+        program.slots[file] = kernel.slot;
+        program.parallel = program.parallel && kernel.parallel;
+    }
+    std::vector<std::future<void>> builds;
+    for (const auto& [key, program] : programs) {
+        std::vector<std::shared_ptr<KernelSlot>> slots;
+        for (const auto& [file, slot] : program.slots) slots.push_back(slot);
+        builds.push_back(
+            std::async(program.parallel ? std::launch::async : std::launch::deferred,
+                       [slots = std::move(slots)] { KernelSlot::build_together(slots); }));
     }
     for (auto& build : builds) build.wait();
     for (auto& build : builds) build.get();
