@@ -2,7 +2,6 @@
 // and the compiler has nothing to remark.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -45,33 +44,44 @@ bool is_about_registers(const std::string& log) {
 }
 
 // What the compiler said; empty when it was content.
-std::string remarks(const std::filesystem::path& file, const std::string& options) {
+std::string remarks(const std::string& source, const std::string& options) {
     static const std::string strict = "-Werror ";
-    cl::Program program(test::device().context, text_of(file));
+    cl::Program program(test::device().context, source);
     try {
         program.build(test::device().device, ("-cl-std=CL1.2 " + options).c_str());
     } catch (const cl::Error& error) {
         const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(test::device().device);
         if (options.rfind(strict, 0) == 0 && is_about_registers(log))
-            return remarks(file, options.substr(strict.size()));
+            return remarks(source, options.substr(strict.size()));
         return "OpenCL error " + std::to_string(error.err()) + "\n" + log;
     }
     const auto log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(test::device().device);
     return options.rfind(strict, 0) != 0 || log.find("warning") == std::string::npos ? "" : log;
 }
 
-// macro: of kernels that have it; without it the others are the same in another form.
-void expect_content(const std::string& options, const char* macro = "") {
+void expect_content(const std::map<std::string, std::string>& sources, const std::string& options) {
     test::device();  // before there are threads
-    std::vector<std::filesystem::path> files;
-    for (const auto& file : kernel_files())
-        if (text_of(file).find(macro) != std::string::npos) files.push_back(file);
-    EXPECT_FALSE(files.empty()) << macro;
-    std::vector<std::future<std::string>> builds;
-    for (const auto& file : files)
-        builds.push_back(std::async(std::launch::async, remarks, file, options));
-    for (std::size_t i = 0; i < files.size(); ++i)
-        EXPECT_EQ(builds[i].get(), "") << files[i] << " with " << options;
+    std::map<std::string, std::future<std::string>> builds;
+    for (const auto& [name, source] : sources)
+        builds[name] = std::async(std::launch::async, remarks, source, options);
+    for (auto& [name, build] : builds) EXPECT_EQ(build.get(), "") << name << " with " << options;
+}
+
+// Kernels that name a macro, those of a folder as one program, as the library builds them: names of
+// one do not meet those of another. The folder "transfer" holds two families that draw into targets
+// of their own.
+std::map<std::string, std::string> folders_with(const std::string& macro) {
+    std::map<std::string, std::vector<std::string>> names;
+    for (const std::string& name : kernel_names()) {
+        const std::string source = kernel_source(name);
+        if (source.find(macro) == std::string::npos) continue;
+        const bool nearest = source.find("nearest.clh") != std::string::npos;
+        names[name.substr(0, name.find('/')) + (nearest ? ", nearest" : "")].push_back(name);
+    }
+    EXPECT_FALSE(names.empty()) << macro;
+    std::map<std::string, std::string> out;
+    for (const auto& [folder, of] : names) out[folder] = kernels_source(of);
+    return out;
 }
 
 bool has_atomics64() {
@@ -90,47 +100,48 @@ TEST(Kernels, AreAllThere) {
     EXPECT_EQ(files, names);
 }
 
-// One lane wide.
-TEST(Kernels, BuildWithoutMacros) { expect_content("-Werror "); }
-
-TEST(Kernels, BuildSixteenLanesWide) { expect_content("-Werror -DCLGI_WIDTH=16", "CLGI_WIDTH"); }
-
-TEST(Kernels, BuildWithNearLists) {
-    expect_content("-Werror -DCLGI_WIDTH=4 -DCLGI_NEAR", "CLGI_NEAR");
+// One lane wide, each kernel alone.
+TEST(Kernels, BuildWithoutMacros) {
+    std::map<std::string, std::string> sources;
+    for (const std::string& name : kernel_names()) sources[name] = kernel_source(name);
+    expect_content(sources, "-Werror ");
 }
 
-TEST(Kernels, BuildForGroups) { expect_content("-Werror -DCLGI_GROUPS", "CLGI_GROUPS"); }
+TEST(Kernels, BuildSixteenLanesWide) {
+    expect_content(folders_with("CLGI_WIDTH"), "-Werror -DCLGI_WIDTH=16");
+}
+
+TEST(Kernels, BuildWithNearLists) {
+    expect_content(folders_with("CLGI_NEAR"), "-Werror -DCLGI_WIDTH=4 -DCLGI_NEAR");
+}
+
+TEST(Kernels, BuildForGroups) {
+    expect_content(folders_with("CLGI_GROUPS"), "-Werror -DCLGI_GROUPS");
+}
 
 TEST(Kernels, BuildWith64BitAtomics) {
     if (!has_atomics64()) GTEST_SKIP() << "the device has no cl_khr_int64_extended_atomics";
-    expect_content("-Werror -DCLGI_WIDTH=4 -DCLGI_ATOMIC64", "CLGI_ATOMIC64");
+    expect_content(folders_with("CLGI_ATOMIC64"), "-Werror -DCLGI_WIDTH=4 -DCLGI_ATOMIC64");
 }
 
 TEST(Kernels, BuildForDepthAlone) {
-    expect_content("-Werror -DCLGI_WIDTH=4 -DCLGI_DEPTH_ONLY", "CLGI_DEPTH_ONLY");
+    expect_content(folders_with("CLGI_DEPTH_ONLY"), "-Werror -DCLGI_WIDTH=4 -DCLGI_DEPTH_ONLY");
 }
 
-// A pass is built with the others of its folder: names of one do not meet those of another. The
-// folder "transfer" holds two families that draw into targets of their own.
-TEST(Kernels, OfAFolderBuildAsOneProgram) {
-    std::map<std::string, std::vector<std::string>> folders;
-    for (const std::string& name : kernel_names()) {
-        const std::string folder = name.substr(0, name.find('/'));
-        const bool nearest = kernel_source(name).find("nearest.clh") != std::string::npos;
-        folders[folder + (nearest ? ", nearest" : "")].push_back(name);
-    }
-    EXPECT_GT(folders.size(), 8u);
-    const auto folder_file = std::filesystem::temp_directory_path() /
-                             ("clgi_folder_" + std::to_string(::getpid()) + ".cl");
-    for (const auto& [folder, names] : folders) {
-        std::ofstream(folder_file) << kernels_source(names);
-        EXPECT_EQ(remarks(folder_file, "-Werror -DCLGI_WIDTH=4"), "") << folder;
-    }
-    std::filesystem::remove(folder_file);
+TEST(Kernels, BuildInHalf) {
+    expect_content(folders_with("CLGI_HALF"), "-Werror -DCLGI_WIDTH=8 -DCLGI_HALF");
+}
+
+TEST(Kernels, BuildWithoutTextures) {
+    expect_content(folders_with("CLGI_NO_TEXTURES"), "-Werror -DCLGI_WIDTH=4 -DCLGI_NO_TEXTURES");
 }
 
 // Four lanes wide. Eight differ from four and sixteen in the types of kernels/packet.clh alone.
-TEST(Kernels, BuildWithFastMath) { expect_content("-Werror -DCLGI_WIDTH=4 -cl-fast-relaxed-math"); }
+TEST(Kernels, BuildWithFastMath) {
+    const auto all = folders_with("");
+    EXPECT_GT(all.size(), 8u);
+    expect_content(all, "-Werror -DCLGI_WIDTH=4 -cl-fast-relaxed-math");
+}
 
 // The library flattens its kernels itself: byte for byte what is installed.
 TEST(KernelSources, AreTheInstalledFiles) {
