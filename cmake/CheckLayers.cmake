@@ -45,7 +45,7 @@ set(headers_core error opencl device programs advanced/export advanced/interval
     advanced/occlusion advanced/pass advanced/planes advanced/slice advanced/solver_status passes/parallel advanced/sh shared/base
     shared/gbuffer shared/halton shared/image shared/parallel shared/planes)
 set(headers_scene scene device_scene scene_animator scene_mover procedural advanced/adjacency
-    advanced/animation advanced/static_scene passes/scene shared/scene)
+    advanced/animation advanced/static_scene passes/scene shared/microfacet shared/scene)
 set(headers_shading advanced/emitters advanced/kit/draw advanced/kit/emitters advanced/kit/picture
     passes/gbuffer passes/image passes/import passes/lights shared/lights)
 set(headers_second_order second_order)

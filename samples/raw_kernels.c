@@ -30,8 +30,8 @@ typedef struct {
     cl_float4 base_color, emission, reflectance;
     cl_int base_texture, base_uv_set, emission_texture, emission_uv_set;
     cl_float4 base_u, base_v, emission_u, emission_v;
-    cl_int normal_texture, normal_uv_set, finish_texture, finish_uv_set;
-    cl_float4 normal_u, normal_v, finish_u, finish_v;
+    cl_int normal_texture, normal_uv_set, metallic_roughness_texture, metallic_roughness_uv_set;
+    cl_float4 normal_u, normal_v, metallic_roughness_u, metallic_roughness_v;
 } MaterialRecord;
 
 enum { width = 160, height = 120, pixels = width * height, stride = pixels };

@@ -72,6 +72,8 @@ constexpr const char* schema = R"({
     "pbrMetallicRoughness": {"baseColorFactor": "numbers 4", "metallicFactor": "number",
         "roughnessFactor": "number", "*Texture": "$texture"},
     "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": "number"},
+                   "KHR_materials_ior": {"ior": "number"},
+                   "KHR_materials_specular": {"specularFactor": "number"},
                    "KHR_materials_unlit": {}}}, 65536],
 
 "meshes": [{"name": "text", "weights": "numbers", "primitives!": [{

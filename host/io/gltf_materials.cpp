@@ -88,9 +88,9 @@ public:
         material.metallic *= static_cast<float>(finish.mean.x);
         material.roughness *= static_cast<float>(finish.mean.y);
         if (!finish.varies) return;
-        material.finish = factor;
-        material.finish_texture = slot;
-        material.finish_texture.texture = load(slot.texture, false, std::move(pixels));
+        material.metallic_roughness_factor = factor;
+        material.metallic_roughness_texture = slot;
+        material.metallic_roughness_texture.texture = load(slot.texture, false, std::move(pixels));
     }
 
 private:
@@ -208,8 +208,17 @@ Material read_material(const tinygltf::Material& source, const std::string& name
     for (int i = 0; i < 4; ++i) material.base_color[i] = unit(metal_rough.baseColorFactor[i]);
     material.metallic = unit(metal_rough.metallicFactor);
     material.roughness = unit(metal_rough.roughnessFactor);
+    material.specular = 1.0f;
+    if (const Value* specular = extension(source.extensions, "KHR_materials_specular"))
+        material.specular = unit(number_in(*specular, "specularFactor", 1.0));
+    if (const Value* ior = extension(source.extensions, "KHR_materials_ior")) {
+        const double index = number_in(*ior, "ior", 1.5);
+        const bool known = index == 0.0 || (index >= 1.0 && index <= 1e6);
+        if (!known) warnings.add("an index of refraction below 1 is taken for 1.5");
+        material.ior = known ? static_cast<float>(index) : 1.5f;
+    }
     material.base_texture = read_slot(metal_rough.baseColorTexture, warnings);
-    material.finish_texture = read_slot(metal_rough.metallicRoughnessTexture, warnings);
+    material.metallic_roughness_texture = read_slot(metal_rough.metallicRoughnessTexture, warnings);
     material.normal_texture = read_slot(source.normalTexture, warnings);
     material.normal_scale =
         static_cast<float>(std::clamp(source.normalTexture.scale, -100.0, 100.0));
@@ -250,7 +259,7 @@ void load_materials(Document& document, const GltfOptions& options, Scene& scene
         const bool dark = material.emission == glm::vec3(0.0f);
         material.emission_texture.texture =
             dark ? -1 : textures.load(material.emission_texture.texture);
-        textures.load_finish(std::exchange(material.finish_texture, {}), material);
+        textures.load_finish(std::exchange(material.metallic_roughness_texture, {}), material);
         material.normal_texture.texture = textures.load(material.normal_texture.texture, false);
         scene.materials.push_back(std::move(material));
     }

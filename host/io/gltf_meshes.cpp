@@ -187,7 +187,8 @@ private:
         if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
         if (!default_material_) {
             default_material_ = static_cast<std::uint32_t>(scene_.materials.size());
-            scene_.materials.emplace_back().metallic = 1.0f;  // glTF's default is a rough metal
+            Material& rough_metal = scene_.materials.emplace_back();  // glTF's default
+            rough_metal.metallic = rough_metal.specular = 1.0f;
         }
         return *default_material_;
     }

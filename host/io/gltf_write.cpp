@@ -103,13 +103,14 @@ private:
         tinygltf::Material written;
         written.name = utf8(material.name);
         written.pbrMetallicRoughness.baseColorFactor = numbers(material.base_color);
-        const bool finished = material.finish_texture.texture >= 0;
+        const bool finished = material.metallic_roughness_texture.texture >= 0;
         written.pbrMetallicRoughness.metallicFactor =
-            finished ? material.finish.x : material.metallic;
+            finished ? material.metallic_roughness_factor.x : material.metallic;
         written.pbrMetallicRoughness.roughnessFactor =
-            finished ? material.finish.y : material.roughness;
+            finished ? material.metallic_roughness_factor.y : material.roughness;
         written.pbrMetallicRoughness.baseColorTexture = info_of(material.base_texture);
-        written.pbrMetallicRoughness.metallicRoughnessTexture = info_of(material.finish_texture);
+        written.pbrMetallicRoughness.metallicRoughnessTexture =
+            info_of(material.metallic_roughness_texture);
         const tinygltf::TextureInfo normal = info_of(material.normal_texture);
         written.normalTexture.index = normal.index;
         written.normalTexture.texCoord = normal.texCoord;
@@ -130,6 +131,12 @@ private:
             extend(written.extensions, "KHR_materials_emissive_strength",
                    Value(Value::Object{{"emissiveStrength", Value(strength)}}));
         }
+        if (material.specular != 1.0f)
+            extend(written.extensions, "KHR_materials_specular",
+                   Value(Value::Object{{"specularFactor", Value(double{material.specular})}}));
+        if (material.ior != 1.5f)
+            extend(written.extensions, "KHR_materials_ior",
+                   Value(Value::Object{{"ior", Value(double{material.ior})}}));
         add(model_.materials, std::move(written));
     }
 

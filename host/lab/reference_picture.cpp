@@ -119,9 +119,10 @@ std::string scene_key(const Scene& scene) {
     for (const Material& material : scene.materials) {
         for (const TextureSlot* slot : texture_slots(material))
             hash.add(slot->texture, slot->uv_set, slot->transform);
-        hash.add(material.base_color, material.metallic, material.roughness, material.finish,
-                 material.normal_scale, material.emission, material.alpha_mode,
-                 material.alpha_cutoff, material.double_sided);
+        hash.add(material.base_color, material.metallic, material.roughness, material.specular,
+                 material.ior, material.metallic_roughness_factor, material.normal_scale,
+                 material.emission, material.alpha_mode, material.alpha_cutoff,
+                 material.double_sided);
     }
     for (const Texture& texture : scene.textures)
         hash.add(texture.rgba, texture.width, texture.wrap_s, texture.wrap_t, texture.nearest,

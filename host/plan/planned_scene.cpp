@@ -1,6 +1,7 @@
 // What a plan renders, as a scene: the light, gloss, textures, holes and motion whose effects are
 // off are not in it, so no kernel, buffer or pass for them is made.
 // SPDX-License-Identifier: MIT
+#include <clgi/shared/microfacet.h>
 #include <algorithm>
 #include <clgi/plan.hpp>
 
@@ -71,7 +72,7 @@ private:
 
 void drop_textures(Material& material, const Plan& plan, const MeanColours& colours) {
     const bool all = !plan.on(Effect::textures);
-    if (all) material.finish_texture = material.normal_texture = TextureSlot();
+    if (all) material.metallic_roughness_texture = material.normal_texture = TextureSlot();
     const auto dropped = [&](const TextureSlot& slot) {
         return slot.texture >= 0 && (all || colours.plain(slot.texture));
     };
@@ -139,9 +140,12 @@ Scene planned_scene(const Scene& scene, const Plan& plan) {
             material.emission = glm::vec3(0.0f);
             material.emission_texture = TextureSlot();
         }
-        if (!plan.on(Effect::gloss)) {  // Lambert with the base colour
-            material.roughness = 1.0f;
-            material.finish_texture = TextureSlot();
+        if (!plan.on(Effect::gloss)) {  // Lambertian, as bright in even light
+            const float albedo = microfacet_albedo(microfacet_alpha(material.roughness));
+            const float share = 1.0f - material.metallic * (1.0f - albedo);
+            material.base_color *= glm::vec4(glm::vec3(share), 1.0f);
+            material.metallic = material.specular = 0.0f;
+            material.metallic_roughness_texture = TextureSlot();
         }
         if (!plan.on(Effect::cutouts)) material.alpha_mode = AlphaMode::opaque;
         drop_textures(material, plan, colours);

@@ -45,8 +45,8 @@ bool has_textures(const Scene& scene, const Material& material) {
         return slot.texture >= 0 &&
                !one_colour(scene.textures[static_cast<std::size_t>(slot.texture)]);
     };
-    return material.normal_texture.texture >= 0 || material.finish_texture.texture >= 0 ||
-           varies(material.base_texture) ||
+    return material.normal_texture.texture >= 0 ||
+           material.metallic_roughness_texture.texture >= 0 || varies(material.base_texture) ||
            (material.emission != glm::vec3(0.0f) && varies(material.emission_texture));
 }
 
@@ -66,8 +66,7 @@ bool has_holes(const Scene& scene, const Material& material, const MaterialUse& 
 // [materials]
 std::vector<Reflectance> reflectances_of(const Scene& scene) {
     std::vector<Reflectance> out;
-    for (const Material& material : scene.materials)
-        out.push_back(reflectance(material.metallic, material.roughness));
+    for (const Material& material : scene.materials) out.push_back(reflectance(material));
     return out;
 }
 

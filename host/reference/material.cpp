@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "reference/material.hpp"
 
+#include <clgi/shared/microfacet.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,16 +78,6 @@ glm::vec4 base(const Geometry& geometry, const Hit& hit, const Hit& texture_at) 
 
 }  // namespace
 
-Gloss gloss(float metallic, float roughness) {
-    const float a = std::max(roughness * roughness, 0.001f);
-    Gloss out{};
-    out.diffuse = (1.0f - metallic) * (1.0f - 0.04f * (1.0f - a)) + metallic * a;
-    out.coat = 0.04f * (1.0f - a) * (1.0f - metallic);
-    out.lobe = metallic * (1.0f - a);
-    out.exponent = std::min(2.0f / (a * a) - 2.0f, 10000.0f);
-    return out;
-}
-
 bool opaque(const Geometry& geometry, const Hit& hit) {
     const Material& material = geometry.materials[geometry.triangles[hit.triangle].material];
     return material.alpha_mode != AlphaMode::mask ||
@@ -124,15 +115,19 @@ Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::vec3& di
                                                           double{side} * glm::dvec3(out.normal)),
                                     glm::dvec3(direction)));
     glm::vec2 finish(material.metallic, material.roughness);
-    if (material.finish_texture.texture >= 0 && !geometry.uvs.empty()) {
-        const glm::vec4 read = textured(geometry, material.finish_texture, texture_at);
-        finish = material.finish * glm::vec2(read.z, read.y);
+    if (material.metallic_roughness_texture.texture >= 0 && !geometry.uvs.empty()) {
+        const glm::vec4 read = textured(geometry, material.metallic_roughness_texture, texture_at);
+        finish = material.metallic_roughness_factor * glm::vec2(read.z, read.y);
     }
-    const Gloss shares = gloss(finish.x, finish.y);
-    const glm::vec3 color = glm::vec3(base(geometry, hit, texture_at));
-    out.albedo = color * shares.diffuse;
-    out.lobe = color * shares.lobe + shares.coat;
-    out.exponent = shares.exponent;
+    const float alpha = std::max(finish.y * finish.y, MICROFACET_LEAST_ALPHA);
+    const float root = (1.0f - material.ior) / (1.0f + material.ior);
+    out.metallic = double{finish.x};
+    out.alpha = double{alpha};
+    out.f90 = double{material.specular};
+    out.f0 = out.f90 * double{root * root};
+    out.base = glm::vec3(base(geometry, hit, texture_at));
+    out.albedo = out.base *
+                 microfacet_means(finish.x, alpha, static_cast<float>(out.f0), material.specular).x;
     out.emission = material.emission;
     if (luminance(out.emission) > 0.0f)
         out.emission *= glm::vec3(textured(geometry, material.emission_texture, texture_at));

@@ -8,21 +8,17 @@
 
 namespace clgi::reference {
 
-// Four numbers of a metallic-roughness material.
-struct Gloss {
-    float diffuse, coat, lobe, exponent;
-};
-Gloss gloss(float metallic, float roughness);
-
 struct Surface {
     glm::vec3 position;
     glm::vec3 geometric;  // unit, towards the viewer
     glm::vec3 normal;     // shading, unit, towards the viewer
-    glm::vec3 albedo;     // diffuse reflectance
-    glm::vec3 lobe;       // weight of the Phong lobe
-    float exponent;
-    glm::vec3 emission;  // cd/m^2 on the side that is seen
-    bool reflects;       // the side that is seen is one that sends light
+    glm::vec3 albedo;     // diffuse reflectance in even light
+    glm::vec3 base;       // colour
+    double metallic;      // [0,1]
+    double alpha;         // of GGX
+    double f0, f90;       // F of what is no metal, at normal and at grazing incidence
+    glm::vec3 emission;   // cd/m^2 on the side that is seen
+    bool reflects;        // the side that is seen is one that sends light
 };
 
 // direction: of the ray that met it, unit. texture_at: where textures are

@@ -29,7 +29,7 @@ bool above(const Surface& surface, const glm::vec3& direction) {
 }
 
 glm::vec3 reflected(const Bsdf& bsdf, bool glossy, const glm::vec3& light) {
-    return glossy ? bsdf.diffuse() + bsdf.lobe(light) : bsdf.diffuse();
+    return glossy ? bsdf.reflected(light) : bsdf.diffuse();
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ glm::vec3 light_at(const Place& place, const Geometry& geometry, const Paths& pa
     surface.position = geometry.to_local(place.position);
     surface.normal = place.normal;
     surface.geometric = place.geometric == glm::vec3(0.0f) ? place.normal : place.geometric;
-    surface.albedo = glm::vec3(pi);
+    surface.albedo = surface.base = glm::vec3(pi);
+    surface.alpha = 1.0;
     surface.reflects = true;
     return paths.sample(surface, -surface.normal, random);
 }

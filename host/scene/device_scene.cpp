@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <clgi/device_scene.hpp>
 
+#include <clgi/shared/microfacet.h>
 #include <algorithm>
 #include <clgi/error.hpp>
 #include <cmath>
@@ -24,10 +25,11 @@ namespace {
 
 MaterialRecord record_of(const Material& material, double exposure) {
     MaterialRecord out{};
-    const Reflectance shares = reflectance(material.metallic, material.roughness);
+    const Reflectance shares = reflectance(material);
     out.base_color = material.base_color;
     out.emission = glm::vec4(glm::dvec3(material.emission) / exposure, material.alpha_cutoff);
     out.reflectance = glm::vec4(shares.diffuse, shares.coat, shares.lobe, shares.exponent);
+    out.surface = surface_of(material);
     out.base_texture = material.base_texture.texture;
     out.base_uv_set = material.base_texture.uv_set;
     out.emission_texture = material.emission_texture.texture;
@@ -41,15 +43,15 @@ MaterialRecord record_of(const Material& material, double exposure) {
     out.emission_v = row(material.emission_texture.transform, 1);
     out.normal_texture = material.normal_texture.texture;
     out.normal_uv_set = material.normal_texture.uv_set;
-    out.finish_texture = material.finish_texture.texture;
-    out.finish_uv_set = material.finish_texture.uv_set;
+    out.metallic_roughness_texture = material.metallic_roughness_texture.texture;
+    out.metallic_roughness_uv_set = material.metallic_roughness_texture.uv_set;
     out.normal_u = row(material.normal_texture.transform, 0);
     out.normal_v = row(material.normal_texture.transform, 1);
-    out.finish_u = row(material.finish_texture.transform, 0);
-    out.finish_v = row(material.finish_texture.transform, 1);
+    out.metallic_roughness_u = row(material.metallic_roughness_texture.transform, 0);
+    out.metallic_roughness_v = row(material.metallic_roughness_texture.transform, 1);
     out.normal_u.w = material.normal_scale;
-    out.finish_u.w = material.finish.x;
-    out.finish_v.w = material.finish.y;
+    out.metallic_roughness_u.w = material.metallic_roughness_factor.x;
+    out.metallic_roughness_v.w = material.metallic_roughness_factor.y;
     return out;
 }
 
@@ -94,15 +96,16 @@ std::vector<glm::vec4> arranged(const std::vector<glm::vec4>& values,
 
 }  // namespace
 
-Reflectance reflectance(float metallic, float roughness) {
-    const float a = std::max(roughness * roughness, 1e-3f);
-    const float smooth = 1.0f - a;
-    Reflectance out{};
-    out.coat = 0.04f * smooth * (1.0f - metallic);
-    out.diffuse = (1.0f - metallic) * (1.0f - 0.04f * smooth) + metallic * a;
-    out.lobe = metallic * smooth;
-    out.exponent = std::min(2.0f / (a * a) - 2.0f, 1e4f);
-    return out;
+glm::vec4 surface_of(const Material& material) {
+    const float root = (material.ior - 1.0f) / (material.ior + 1.0f);  // of 0: all is reflected
+    return {material.metallic, microfacet_alpha(material.roughness),
+            material.specular * root * root, material.specular};
+}
+
+Reflectance reflectance(const Material& material) {
+    const glm::vec4 s = surface_of(material);
+    const glm::vec4 means = microfacet_means(s.x, s.y, s.z, s.w);
+    return {means.x, means.y, means.z, means.w};
 }
 
 // Copies of a scene share it until their environment is turned.
@@ -138,8 +141,8 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     for (const Material& material : scene.materials) {
         materials.push_back(record_of(material, frame_.exposure));
         emits = emits || luminance(material.emission) > 0.0f;
-        const Reflectance shares = reflectance(material.metallic, material.roughness);
-        const bool finished = material.finish_texture.texture >= 0;
+        const Reflectance shares = reflectance(material);
+        const bool finished = material.metallic_roughness_texture.texture >= 0;
         has_lobes_ = has_lobes_ || finished || shares.coat + shares.lobe > 1e-4f;
         if (finished || shares.diffuse != 1.0f) info_.flags |= SCENE_HAS_SHARES;
         if (finished || material.normal_texture.texture >= 0) info_.flags |= SCENE_HAS_DETAIL;

@@ -135,16 +135,19 @@ void check_materials(const Scene& scene) {
         }
         if (!is_within(material.metallic, 0.0f, 1.0f)) fail(name + " is metallic outside 0..1");
         if (!is_within(material.roughness, 0.0f, 1.0f)) fail(name + " is rough outside 0..1");
+        if (!is_within(material.specular, 0.0f, 1.0f)) fail(name + " is specular outside 0..1");
+        if (material.ior != 0.0f && !is_within(material.ior, 1.0f, 1e6f))
+            fail(name + " has an index of refraction outside 1..1e6 that is not 0");
         if (!(material.alpha_cutoff >= 0.0f) || !std::isfinite(material.alpha_cutoff)) {
             fail(name + " has an alpha cutoff that is negative or not finite");
         }
         check_slot(scene, material.base_texture, name);
         check_slot(scene, material.emission_texture, name);
-        check_slot(scene, material.finish_texture, name);
+        check_slot(scene, material.metallic_roughness_texture, name);
         check_slot(scene, material.normal_texture, name);
         for (int c = 0; c < 2; ++c) {
-            if (!is_within(material.finish[c], 0.0f, 1.0f))
-                fail(name + " has a finish outside 0..1");
+            if (!is_within(material.metallic_roughness_factor[c], 0.0f, 1.0f))
+                fail(name + " has a metallic-roughness factor outside 0..1");
         }
         if (!is_within(material.normal_scale, -100.0f, 100.0f))
             fail(name + " has a normal scale outside -100..100");

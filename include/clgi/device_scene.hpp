@@ -123,20 +123,17 @@ private:
         decode_, environment_texels_, clusters_;
 };
 
-// The reflectance to which a material is reduced (docs/materials.md).
-//
-//   a = roughness^2
-//   coat = 0.04 (1 - a) (1 - metallic)       white gloss of a smooth dielectric
-//   diffuse share of base = (1 - metallic)(1 - coat') + metallic a,  coat' = 0.04 (1 - a)
-//   lobe share of base    = metallic (1 - a)
-//   Phong exponent        = 2 / a^2 - 2, at most 10000
-//
-// A fully rough material is Lambert with the base colour itself, metal or not: there the lobe's
-// exponent is 0, and the normalised lobe of exponent 0 is Lambert.
+// What a material reflects of even light: shares of the base colour that are diffuse and in a lobe,
+// a white coat, which lies in the lobe too, and the exponent of the Phong lobe that stands for GGX
+// where light is kept in spherical harmonics or bins (clgi/shared/microfacet.h, docs/materials.md).
+// diffuse + coat + lobe is at most 1. A material without metal and with specular 0 has diffuse 1.
 struct Reflectance {
     float diffuse, coat, lobe, exponent;
 };
-CLGI_API Reflectance reflectance(float metallic, float roughness);
+CLGI_API Reflectance reflectance(const Material& material);
+
+// Metalness, alpha of GGX, and F of what is no metal at normal and at grazing incidence.
+CLGI_API glm::vec4 surface_of(const Material& material);
 
 // The view of a camera for an image of this size, in the scene's local frame.
 CLGI_API View make_view(const Camera& camera, const SceneFrame& frame, int width, int height);

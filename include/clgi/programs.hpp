@@ -40,8 +40,9 @@ private:
     std::shared_ptr<Store> store_;
 };
 
-// Builds these kernels now, several at a time; kernels that are built already cost nothing. A
-// solver calls it when it is made, so that its first picture does not wait for the compiler.
+// Builds these kernels now, those of a folder with the same options as one program, and several
+// programs at a time; kernels that are built already cost nothing. A solver calls it when it is
+// made, so that its first picture does not wait for the compiler.
 // Throws DeviceError with the compiler's log when one does not build.
 CLGI_API void build(const std::vector<PassKernel>& kernels);
 

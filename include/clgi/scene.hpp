@@ -44,12 +44,17 @@ struct Material {
     std::string name;
     glm::vec4 base_color = glm::vec4(1.0f);  // linear rgb in [0,1], alpha
     TextureSlot base_texture;
-    float metallic = 0.0f;   // [0,1]; with finish_texture: the mean
-    float roughness = 1.0f;  // [0,1]; with finish_texture: the mean
-    // Where views show the surface: metalness is finish.x times the texture's blue, roughness
-    // finish.y times its green. Each in [0,1].
-    TextureSlot finish_texture;
-    glm::vec2 finish = glm::vec2(1.0f);
+    float metallic = 0.0f;   // [0,1]; with metallic_roughness_texture: the mean
+    float roughness = 1.0f;  // [0,1]; with metallic_roughness_texture: the mean
+    // Of what is no metal: strength of its white reflection, in [0,1], and index of refraction, at
+    // least 1, or 0 for one that reflects all (KHR_materials_specular, KHR_materials_ior). A file
+    // that says nothing has 1 and 1.5. With specular 0 and metallic 0 a material is Lambertian.
+    float specular = 0.0f;
+    float ior = 1.5f;
+    // Where views show the surface: metalness is the factor's x times the texture's blue, roughness
+    // its y times the green. Each in [0,1].
+    TextureSlot metallic_roughness_texture;
+    glm::vec2 metallic_roughness_factor = glm::vec2(1.0f);
     // Normals in the frame of the texture's coordinates, x and y times the scale, -100 to 100.
     TextureSlot normal_texture;
     float normal_scale = 1.0f;
@@ -63,8 +68,8 @@ struct Material {
 // All textures that a material may read.
 template <typename AnyMaterial>
 auto texture_slots(AnyMaterial& material) {
-    return std::array{&material.base_texture, &material.emission_texture, &material.finish_texture,
-                      &material.normal_texture};
+    return std::array{&material.base_texture, &material.emission_texture,
+                      &material.metallic_roughness_texture, &material.normal_texture};
 }
 
 // Vertices of a triangle in Scene's vertex arrays, counter-clockwise seen from the front.

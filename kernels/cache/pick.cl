@@ -10,7 +10,6 @@
 #include "clgi/shared/halton.h"
 #include "gbuffer/hit.clh"
 #include "gbuffer/visibility.clh"
-#include "lobe_mean.clh"
 #include "luminance.clh"
 
 kernel void cache_pick(
@@ -60,7 +59,6 @@ kernel void cache_pick(
                                    luminance(surface.base_r, surface.base_g, surface.base_b)};
     if (sends) {
         float4 shares = materials[triangles[triangle].w & TRIANGLE_MATERIAL].reflectance;
-        shares.yz *= lobe_mean(shares.w);
         values[PICK_REFLECTANCE] = (shares.x + shares.z) * values[PICK_REFLECTANCE] + shares.y;
     }
     for (uint plane = 0; plane < PICK_PLANES; ++plane) {

@@ -76,10 +76,11 @@ kernel void gbuffer_resolve(
     if (params.write & RESOLVE_DEPTH)
         row_store(surface.depth, gbuffer_row(planes, GBUFFER_DEPTH, stride), pixel);
     packet_store(material, ids + GBUFFER_MATERIAL * stride + pixel);
-    intp mapped, finish;
-    gbuffer_detail(&view, x, y, triangle, &scene, info.flags, &surface, &mapped, &finish);
-    packet_store(mapped, ids + GBUFFER_DETAIL * stride + pixel);
-    packet_store(finish, ids + GBUFFER_FINISH * stride + pixel);
+    intp mapped, metallic_roughness;
+    gbuffer_detail(&view, x, y, triangle, &scene, info.flags, &surface, &mapped,
+                   &metallic_roughness);
+    packet_store(mapped, ids + GBUFFER_MAPPED_NORMAL * stride + pixel);
+    packet_store(metallic_roughness, ids + GBUFFER_METALLIC_ROUGHNESS * stride + pixel);
     if (params.write & RESOLVE_TRIANGLE)
         packet_store(triangle, ids + GBUFFER_TRIANGLE * stride + pixel);
 }

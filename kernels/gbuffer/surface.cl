@@ -49,8 +49,8 @@ kernel void gbuffer_surface(
     row_store(surface.depth, gbuffer_row(planes, GBUFFER_DEPTH, stride), point);
     packet_store(packet_load(lane_material), ids + GBUFFER_MATERIAL * stride + point);
     packet_store(triangle, ids + GBUFFER_TRIANGLE * stride + point);
-    packet_store((intp)(-1), ids + GBUFFER_DETAIL * stride + point);
-    packet_store((intp)(-1), ids + GBUFFER_FINISH * stride + point);
+    packet_store((intp)(-1), ids + GBUFFER_MAPPED_NORMAL * stride + point);
+    packet_store((intp)(-1), ids + GBUFFER_METALLIC_ROUGHNESS * stride + point);
     if (!params.write_uvs) return;
     floatp both[4];
     surface_uvs(triangle, b1, b2, &scene, info.flags, both);

@@ -1,11 +1,10 @@
 // The picture: emission, shadowed direct light, indirect light less its negative.
 //
-//   L = L_e + rho/pi (E_direct + max(0, I_s - I_n)) + k_s (n + 2)/(2 pi) cos^n alpha E_direct
-//   rho = diffuse share * base colour,  k_s = coat + lobe share * base colour
-//                                                              [Cochran07, section 3.4]
+//   L = L_e + sum over lights f E_light + rho/pi max(0, I_s - I_n)
+//   f: microfacet.clh,  rho = diffuse share * base colour          [Cochran07, section 3.4; glTF 2.0]
 //
-// The lobe is the normalised modified Phong lobe of docs/materials.md, lit by the emitters only. With
-// COMBINE_SPREAD_LOBES the indirect light has rho + m k_s in place of rho, m: lobe_mean.clh.
+// Without COMBINE_SPECULAR f is rho/pi. With COMBINE_SPREAD_LOBES the indirect light has rho + k_s in
+// place of rho, k_s = coat + lobe share * base colour, the lobes' mean albedo.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
@@ -13,7 +12,7 @@
 // SPDX-License-Identifier: MIT
 #include "detail_codes.clh"
 #include "lights/direct.clh"
-#include "lobe_mean.clh"
+#include "microfacet.clh"
 #include "planes.clh"
 #include "scene/buffers.clh"
 #include "clgi/shared/image.h"
@@ -58,46 +57,55 @@ kernel void image_combine(
     for (int c = 0; c < 3; ++c)
         base[c] = row_load(gbuffer_row(planes, GBUFFER_BASE + c, stride), pixel);
     uintp worst = max(packet_magnitude(nx), max(packet_magnitude(ny), packet_magnitude(nz)));
-    if (params.effects & COMBINE_DETAIL)
-        detail_normals(packet_load(ids + GBUFFER_DETAIL * stride + pixel), &nx, &ny, &nz);
+    if (params.effects & COMBINE_MAPPED_NORMALS)
+        detail_normals(packet_load(ids + GBUFFER_MAPPED_NORMAL * stride + pixel), &nx, &ny, &nz);
 
-    // What the material makes of its base colour: a diffuse share, and a lobe. No material: all of
-    // it diffuse.
-    floatp diffuse = one, coat = zero, share = zero, exponent = zero;
+    // What the material makes of its base colour in even light: a diffuse share, and lobes. No
+    // material: all of it diffuse.
+    floatp diffuse = one, coat = zero, share = zero;
+    float lanes[7][CLGI_WIDTH];
+    for (int k = 0; k < CLGI_WIDTH; ++k) {
+        // Past the last pixel another renderer may have left anything.
+        int there = pixel + k < params.width * params.height;
+        float4 r = (float4)(1.0f, 0.0f, 0.0f, 0.0f), s = (float4)(0.0f, 1.0f, 0.0f, 0.0f);
+        if (there && (params.effects & COMBINE_MATERIALS))
+            r = pixel_reflectance(ids, materials, stride, pixel + k);
+        if (there && (params.effects & COMBINE_SPECULAR))
+            s = pixel_surface(ids, materials, stride, pixel + k);
+        lanes[0][k] = r.x;
+        lanes[1][k] = r.y;
+        lanes[2][k] = r.z;
+        lanes[3][k] = s.x;
+        lanes[4][k] = s.y * s.y;
+        lanes[5][k] = s.z;
+        lanes[6][k] = s.w;
+    }
     if (params.effects & COMBINE_MATERIALS) {
-        float lanes[4][CLGI_WIDTH];
-        for (int k = 0; k < CLGI_WIDTH; ++k) {
-            // Past the last pixel another renderer may have left anything.
-            float4 r = (float4)(1.0f, 0.0f, 0.0f, 0.0f);
-            if (pixel + k < params.width * params.height)
-                r = pixel_reflectance(ids, materials, stride, pixel + k);
-            lanes[0][k] = r.x;
-            lanes[1][k] = r.y;
-            lanes[2][k] = r.z;
-            lanes[3][k] = r.w;
-        }
         diffuse = packet_load(lanes[0]);
         coat = packet_load(lanes[1]);
         share = packet_load(lanes[2]);
-        exponent = packet_load(lanes[3]);
     }
 
     if ((params.effects & COMBINE_DIRECT) && packet_any(surface)) {
         ShadowPoint point = direct_point(planes, stride, pixel);
         worst = max(worst, direct_point_magnitude(&point));
 
-        // The lobe's mirror direction.
-        floatp mx = zero, my = zero, mz = zero;
+        Microfacet microfacet = {nx,
+                                 ny,
+                                 nz,
+                                 zero - view.forward.x,
+                                 zero - view.forward.y,
+                                 zero - view.forward.z,
+                                 packet_load(lanes[3]),
+                                 packet_load(lanes[4]),
+                                 packet_load(lanes[5]),
+                                 packet_load(lanes[6]),
+                                 one};
         if (params.effects & COMBINE_SPECULAR) {
-            floatp vx = (view.eye.w == 0.0f ? view.eye.x - point.x : zero - view.forward.x);
-            floatp vy = (view.eye.w == 0.0f ? view.eye.y - point.y : zero - view.forward.y);
-            floatp vz = (view.eye.w == 0.0f ? view.eye.z - point.z : zero - view.forward.z);
-            floatp length = sqrt(packet_dot(vx, vy, vz, vx, vy, vz));
-            floatp per_length = 1.0f / packet_select(one, length, length > 0.0f);
-            floatp twice = 2.0f * packet_dot(nx, ny, nz, vx, vy, vz) * per_length;
-            mx = twice * nx - vx * per_length;
-            my = twice * ny - vy * per_length;
-            mz = twice * nz - vz * per_length;
+            if (view.eye.w == 0.0f)
+                microfacet_toward(view.eye.x - point.x, view.eye.y - point.y, view.eye.z - point.z,
+                                  &microfacet);
+            microfacet_view(&microfacet);
         }
 
         ShadowMaps maps = {visibility, (int)params.depth_words};
@@ -106,21 +114,22 @@ kernel void image_combine(
             DirectRay ray = direct_ray(emitter, &point);
             floatp arriving = direct_arriving(emitter, views, &maps, &point, nx, ny, nz, &ray,
                                               params.texel_bias);
-            direct[0] = fma(arriving, packet_splat(emitter->intensity.x), direct[0]);
-            direct[1] = fma(arriving, packet_splat(emitter->intensity.y), direct[1]);
-            direct[2] = fma(arriving, packet_splat(emitter->intensity.z), direct[2]);
-            if (params.effects & COMBINE_SPECULAR) {
-                floatp alpha = packet_max(packet_dot(mx, my, mz, ray.x, ray.y, ray.z), zero);
-                floatp lobe = (exponent + 2.0f) * (0.5f / CLGI_PI) *
-                              packet_select(zero, pow(alpha, exponent), alpha > 0.0f) * arriving;
-                lobe = packet_select(zero, lobe, coat + share > 0.0f);
-                glossy[0] = fma(lobe, packet_splat(emitter->intensity.x), glossy[0]);
-                glossy[1] = fma(lobe, packet_splat(emitter->intensity.y), glossy[1]);
-                glossy[2] = fma(lobe, packet_splat(emitter->intensity.z), glossy[2]);
+            if (!(params.effects & COMBINE_SPECULAR)) {
+                direct[0] = fma(arriving, packet_splat(emitter->intensity.x), direct[0]);
+                direct[1] = fma(arriving, packet_splat(emitter->intensity.y), direct[1]);
+                direct[2] = fma(arriving, packet_splat(emitter->intensity.z), direct[2]);
+                continue;
             }
+            if (!packet_any(arriving != 0.0f)) continue;
+            Reflected to = microfacet_reflected(&microfacet, ray.x, ray.y, ray.z);
+            floatp of_base = to.diffuse + to.tint;
+            glossy[0] = fma(fma(base[0], of_base, to.white), arriving * emitter->intensity.x,
+                            glossy[0]);
+            glossy[1] = fma(fma(base[1], of_base, to.white), arriving * emitter->intensity.y,
+                            glossy[1]);
+            glossy[2] = fma(fma(base[2], of_base, to.white), arriving * emitter->intensity.z,
+                            glossy[2]);
         }
-        for (int c = 0; c < 3; ++c)
-            glossy[c] *= fma(share, base[c], coat);
     }
 
     floatp out[3];
@@ -133,8 +142,8 @@ kernel void image_combine(
             indirect = packet_max(indirect, zero);
             light += indirect;
             if (params.effects & COMBINE_SPREAD_LOBES)
-                glossy[c] = fma(fma(share, base[c], coat) * lobe_mean(exponent) * (1.0f / CLGI_PI),
-                                indirect, glossy[c]);
+                glossy[c] =
+                    fma(fma(share, base[c], coat) * (1.0f / CLGI_PI), indirect, glossy[c]);
         }
         out[c] = fma(base[c] * diffuse * (1.0f / CLGI_PI), light, glossy[c]);
         if (params.effects & COMBINE_EMISSION)
@@ -142,8 +151,8 @@ kernel void image_combine(
         out[c] = packet_select(zero, out[c] * params.exposure, surface);
         worst = max(worst, packet_magnitude(out[c]));
     }
-    intp lanes = (int)pixel + packet_lanes < (int)(params.width * params.height);
-    intp bad = lanes & (as_intp(worst) >= NOT_FINITE);
+    intp inside = (int)pixel + packet_lanes < (int)(params.width * params.height);
+    intp bad = inside & (as_intp(worst) >= NOT_FINITE);
     if (packet_any(bad)) {
         atomic_inc(non_finite);
         for (int c = 0; c < 3; ++c) out[c] = sanitised(out[c]);

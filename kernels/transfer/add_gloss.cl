@@ -1,6 +1,7 @@
 // Adds to a picture what the lobes of its surfaces make of the light.
 //
-//   L = (coat + lobe share * base colour) * light,  light: of the lobe of transfer/integrate.cl
+//   L = (coat + lobe share * base colour) / lobe_mean * light
+//   light: of the lobe of transfer/integrate.cl, which reflects lobe_mean of even light in the mean
 //                                          [Kautz04, Eq. 1; derived: docs/materials.md, two shares]
 //
 // Values that are not finite are counted and left out.
@@ -12,6 +13,7 @@
 #include "clgi/shared/scene.h"
 #include "detail_codes.clh"
 #include "gloss.clh"
+#include "lobe_mean.clh"
 
 kernel void transfer_add_gloss(
     const AddGlossParams           params,
@@ -27,6 +29,7 @@ kernel void transfer_add_gloss(
     uint stride = params.pixel_stride;
     float4 reflectance = pixel_reflectance(ids, materials, stride, pixel);
     if (!(reflectance.y + reflectance.z > 0.0f)) return;
+    reflectance.yz /= lobe_mean(reflectance.w);
     float arrives[3];
     for (int c = 0; c < 3; ++c)
         arrives[c] = row_load_one(irradiance_row(light, c, stride), pixel);

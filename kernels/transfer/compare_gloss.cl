@@ -3,7 +3,7 @@
 // The difference replaces the light. A probe fails besides where, summed over channels,
 //
 //   k |G - G_shown| > threshold (d E_shown + k max(G, G_shown)),  or is not finite
-//   d = diffuse share * base colour / pi,  k = coat + lobe share * base colour
+//   d = diffuse share * base colour / pi,  k = (coat + lobe share * base colour) / lobe_mean
 //
 // so that gloss counts as much as it is seen. Nothing is missing where the material has no lobe.
 //        [Kautz04, section 4.1, per-vertex sampling; derived: docs/materials.md, shares of a material]
@@ -16,6 +16,7 @@
 #include "clgi/shared/scene.h"
 #include "detail_codes.clh"
 #include "finite.clh"
+#include "lobe_mean.clh"
 #include "planes.clh"
 #include "transfer/probe.clh"
 
@@ -34,6 +35,7 @@ kernel void transfer_compare_gloss(
     if (probe >= params.columns * params.rows) return;
     uint stride = params.pixel_stride, pixel = probe_pixel(params, probe);
     float4 share = pixel_reflectance(ids, materials, stride, pixel);
+    share.yz /= lobe_mean(share.w);
     int has_lobe = share.y + share.z > 0.0f;
     float apart = 0.0f, whole_a = 0.0f, whole_b = 0.0f, rest = 0.0f, sum = 0.0f;
     for (int c = 0; c < 3; ++c) {

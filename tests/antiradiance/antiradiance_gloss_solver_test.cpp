@@ -6,6 +6,7 @@
 
 #include "glossy_scenes.hpp"
 #include "math_modes.hpp"
+#include "microfacet.hpp"
 
 namespace clgi {
 namespace {
@@ -67,15 +68,21 @@ TEST_P(GlossyLeaves, ReflectDirectLight) {
         const auto colors = test::download<glm::vec4>(solver.gloss().colors, count);
         const auto sources = test::download<glm::vec4>(solver.leaves().sources, tree.leaves);
         const auto elements = test::download<Element>(solver.links().elements, tree.count());
-        const Reflectance shares = reflectance(1.0f, 0.4f);
-        const std::vector<float> curve = lobe_albedos(shares.exponent);
+        const Reflectance shares = reflectance(test::finished(1.0f, 0.4f));
+        const std::vector<float> curve =
+            lobe_albedos(double{surface_of(test::finished(1.0f, 0.4f)).y});
         const double exposure = shown.scene.frame().exposure;
         int lit = 0, dark = 0, exact = 0;
         for (std::size_t k = 0; k < count; ++k) {
             const std::uint32_t i = leaves[k].element;
             const glm::dvec3 n = tree.normals[i], scaled(elements[i].normal);
             for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(colors[k][c], shares.lobe * (c == 0 ? 0.9 : c == 1 ? 0.5 : 0.2), 1e-6);
+                EXPECT_NEAR(colors[k][c],
+                            shares.lobe * (c == 0   ? 0.9
+                                           : c == 1 ? 0.5
+                                                    : 0.2) +
+                                shares.coat,
+                            1e-6);
             glm::dvec3 power(0.0), middle(0.0);
             for (std::size_t b = 0; b < 128; ++b) {
                 const glm::dvec3 w = solver.bins().directions[b];

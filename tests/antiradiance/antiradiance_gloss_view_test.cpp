@@ -6,6 +6,7 @@
 
 #include "glossy_scenes.hpp"
 #include "math_modes.hpp"
+#include "microfacet.hpp"
 
 namespace clgi {
 namespace {
@@ -51,8 +52,9 @@ TEST_P(GlossyPixels, ShowTheAlbedoUnderAnEvenSky) {
             const auto seen = test::places_of(picture);
             const auto ids = test::download<cl_int>(
                 picture.gbuffer().ids, GBUFFER_ID_PLANES * std::size_t{picture.stride()});
-            const Reflectance shares = reflectance(1.0f, roughness);
-            const std::vector<float> curve = lobe_albedos(shares.exponent);
+            const Reflectance shares = reflectance(test::finished(1.0f, roughness));
+            const std::vector<float> curve =
+                lobe_albedos(std::max(double{roughness} * double{roughness}, 0.01));
             const glm::dvec3 n = glm::normalize(glm::dvec3(-0.3, 2.0, 0.0)), light(2.0, 3.0, 5.0);
             const glm::dvec3 forward =
                 glm::normalize(glm::dvec3(0, 0, 0) - scene.cameras[0].position);
@@ -66,7 +68,9 @@ TEST_P(GlossyPixels, ShowTheAlbedoUnderAnEvenSky) {
                 const double gloss = lobe_albedo_at(curve, glm::dot(n, eye));
                 for (int c = 0; c < 3; ++c) {
                     const double base = c == 0 ? 0.9 : c == 1 ? 0.5 : 0.2;
-                    const double wanted = light[c] * base * (shares.diffuse + shares.lobe * gloss);
+                    const double wanted =
+                        light[c] *
+                        (base * (shares.diffuse + shares.lobe * gloss) + shares.coat * gloss);
                     ASSERT_NEAR(found[p][c], wanted, within * wanted) << p;
                 }
                 ++counted;
@@ -83,7 +87,7 @@ TEST_P(GlossyPixels, HaveTheFinishOfATexture) {
     Material both = metal({0.9f, 0.5f, 0.2f}, 0.6f);
     both.double_sided = true;
     both.metallic = 0.5f;
-    both.finish_texture.texture = 0;
+    both.metallic_roughness_texture.texture = 0;
     Texture halves{"halves", 2, 1, {0, 153, 255, 255, 0, 153, 0, 255}};  // roughness 0.6
     halves.nearest = true;
     halves.srgb = false;
@@ -101,7 +105,7 @@ TEST_P(GlossyPixels, HaveTheFinishOfATexture) {
     const auto seen = test::places_of(picture);
     const auto ids = test::download<cl_int>(picture.gbuffer().ids,
                                             GBUFFER_ID_PLANES * std::size_t{picture.stride()});
-    const std::vector<float> curve = lobe_albedos(reflectance(0.5f, 0.6f).exponent);
+    const std::vector<float> curve = lobe_albedos(0.36);
     const glm::dvec3 n = glm::normalize(glm::dvec3(-0.3, 2.0, 0.0)), light(2.0, 3.0, 5.0);
     int counted[2] = {0, 0};
     for (std::size_t p = 0; p < found.size(); ++p) {
@@ -110,7 +114,7 @@ TEST_P(GlossyPixels, HaveTheFinishOfATexture) {
         const glm::dvec3 at = glm::dvec3(seen[p]) / frame.scale + frame.origin;
         if (std::abs(at.x) < 0.02) continue;
         const bool metallic = at.x < 0.0;
-        const Reflectance shares = reflectance(metallic ? 1.0f : 0.0f, 0.6f);
+        const Reflectance shares = reflectance(test::finished(metallic ? 1.0f : 0.0f, 0.6f));
         const double gloss =
             lobe_albedo_at(curve, glm::dot(n, glm::normalize(scene.cameras[0].position - at)));
         for (int c = 0; c < 3; ++c) {
@@ -158,8 +162,9 @@ TEST_P(GlossyPixels, ShowABinWhereItIsMirrored) {
     const auto seen = test::places_of(picture);
     const auto ids = test::download<cl_int>(picture.gbuffer().ids,
                                             GBUFFER_ID_PLANES * std::size_t{picture.stride()});
-    const Reflectance shares = reflectance(1.0f, 0.55f);
-    const std::vector<float> curve = lobe_albedos(shares.exponent);
+    const Reflectance shares = reflectance(test::finished(1.0f, 0.55f));
+    const std::vector<float> curve =
+        lobe_albedos(double{surface_of(test::finished(1.0f, 0.55f)).y});
     const double exponent = std::min<double>(shares.exponent, 128.0 / (2.0 * pi));
     const glm::dvec3 n = glm::normalize(glm::dvec3(0.1, 1.0, -0.2));
     int counted = 0;
@@ -179,9 +184,9 @@ TEST_P(GlossyPixels, ShowABinWhereItIsMirrored) {
         }
         for (int c = 0; c < 3; ++c) {
             const double base = c == 0 ? 0.9 : c == 1 ? 0.5 : 0.2;
-            const double wanted = shown.scene.frame().exposure * base * shares.lobe *
-                                  lobe_albedo_at(curve, glm::dot(n, eye)) * one / all * (c + 1) *
-                                  (2.0 + at.x);
+            const double wanted =
+                shown.scene.frame().exposure * (base * shares.lobe + shares.coat) *
+                lobe_albedo_at(curve, glm::dot(n, eye)) * one / all * (c + 1) * (2.0 + at.x);
             ASSERT_NEAR(found[p][c], wanted, 2e-5 + 1e-4 * wanted) << p;
         }
         ++counted;
@@ -264,8 +269,8 @@ TEST(GlossyReference, ARoomWithABoxOfMetal) {
                 box.push_back(p);
         }
         ASSERT_GT(box.size(), 500u);
-        // Truth has noise of some 8 %. Where leaves are diffuse alone the box is half as bright or
-        // darker.
+        // Truth has noise of some 8 %. Where leaves are diffuse alone the box is darker, the more
+        // the smoother it is.
         const auto error = [&](const std::vector<glm::vec3>& picture, const std::vector<int>& of) {
             return compare(picture, truth.radiance, of);
         };
@@ -274,8 +279,8 @@ TEST(GlossyReference, ARoomWithABoxOfMetal) {
         EXPECT_LT(error(found, box).relative, 0.15) << roughness;
         EXPECT_NEAR(error(found, all).energy, 1.0, 0.02) << roughness;
         EXPECT_NEAR(error(found, box).energy, 1.0, 0.03) << roughness;
-        EXPECT_LT(error(without, all).energy, 0.8) << roughness;
-        EXPECT_LT(error(without, box).energy, 0.5) << roughness;
+        EXPECT_LT(error(without, all).energy, roughness < 0.5f ? 0.8 : 0.85) << roughness;
+        EXPECT_LT(error(without, box).energy, roughness < 0.5f ? 0.5 : 0.75) << roughness;
     }
 }
 

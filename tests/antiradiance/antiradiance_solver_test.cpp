@@ -71,7 +71,7 @@ TEST_P(AntiradianceLight, ReflectsDirectLight) {
 
     Material one_sided;
     one_sided.base_color = glm::vec4(glm::vec3(one), 1.0f);
-    Material rough_metal;  // roughness^2 of what a metal reflects is diffuse
+    Material rough_metal;  // a part of what a metal reflects is diffuse
     rough_metal.base_color = glm::vec4(glm::vec3(metal), 1.0f);
     rough_metal.metallic = 1.0f;
     rough_metal.roughness = 0.5f;
@@ -80,7 +80,9 @@ TEST_P(AntiradianceLight, ReflectsDirectLight) {
         test::add_triangle(scene, at, at + along, at + across, test::add_material(scene, material));
     }
     scene.lights[1].position.x = 9.2;
-    expect_direct_light(scene, GetParam(), {both, one, 0.25 * metal}, {both, none, none});
+    expect_direct_light(scene, GetParam(),
+                        {both, one, double{reflectance(rough_metal).diffuse} * metal},
+                        {both, none, none});
 }
 
 // In a closed room the light that arrives over links is rho / (1 - rho) of the direct light, all

@@ -1,4 +1,4 @@
-// Direct light point by point: the library, the path tracer and the formulas of docs/materials.md
+// Direct light point by point: the library, the path tracer and the formulas of glTF 2.0
 // and KHR_lights_punctual, each written apart from the others, agree in every channel.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include "frames.hpp"
 #include "kernel_text.hpp"
 #include "lighting.hpp"
+#include "microfacet.hpp"
 #include "reference/bsdf.hpp"
 #include "reference/lights.hpp"
 #include "scenes.hpp"
@@ -19,7 +20,8 @@ namespace {
 using std::numbers::pi;
 constexpr double u = 0x1p-24;
 
-// Metallic and roughness of twelve materials, each of another colour.
+// Metallic and roughness of twelve materials, each of another colour; some reflect more, some less
+// white.
 constexpr float metals[] = {0.0f, 0.35f, 1.0f}, roughs[] = {0.12f, 0.3f, 0.6f, 1.0f};
 
 // A tilted board of twelve fields, two metres across.
@@ -34,6 +36,8 @@ Scene board() {
             Material material;
             material.metallic = metals[m];
             material.roughness = roughs[r];
+            material.specular = r == 2 ? 0.7f : 1.0f;
+            material.ior = m == 1 ? 2.2f : 1.5f;
             material.base_color = {0.9f - 0.2f * static_cast<float>(m), 0.35f,
                                    0.15f + 0.2f * static_cast<float>(r), 1.0f};
             const std::uint32_t at = test::add_material(scene, material);
@@ -78,24 +82,15 @@ Incident arriving(const Light& light, const glm::dvec3& point) {
     return out;
 }
 
-// docs/materials.md
-struct Reflected {
-    glm::dvec3 diffuse, gloss;  // radiance
-    double exponent;
-};
-
-Reflected reflected(const Material& material, const glm::dvec3& normal, const glm::dvec3& viewer,
-                    const Incident& light) {
-    const double m = material.metallic, a = std::max(std::pow(material.roughness, 2), 0.001);
-    const double diffuse = (1 - m) * (1 - 0.04 * (1 - a)) + m * a, coat = 0.04 * (1 - a) * (1 - m);
-    const double lobe = m * (1 - a), n = std::min(2 / (a * a) - 2, 10000.0);
-    const glm::dvec3 colour(material.base_color);
-    const double cosine = std::max(glm::dot(normal, light.toward), 0.0);
-    const glm::dvec3 mirror = 2 * glm::dot(normal, viewer) * normal - viewer;
-    const double alpha = std::max(glm::dot(mirror, light.toward), 0.0);
-    const glm::dvec3 irradiance = light.lux * cosine;
-    return {colour * diffuse / pi * irradiance,
-            (colour * lobe + coat) * ((n + 2) / (2 * pi) * std::pow(alpha, n)) * irradiance, n};
+// Of light that arrives.
+test::GltfReflected reflected(const Material& material, const glm::dvec3& normal,
+                              const glm::dvec3& viewer, const Incident& light) {
+    test::GltfReflected out = test::gltf_reflected(material, glm::dvec3(material.base_color),
+                                                   normal, viewer, light.toward);
+    const glm::dvec3 irradiance = light.lux * std::max(glm::dot(normal, light.toward), 0.0);
+    out.diffuse *= irradiance;
+    out.gloss *= irradiance;
+    return out;
 }
 
 std::vector<Light> lamps() {
@@ -148,14 +143,14 @@ TEST_P(Pointwise, LibraryAndPathTracerReflectWhatTheDocumentSays) {
             const Material& material = scene.materials[scene.triangles[triangle].material];
             const glm::dvec3 viewer = orthographic ? -glm::normalize(glm::dvec3(camera.forward))
                                                    : glm::normalize(camera.position - at);
-            const Reflected wanted = reflected(material, normal, viewer, incident);
+            const test::GltfReflected wanted = reflected(material, normal, viewer, incident);
             ++checked;
             dark += wanted.diffuse == glm::dvec3(0.0);
             glossy += wanted.gloss.y > 0.2 * wanted.diffuse.y;
 
             Incident bare = incident;
             bare.lux = incident.bare;
-            const Reflected open = reflected(material, normal, viewer, bare);
+            const test::GltfReflected open = reflected(material, normal, viewer, bare);
 
             // What the path tracer makes of the same point.
             reference::Surface surface =
@@ -164,16 +159,15 @@ TEST_P(Pointwise, LibraryAndPathTracerReflectWhatTheDocumentSays) {
             const auto arrival = reference_lights.from_lamp(0, geometry.to_local(at));
             glm::dvec3 traced(0.0);
             if (arrival) {
-                const glm::dvec3 scattered =
-                    glm::dvec3(bsdf.diffuse()) + glm::dvec3(bsdf.lobe(arrival->direction));
-                traced = scattered * glm::dvec3(arrival->irradiance) *
+                traced = glm::dvec3(bsdf.reflected(arrival->direction)) *
+                         glm::dvec3(arrival->irradiance) *
                          std::max(glm::dot(normal, glm::dvec3(arrival->direction)), 0.0);
             }
             for (int c = 0; c < 3; ++c) {
                 // Some 40 roundings, in distances and cones a few times as large; a cosine's 8
-                // count once for every power of it, pow() has 16.
+                // count as often as the lobe enlarges it.
                 const double bound = 160 * u * (wanted.diffuse[c] + wanted.gloss[c]) +
-                                     8 * u * wanted.exponent * wanted.gloss[c] +
+                                     16 * u * wanted.steep * wanted.gloss[c] +
                                      incident.slack * (open.diffuse[c] + open.gloss[c]) + 1e-9;
                 library = std::max(
                     library,

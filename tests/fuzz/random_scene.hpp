@@ -35,7 +35,10 @@ inline void add_materials(Choices& choices, Scene& scene) {
         Material material;
         material.base_color = glm::vec4(color(choices), 1.0f);
         if (choices.one_in(4)) material.metallic = static_cast<float>(choices.between(0, 1));
-        if (choices.one_in(4)) material.roughness = static_cast<float>(choices.between(0, 1));
+        if (choices.one_in(4)) {
+            material.roughness = static_cast<float>(choices.between(0, 1));
+            material.specular = 1.0f;
+        }
         if (choices.one_in(6)) material.emission = strength(choices) * color(choices);
         material.double_sided = choices.one_in(3);
         if (choices.one_in(6)) {

@@ -34,6 +34,39 @@ TEST(GltfMaterials, DefaultsAreThoseOfGltf) {
     EXPECT_EQ(scene.materials[0].base_color, glm::vec4(1.0f));
     EXPECT_EQ(scene.materials[0].metallic, 1.0f);
     EXPECT_EQ(scene.materials[0].roughness, 1.0f);
+    EXPECT_EQ(scene.materials[0].specular, 1.0f);
+    EXPECT_EQ(scene.materials[0].ior, 1.5f);
+}
+
+TEST(GltfMaterials, HaveAnIndexOfRefractionAndAStrengthOfGloss) {
+    GltfDraft draft = triangle_draft();
+    const auto add = [&](const char* extension, const char* name, double value) {
+        json material;
+        material["extensions"][extension] = {{name, value}};
+        draft.add("materials", material);
+    };
+    add("KHR_materials_ior", "ior", 2.25);
+    add("KHR_materials_specular", "specularFactor", 0.25);
+    add("KHR_materials_ior", "ior", 0.0);
+    add("KHR_materials_ior", "ior", 0.5);
+    draft.add("materials", json::object());
+    const Scene scene = draft.load();
+    const float iors[] = {2.25f, 1.5f, 0.0f, 1.5f, 1.5f}, speculars[] = {1, 0.25f, 1, 1, 1};
+    for (std::size_t m = 0; m < 5; ++m) {
+        EXPECT_EQ(scene.materials[m].ior, iors[m]) << m;
+        EXPECT_EQ(scene.materials[m].specular, speculars[m]) << m;
+    }
+    EXPECT_EQ(std::count_if(scene.warnings.begin(), scene.warnings.end(),
+                            [](const std::string& warning) {
+                                return warning.find("index of refraction") != std::string::npos;
+                            }),
+              1);
+    // F at normal incidence: ((n - 1) / (n + 1))^2; all of it where the index is 0.
+    EXPECT_NEAR(surface_of(scene.materials[0]).z, 1.25 * 1.25 / (3.25 * 3.25), 1e-7);
+    EXPECT_NEAR(surface_of(scene.materials[1]).z, 0.01, 1e-8);
+    EXPECT_EQ(surface_of(scene.materials[1]).w, 0.25f);
+    EXPECT_EQ(surface_of(scene.materials[2]).z, 1.0f);
+    EXPECT_NEAR(surface_of(scene.materials[4]).z, 0.04, 1e-8);
 }
 
 TEST(GltfMaterials, BlendBecomesAMaskWithAWarning) {
@@ -82,8 +115,8 @@ TEST(GltfTextures, MetalAndRoughnessHaveTheirMeanAndTheirTexture) {
     for (const Material& material : scene.materials) {
         EXPECT_FLOAT_EQ(material.roughness, 0.1f);
         EXPECT_FLOAT_EQ(material.metallic, 0.1f);
-        EXPECT_EQ(material.finish, glm::vec2(0.25f, 0.5f));
-        EXPECT_EQ(material.finish_texture.texture, 0);
+        EXPECT_EQ(material.metallic_roughness_factor, glm::vec2(0.25f, 0.5f));
+        EXPECT_EQ(material.metallic_roughness_texture.texture, 0);
     }
     ASSERT_EQ(scene.textures.size(), 1u);
     EXPECT_FALSE(scene.textures[0].srgb);
@@ -97,7 +130,7 @@ TEST(GltfTextures, AFinishOfOneValueNeedsNoTexture) {
         textured(png(2, 1, {9, 51, 102, 255, 7, 51, 102, 255}), "metallicRoughnessTexture").load();
     EXPECT_FLOAT_EQ(scene.materials[0].roughness, 0.2f);
     EXPECT_FLOAT_EQ(scene.materials[0].metallic, 0.4f);
-    EXPECT_EQ(scene.materials[0].finish_texture.texture, -1);
+    EXPECT_EQ(scene.materials[0].metallic_roughness_texture.texture, -1);
     EXPECT_TRUE(scene.textures.empty());
 }
 

@@ -39,6 +39,8 @@ Scene furnished() {
     scene.materials[1].double_sided = true;
     scene.materials[1].roughness = 0.3f;
     scene.materials[1].metallic = 0.6f;
+    scene.materials[1].specular = 0.75f;
+    scene.materials[1].ior = 1.75f;
     scene.materials[1].emission = {17, 12, 4};
     scene.textures.push_back({"normals", 2, 1, {9, 200, 250, 255, 128, 90, 200, 255}});
     scene.textures.back().srgb = false;
@@ -46,8 +48,8 @@ Scene furnished() {
     scene.textures.back().srgb = false;
     scene.materials[0].normal_texture = {1, 0, glm::mat3(2, 0, 0, 0, 3, 0, 0, 0, 1)};
     scene.materials[0].normal_scale = -0.75f;
-    scene.materials[0].finish_texture = {2, 1};
-    scene.materials[0].finish = {0.5f, 0.25f};
+    scene.materials[0].metallic_roughness_texture = {2, 1};
+    scene.materials[0].metallic_roughness_factor = {0.5f, 0.25f};
     scene.materials[0].metallic = 0.5f * 0.6f;
     scene.materials[0].roughness = 0.25f * 0.4f;
 
@@ -110,18 +112,23 @@ TEST(SaveGlb, KeepsMaterialsAndTextures) {
     EXPECT_TRUE(after.materials[1].double_sided);
     EXPECT_EQ(after.materials[1].roughness, 0.3f);
     EXPECT_EQ(after.materials[1].metallic, 0.6f);
+    EXPECT_EQ(after.materials[1].specular, 0.75f);
+    EXPECT_EQ(after.materials[1].ior, 1.75f);
+    EXPECT_EQ(red.specular, 0.0f);
+    EXPECT_EQ(red.ior, 1.5f);
     EXPECT_VEC_NEAR(after.materials[1].emission, before.materials[1].emission, 2e-6);
 
     EXPECT_EQ(red.normal_scale, -0.75f);
     EXPECT_EQ(red.normal_texture.transform[1], glm::vec3(0.0f, 3.0f, 0.0f));
-    EXPECT_EQ(red.finish_texture.uv_set, 1);
-    EXPECT_EQ(red.finish, before.materials[0].finish);
+    EXPECT_EQ(red.metallic_roughness_texture.uv_set, 1);
+    EXPECT_EQ(red.metallic_roughness_factor, before.materials[0].metallic_roughness_factor);
     EXPECT_FLOAT_EQ(red.metallic, before.materials[0].metallic);
     EXPECT_FLOAT_EQ(red.roughness, before.materials[0].roughness);
 
     ASSERT_EQ(after.textures.size(), 3u);
     const Texture& normals = after.textures[static_cast<std::size_t>(red.normal_texture.texture)];
-    const Texture& finish = after.textures[static_cast<std::size_t>(red.finish_texture.texture)];
+    const Texture& finish =
+        after.textures[static_cast<std::size_t>(red.metallic_roughness_texture.texture)];
     EXPECT_EQ(normals.rgba, before.textures[1].rgba);
     EXPECT_EQ(finish.rgba, before.textures[2].rgba);
     EXPECT_FALSE(normals.srgb || finish.srgb);

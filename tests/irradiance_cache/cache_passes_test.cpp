@@ -242,11 +242,11 @@ TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
         std::vector<float>& found = picked[sample / 5];
         found.resize(PICK_PLANES * plane);
         queue.enqueueReadBuffer(places, CL_TRUE, 0, found.size() * sizeof(float), found.data());
-        // a = 0.25, exponent 30: the lobe's mean is 0.671.
-        const float coat = 0.015f, lobe = 0.375f, m = 0.671f;
-        const float reflects =
-            (1 - coat - lobe + m * lobe) * (0.2126f * 0.2f + 0.7152f * 0.5f + 0.0722f * 0.7f) +
-            m * coat;
+        // Half a metal of alpha 0.25: integrals of D V, and of D V (1 - v.h)^5.
+        const float albedo = 0.8793f, grazing = 0.018f;
+        const float reflects = (0.5f + 0.5f * (albedo - grazing)) *
+                                   (0.2126f * 0.2f + 0.7152f * 0.5f + 0.0722f * 0.7f) +
+                               0.5f * grazing;
         for (std::size_t i = 0; i < 8; ++i)
             EXPECT_NEAR(found[PICK_REFLECTANCE * plane + i], reflects, 1e-3f);
     }

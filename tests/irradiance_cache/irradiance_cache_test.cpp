@@ -95,8 +95,8 @@ TEST_P(IrradianceCachePictures, HaveAllReflectionsOfASphere) {
     }
 }
 
-// Lobes count with their mean albedo, m of that at normal incidence: of a wall that is half metal,
-// p is the sum of the shares of coat, lobe and diffuse light (docs/materials.md).
+// Lobes count with their mean albedo: of a wall that is half metal, p is the sum of the shares of
+// coat, lobe and diffuse light (docs/materials.md).
 TEST_P(IrradianceCachePictures, HaveReflectionsByLobesInASphere) {
     Scene scene = furnace({.light = LightSource::point, .subdivisions = 3});
     const glm::vec3 base(0.6f, 0.3f, 0.75f);
@@ -108,10 +108,10 @@ TEST_P(IrradianceCachePictures, HaveReflectionsByLobesInASphere) {
     IrradianceCacheOptions options = cache_options();
     options.picture.direct = false;
     const CachePicture found = pictured(scene, options);
-    // Roughness 0.4: a = 0.16, exponent 2 / a^2 - 2; the integral of its lobe is 0.667.
-    const double m = 0.667, coat = 0.04 * 0.84 * 0.5, lobe = 0.84 * 0.5, diffuse = 1 - coat - lobe;
+    // Integrals of D V, and of D V (1 - v.h)^5, for alpha 0.16.
+    const double albedo = 0.9392, grazing = 0.0261;
     for (int c = 0; c < 3; ++c) {
-        const double p = base[c] * (diffuse + m * lobe) + m * coat;
+        const double p = 0.5 * (base[c] * (1.0 + albedo - grazing) + grazing);
         const double wanted = p / pi * scene.lights[0].intensity[c] * p / (1.0 - p);
         EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.04 * wanted) << c;
     }

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "atlas_checks.hpp"
+#include "microfacet.hpp"
 
 namespace clgi {
 namespace {
@@ -125,7 +126,7 @@ TEST(AtlasRadiance, IsReflectanceOverPiTimesIrradianceAndEmission) {
     const AtlasLayout atlas = make_atlas(scene, test::regions(scene, 2), test::made_charts(24));
     const Vectors irradiance = light_of(scene, atlas, slanted);
     const Vectors found = atlas_radiance(scene, atlas, irradiance);
-    const double diffuse = double{reflectance(0.4f, 0.6f).diffuse};
+    const double diffuse = double{reflectance(test::finished(0.4f, 0.6f)).diffuse};
     for (std::size_t i = 0; i < found.size(); ++i) {
         const glm::dvec3 wanted = glm::dvec3(0.7, 0.5, 0.2) * glm::dvec3(0.5, 0.25, 1.0) * diffuse /
                                       std::numbers::pi * glm::dvec3(irradiance[i]) +
@@ -245,7 +246,7 @@ TEST_F(LitScene, HasNoNormalsAndNoFinishOfTextures) {
         scene.textures.push_back({name, 2, 1, {128, 99, 255, 255, 90, 128, 220, 255}});
     for (Material& material : scene.materials) {
         material.normal_texture.texture = static_cast<int>(scene.textures.size()) - 2;
-        material.finish_texture.texture = static_cast<int>(scene.textures.size()) - 1;
+        material.metallic_roughness_texture.texture = static_cast<int>(scene.textures.size()) - 1;
         material.metallic = 0.25f;
     }
     lay_out(1);
@@ -255,7 +256,7 @@ TEST_F(LitScene, HasNoNormalsAndNoFinishOfTextures) {
         const Scene found = with_atlas_light(scene, atlas, radiance, options);
         for (const Material& material : found.materials) {
             EXPECT_EQ(material.normal_texture.texture, -1);
-            EXPECT_EQ(material.finish_texture.texture, -1);
+            EXPECT_EQ(material.metallic_roughness_texture.texture, -1);
             EXPECT_EQ(material.metallic, lights ? 0.25f : 1.0f);
         }
         for (const Texture& texture : found.textures)

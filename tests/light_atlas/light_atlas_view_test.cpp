@@ -115,6 +115,7 @@ TEST(LightAtlasView, ShowsTheIndirectLightOfThePathTracer) {
 TEST(LightAtlasView, HasTheDirectLightOfTheOtherSolver) {
     Scene scene = viewed_room();
     scene.materials[2].roughness = 0.4f;  // gloss too
+    scene.materials[2].specular = 1.0f;
     scene.materials[1].emission = {0.2f, 0.1f, 0.3f};
     scene.environment.emplace();
     scene.environment->factor = {0.3f, 0.4f, 0.5f};

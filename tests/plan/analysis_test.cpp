@@ -186,7 +186,8 @@ TEST(SurfaceAnalysis, AreSumsOverTriangles) {
     Material metal;
     metal.base_color = glm::vec4(0.5f, 0.25f, 1.0f, 1.0f);
     metal.metallic = 1.0f;
-    metal.roughness = 0.5f;  // a = 1/4: three quarters of the base colour are gloss
+    metal.roughness = 0.5f;
+    metal.specular = 1.0f;
     metal.double_sided = true;
     test::add_quad(scene, {glm::dvec3(0, 1, 0), {3, 1, 0}, {3, 2, 0}, {0, 2, 0}},
                    test::add_material(scene, metal));
@@ -195,27 +196,34 @@ TEST(SurfaceAnalysis, AreSumsOverTriangles) {
     EXPECT_EQ(analysis.triangles, 5u);
     EXPECT_EQ(analysis.degenerate, 1u);
     EXPECT_NEAR(analysis.area, 4.0, 1e-12);
-    EXPECT_NEAR(analysis.largest_albedo, 1.0, 1e-7);
+    const Reflectance of_metal = reflectance(metal);  // brightest in blue, which is 1
+    EXPECT_NEAR(analysis.largest_albedo,
+                double{of_metal.diffuse} + double{of_metal.lobe} + double{of_metal.coat}, 1e-6);
     const auto luminance = [](double r, double g, double b) {
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
     };
-    EXPECT_NEAR(analysis.gloss, 0.75 * luminance(1.5, 0.75, 3.0) / luminance(1.7, 1.15, 3.8), 1e-6);
+    // Of all that is reflected: the plain tile's, and three times the metal's.
+    const auto gloss_of = [&](const Material& material, const glm::dvec3& plain,
+                              const glm::dvec3& base) {
+        const Reflectance r = reflectance(material);
+        const double coat = r.coat;
+        const double lobes = luminance(base.r, base.g, base.b) * r.lobe + coat;
+        const double all = luminance(base.r, base.g, base.b) * (r.lobe + r.diffuse) + coat;
+        return 3.0 * lobes / (luminance(plain.r, plain.g, plain.b) + 3.0 * all);
+    };
+    EXPECT_NEAR(analysis.gloss, gloss_of(metal, {0.2, 0.4, 0.8}, {0.5, 0.25, 1.0}), 1e-6);
     EXPECT_NEAR(analysis.glossy_area, 0.75, 1e-12);
     EXPECT_NEAR(analysis.double_sided_area, 0.75, 1e-12);
     EXPECT_FALSE(analysis.textures);
     EXPECT_FALSE(analysis.cutouts);
 
-    // A dielectric's coat is white: 0.04 (1 - a).
-    scene.materials[1].metallic = 0.0f;
-    const auto with_coat = [&](double r, double g, double b) {
-        return 0.97 * luminance(r, g, b) + 0.03;
-    };
+    Material& plastic = scene.materials[1];
+    plastic.metallic = 0.0f;
     EXPECT_NEAR(scene_analysis(scene).surfaces.gloss,
-                3.0 * 0.03 / (luminance(0.2, 0.4, 0.8) + 3.0 * with_coat(0.5, 0.25, 1.0)), 1e-6);
+                gloss_of(plastic, {0.2, 0.4, 0.8}, {0.5, 0.25, 1.0}), 1e-6);
     scene.colors.assign(scene.positions.size(), glm::vec4(0.5f, 1.0f, 0.25f, 1.0f));
     const SurfaceAnalysis coloured = scene_analysis(scene).surfaces;
-    EXPECT_NEAR(coloured.gloss,
-                3.0 * 0.03 / (luminance(0.1, 0.4, 0.2) + 3.0 * with_coat(0.25, 0.25, 0.25)), 1e-6);
+    EXPECT_NEAR(coloured.gloss, gloss_of(plastic, {0.1, 0.4, 0.2}, {0.25, 0.25, 0.25}), 1e-6);
     EXPECT_NEAR(coloured.largest_albedo, 0.4, 1e-7);
     scene.colors[0].b = 1.0f;  // of a corner
     EXPECT_NEAR(scene_analysis(scene).surfaces.largest_albedo, 0.8, 1e-7);
@@ -245,7 +253,8 @@ TEST(SurfaceAnalysis, ReadTextures) {
     scene.materials.push_back(scene.materials[0]);
     scene.materials[0].base_texture.texture = -1;
     EXPECT_FALSE(scene_analysis(scene).surfaces.textures) << "of a material not in use";
-    for (TextureSlot Material::*slot : {&Material::normal_texture, &Material::finish_texture}) {
+    for (TextureSlot Material::*slot :
+         {&Material::normal_texture, &Material::metallic_roughness_texture}) {
         Scene detailed = scene;
         (detailed.materials[0].*slot).texture = 0;
         EXPECT_TRUE(scene_analysis(detailed).surfaces.textures);
@@ -275,6 +284,7 @@ TEST(SurfaceAnalysis, ReadTextures) {
 TEST(SurfaceAnalysis, OfManyTrianglesHaveTheMeanOfTheirTextures) {
     Scene scene = textured({255, 0, 51, 255, 255, 255, 51, 255});
     scene.materials[0].roughness = 0.5f;
+    scene.materials[0].specular = 1.0f;
     const double gloss = scene_analysis(scene).surfaces.gloss;
     EXPECT_GT(gloss, 0.05);
     while (scene.triangles.size() <= 30000)

@@ -138,6 +138,7 @@ Sky transfer(const Scene& scene, bool shadowed, bool gloss) {
 Scene ball_under_the_sky() {
     Scene scene = test::plain_scene({0.7f, 0.5f, 0.3f});
     scene.materials[0].roughness = 0.5f;
+    scene.materials[0].specular = 1.0f;
     test::add_sphere(scene, {0, 0, 0}, 1.0, 2);
     test::light_by_gradient(scene, {2.0f, 3.0f, 4.0f}, {0.6, 0.8, 0.0}, 32);
     scene.cameras = {test::camera_at({0.3, 0.4, 3.5}, {0, 0, 0})};

@@ -198,6 +198,7 @@ Scene full_scene() {
     Material& material = scene.materials[0];
     material.base_texture.texture = 0;
     material.roughness = 0.3f;
+    material.specular = 1.0f;
     material.emission = {1.0f, 2.0f, 3.0f};
     scene.lights = {test::point_light({0, 1, 0}), test::spot_light({0, 1, 0}, {0, -1, 0}, 0.5),
                     test::directional_light({0, -1, 0}), test::point_light({0, 2, 0}, 0.0f)};
@@ -227,7 +228,17 @@ TEST(PlannedScene, LosesWhatIsOff) {
     EXPECT_EQ(left.emission, glm::vec3(0.0f));
     EXPECT_EQ(left.roughness, 0.3f);
     left = planned_scene(scene, plan_without(Effect::gloss)).materials[0];
-    EXPECT_EQ(left.roughness, 1.0f);
+    EXPECT_EQ(left.metallic + left.specular, 0.0f);
+    EXPECT_EQ(left.base_color, scene.materials[0].base_color);
+    // Half a metal of alpha 0.16 reflects 94 % of that half.
+    Scene metal = scene;
+    metal.materials[0].metallic = 0.5f;
+    metal.materials[0].roughness = 0.4f;
+    metal.materials[0].base_color = {0.8f, 0.6f, 0.4f, 0.5f};
+    const glm::vec4 base =
+        planned_scene(metal, plan_without(Effect::gloss)).materials[0].base_color;
+    const float wanted[] = {0.9696f * 0.8f, 0.9696f * 0.6f, 0.9696f * 0.4f, 0.5f};
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(base[c], wanted[c], 2e-3f) << c;
     EXPECT_EQ(left.base_texture.texture, 0);
     EXPECT_EQ(left.emission, glm::vec3(1.0f, 2.0f, 3.0f));
 }
@@ -237,7 +248,7 @@ TEST(PlannedScene, LosesDetailWithTexturesAndFinishWithGloss) {
     scene.textures.push_back(chessboard(3, 250));
     scene.textures.push_back(chessboard(40, 90));
     scene.materials[0].normal_texture.texture = 2;
-    scene.materials[0].finish_texture.texture = 3;
+    scene.materials[0].metallic_roughness_texture.texture = 3;
     Scene left = planned_scene(scene, plan_without(Effect::cutouts));
     ASSERT_EQ(left.textures.size(), 3u);
     const Material& kept = left.materials[0];
@@ -245,13 +256,13 @@ TEST(PlannedScene, LosesDetailWithTexturesAndFinishWithGloss) {
         return left.textures[static_cast<std::size_t>(slot.texture)].rgba;
     };
     EXPECT_EQ(texels(kept.normal_texture), scene.textures[2].rgba);
-    EXPECT_EQ(texels(kept.finish_texture), scene.textures[3].rgba);
+    EXPECT_EQ(texels(kept.metallic_roughness_texture), scene.textures[3].rgba);
     left = planned_scene(scene, plan_without(Effect::gloss));
     EXPECT_GE(left.materials[0].normal_texture.texture, 0);
-    EXPECT_EQ(left.materials[0].finish_texture.texture, -1);
+    EXPECT_EQ(left.materials[0].metallic_roughness_texture.texture, -1);
     left = planned_scene(scene, plan_without(Effect::textures));
     EXPECT_EQ(left.materials[0].normal_texture.texture, -1);
-    EXPECT_EQ(left.materials[0].finish_texture.texture, -1);
+    EXPECT_EQ(left.materials[0].metallic_roughness_texture.texture, -1);
     EXPECT_TRUE(left.textures.empty());
 }
 

@@ -77,6 +77,9 @@ TEST(Validate, RefusesEveryBrokenPromise) {
         [](Scene& s) { s.materials[0].emission.b = INFINITY; },
         [](Scene& s) { s.materials[0].metallic = 1.5f; },
         [](Scene& s) { s.materials[0].roughness = NAN; },
+        [](Scene& s) { s.materials[0].specular = 1.5f; },
+        [](Scene& s) { s.materials[0].ior = 0.9f; },
+        [](Scene& s) { s.materials[0].ior = NAN; },
         [](Scene& s) { s.materials[0].alpha_cutoff = -1.0f; },
         [](Scene& s) { s.materials[0].base_texture.texture = 0; },
         [](Scene& s) {

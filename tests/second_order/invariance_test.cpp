@@ -34,6 +34,7 @@ SecondOrderOptions small_frame(const test::Build& build = test::usual_build()) {
 Scene table(Light::Kind kind) {
     Scene scene = test::plain_scene();
     scene.materials[0].roughness = 0.5f;  // with a lobe
+    scene.materials[0].specular = 1.0f;
     test::add_box(scene, {-1, -1, -1}, {1, 1, 1}, -1);
     test::add_box(scene, {-0.5, -0.5, -0.5}, {0.5, -0.375, 0.25}, 1);
     test::add_box(scene, {-0.25, 0.125, -0.5}, {0.5, 0.375, -0.0625}, 1);

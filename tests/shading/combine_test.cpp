@@ -205,9 +205,10 @@ TEST(Combine, AddsAllSourcesAndTakesEachEffectAlone) {
 // Any code is a direction: those of all faces of the octahedron, and pixels without one between.
 TEST(Combine, TakesNormalsAndFinishOfTextures) {
     for (const bool detail : {false, true}) {
-        Shading in = oblique_shading({spot, point, sun, lamp},
-                                     COMBINE_DIRECT | COMBINE_SPECULAR | COMBINE_INDIRECT |
-                                         COMBINE_SPREAD_LOBES | (detail ? COMBINE_DETAIL : 0));
+        Shading in =
+            oblique_shading({spot, point, sun, lamp}, COMBINE_DIRECT | COMBINE_SPECULAR |
+                                                          COMBINE_INDIRECT | COMBINE_SPREAD_LOBES |
+                                                          (detail ? COMBINE_MAPPED_NORMALS : 0));
         Random random(31);
         for (test::ShadedPixel& pixel : in.pixels) {
             if (random(0, 1) < 0.7)
@@ -215,8 +216,9 @@ TEST(Combine, TakesNormalsAndFinishOfTextures) {
                     static_cast<std::uint32_t>(random.integer(0, DETAIL_STEPS)) |
                     static_cast<std::uint32_t>(random.integer(0, DETAIL_STEPS)) << 16);
             if (random(0, 1) < 0.7)
-                pixel.finish = random.integer(0, FINISH_STEPS) << FINISH_BITS |
-                               random.integer(FINISH_STEPS / 4, FINISH_STEPS);
+                pixel.finish =
+                    random.integer(0, METALLIC_ROUGHNESS_STEPS) << METALLIC_ROUGHNESS_BITS |
+                    random.integer(METALLIC_ROUGHNESS_STEPS / 4, METALLIC_ROUGHNESS_STEPS);
             else if (random(0, 1) < 0.3)
                 pixel.finish = 0;  // a smooth dielectric
         }

@@ -45,9 +45,10 @@ Scene detailed_patchwork(std::uint64_t seed) {
             return out;
         };
         if (m % 4 < 2) material.normal_texture = slot();
-        if (m % 4 == 1 || m % 4 == 2) material.finish_texture = slot();
+        if (m % 4 == 1 || m % 4 == 2) material.metallic_roughness_texture = slot();
         material.normal_scale = static_cast<float>(random(0.3, 1.5)) * (m == 5 ? -1.0f : 1.0f);
-        material.finish = {static_cast<float>(random(0.4, 1)), static_cast<float>(random(0.4, 1))};
+        material.metallic_roughness_factor = {static_cast<float>(random(0.4, 1)),
+                                              static_cast<float>(random(0.4, 1))};
     }
     return scene;
 }
@@ -62,12 +63,13 @@ TEST_P(Detail, IsThatOfTheTexturesUnderThePixel) {
     double apart = 0.0, finish = 0.0;
     int mapped = 0, plain = 0, finished = 0, bent = 0, mirrored = 0, behind = 0;
     for (std::size_t p = 0; p < drawing.pixels(); ++p) {
-        const int normal_code = drawing.ids[GBUFFER_DETAIL * drawing.stride + p];
-        const int finish_code = drawing.ids[GBUFFER_FINISH * drawing.stride + p];
+        const int normal_code = drawing.ids[GBUFFER_MAPPED_NORMAL * drawing.stride + p];
+        const int metallic_roughness_code =
+            drawing.ids[GBUFFER_METALLIC_ROUGHNESS * drawing.stride + p];
         const int triangle = drawing.triangle(p);
         if (triangle < 0) {
             EXPECT_EQ(normal_code, -1);
-            EXPECT_EQ(finish_code, -1);
+            EXPECT_EQ(metallic_roughness_code, -1);
             continue;
         }
         const double column = static_cast<double>(p % drawing.view.width) + 0.5;
@@ -78,12 +80,14 @@ TEST_P(Detail, IsThatOfTheTexturesUnderThePixel) {
             continue;
         const test::DetailTruth truth = reference.detail(drawing.view, triangle, column, row, seen);
         ASSERT_EQ(normal_code != -1, truth.mapped);
-        ASSERT_EQ(finish_code != -1, truth.finished);
+        ASSERT_EQ(metallic_roughness_code != -1, truth.finished);
         plain += !truth.mapped;
         if (truth.finished) {
             ++finished;
-            const glm::dvec2 found(finish_code >> FINISH_BITS, finish_code & FINISH_STEPS);
-            const glm::dvec2 off = glm::abs(found / double{FINISH_STEPS} - truth.finish);
+            const glm::dvec2 found(metallic_roughness_code >> METALLIC_ROUGHNESS_BITS,
+                                   metallic_roughness_code & METALLIC_ROUGHNESS_STEPS);
+            const glm::dvec2 off =
+                glm::abs(found / double{METALLIC_ROUGHNESS_STEPS} - truth.finish);
             finish = std::max(finish, glm::max(off.x, off.y));
         }
         if (!truth.mapped || truth.certain < 0.05) continue;
@@ -118,14 +122,14 @@ TEST(Detail, IsTheSameForEveryPacketWidth) {
     const Scene scene = detailed_patchwork(82);
     const DeviceScene placed = test::on_device(scene);
     const View view = looking(Looking::perspective, placed, 101, 77);
-    test::draw_at_every_width(placed, view,
-                              [](const Drawing& other, const Drawing& first, int width) {
-                                  for (const int plane : {GBUFFER_DETAIL, GBUFFER_FINISH})
-                                      for (std::size_t p = 0; p < first.pixels(); ++p)
-                                          ASSERT_EQ(other.ids[plane * other.stride + p],
-                                                    first.ids[plane * first.stride + p])
-                                              << width << ", pixel " << p;
-                              });
+    test::draw_at_every_width(
+        placed, view, [](const Drawing& other, const Drawing& first, int width) {
+            for (const int plane : {GBUFFER_MAPPED_NORMAL, GBUFFER_METALLIC_ROUGHNESS})
+                for (std::size_t p = 0; p < first.pixels(); ++p)
+                    ASSERT_EQ(other.ids[plane * other.stride + p],
+                              first.ids[plane * first.stride + p])
+                        << width << ", pixel " << p;
+        });
 }
 
 // A tilted square whose normal texture says one normal everywhere, under a sun.

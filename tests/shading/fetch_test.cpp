@@ -77,7 +77,7 @@ LightTruth light_truth(const Scene& world, const test::RayReference& rays,
     const double falloff = parallel ? 1.0 : test::range_share(hit.distance, double{emitter.range});
     const double area = sample.spread * (parallel ? 1.0 : hit.distance * hit.distance) / out.cosine;
     out.radius2 = double{footprint} * area / pi;
-    const Reflectance share = reflectance(material.metallic, material.roughness);
+    const Reflectance share = reflectance(material);
     out.flux = sample.flux * colour * glm::dvec3(material.base_color) * double{share.diffuse} *
                falloff * double{scale} * double{emitter.taken_over};
     const double inner = double{emitter.right.w}, outer = double{emitter.axis.w};

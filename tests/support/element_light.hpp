@@ -67,6 +67,11 @@ struct HandElements {
     void close(std::uint32_t i) { elements[i].end = static_cast<std::uint32_t>(elements.size()); }
 };
 
+// The albedos of a lobe of a test: of the rougher GGX, the smaller its exponent.
+inline std::vector<float> lobe_curve(double exponent) {
+    return lobe_albedos(std::isfinite(exponent) ? std::max(1.0 / (1.0 + exponent), 0.01) : 0.5);
+}
+
 // Of lobe_albedos(), between its steps.
 inline double lobe_albedo_at(const std::vector<float>& curve, double cosine) {
     const double at = std::sqrt(cosine) * double(ALBEDO_STEPS);
@@ -329,8 +334,7 @@ private:
             const auto k = static_cast<std::uint32_t>(leaves.size());
             leaves.push_back({lobe.element, of.elements[lobe.element].row, k, lobe.exponent});
             colors.emplace_back(lobe.color, 0.0f);
-            const std::vector<float> curve =
-                lobe_albedos(std::isfinite(lobe.exponent) ? lobe.exponent : 1.0f);
+            const std::vector<float> curve = lobe_curve(double{lobe.exponent});
             albedos.insert(albedos.end(), curve.begin(), curve.end());
             for (std::size_t b = 0; b < lobe.sources.size(); ++b)
                 for (int c = 0; c < 3; ++c)

@@ -32,6 +32,7 @@ inline Scene oblique_room() {
         material.base_color = glm::vec4(random_colour(random, 0.3, 0.95), 1.0f);
         material.metallic = metallic[m];
         material.roughness = roughness[m];
+        material.specular = m == 0 ? 0.0f : 1.0f;
         add_material(scene, material);
     }
     const auto add = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,

@@ -49,6 +49,7 @@ inline Scene patchwork(int count, std::uint64_t seed, bool textured = true) {
         material.base_color = glm::vec4(random_vec3(random, 0.2, 1.0), 1.0f);
         material.metallic = static_cast<float>(random(0, 1));
         material.roughness = static_cast<float>(random(0.2, 1));
+        material.specular = 0.75f;
         if (m % 3 != 2) material.emission = random_vec3(random, 1.0, 50.0);
         material.double_sided = m % 2 == 0;
         if (textured) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lighting.hpp"
+#include "microfacet.hpp"
 #include "scenes.hpp"
 #include "shadow_reference.hpp"
 
@@ -21,7 +22,7 @@ struct ShadedPixel {
     int detail = -1, finish = -1;  // of textures; -1: normal and material hold
 };
 
-// A normal of GBUFFER_DETAIL, from the faces of the octahedron |x| + |y| + |z| = 1.
+// A normal of GBUFFER_MAPPED_NORMAL, from the faces of the octahedron |x| + |y| + |z| = 1.
 inline glm::dvec3 detail_normal(int code) {
     const auto step = [&](int shift) {
         return 2.0 * (static_cast<std::uint32_t>(code) >> shift & 0xffffu) / double{DETAIL_STEPS} -
@@ -37,14 +38,16 @@ inline glm::dvec3 detail_normal(int code) {
     return glm::normalize(out);
 }
 
-// What a pixel reflects: of its finish, of its material, or of neither.
-inline Reflectance shown_reflectance(const ShadedPixel& pixel,
-                                     const std::vector<Material>& materials) {
-    if (pixel.material < 0) return {1, 0, 0, 0};
-    const Material& of = materials[pixel.material];
-    if (pixel.finish < 0) return reflectance(of.metallic, of.roughness);
-    const glm::vec2 steps(pixel.finish >> FINISH_BITS, pixel.finish & FINISH_STEPS);
-    return reflectance(steps.x / float{FINISH_STEPS}, steps.y / float{FINISH_STEPS});
+// What a pixel shows: its material with its finish, or a Lambertian one.
+inline Material shown_material(const ShadedPixel& pixel, const std::vector<Material>& materials) {
+    if (pixel.material < 0) return {};
+    Material out = materials[pixel.material];
+    if (pixel.finish < 0) return out;
+    out.metallic = static_cast<float>(pixel.finish >> METALLIC_ROUGHNESS_BITS) /
+                   float{METALLIC_ROUGHNESS_STEPS};
+    out.roughness = static_cast<float>(pixel.finish & METALLIC_ROUGHNESS_STEPS) /
+                    float{METALLIC_ROUGHNESS_STEPS};
+    return out;
 }
 
 // What is left of a pixel that is stored.
@@ -97,8 +100,8 @@ inline Combined combine(const Shading& in, const ImagePasses& passes = image_pas
         put(GBUFFER_BASE, pixel.base);
         put(GBUFFER_EMISSION, pixel.emission);
         ids[GBUFFER_MATERIAL * stride + i] = pixel.material;
-        ids[GBUFFER_DETAIL * stride + i] = pixel.detail;
-        ids[GBUFFER_FINISH * stride + i] = pixel.finish;
+        ids[GBUFFER_MAPPED_NORMAL * stride + i] = pixel.detail;
+        ids[GBUFFER_METALLIC_ROUGHNESS * stride + i] = pixel.finish;
         for (int c = 0; c < 3; ++c) irradiance[c * stride + i] = pixel.irradiance[c];
     }
     CombineParams params = in.params;
@@ -139,9 +142,6 @@ inline double range_share(double distance, double range) {
     return range > 0.0 ? std::max(1.0 - std::pow(distance / range, 4), 0.0) : 1.0;
 }
 
-// kernels/lobe_mean.clh
-inline double lobe_mean(double exponent) { return 2.0 / 3.0 + 1.0 / 6.0 / (1.3 * exponent + 1.0); }
-
 struct ShadedTruth {
     glm::dvec3 radiance{0};
     glm::dvec3 bound{0};    // what rounding may make of it
@@ -154,15 +154,15 @@ inline ShadedTruth shaded_truth(const Shading& in, const ShadedPixel& pixel) {
     glm::dvec3 n(pixel.normal);
     const glm::dvec3 g(pixel.geometric), p(pixel.position);
     if (pixel.normal == glm::vec3(0)) return out;
-    if (pixel.detail != -1 && (in.params.effects & COMBINE_DETAIL)) n = detail_normal(pixel.detail);
-    const Reflectance r = shown_reflectance(pixel, in.materials);
+    if (pixel.detail != -1 && (in.params.effects & COMBINE_MAPPED_NORMALS))
+        n = detail_normal(pixel.detail);
+    const Material material = shown_material(pixel, in.materials);
+    const Reflectance r = reflectance(material);
     const glm::dvec3 base(pixel.base), rho = base * double{r.diffuse};
     const glm::dvec3 gloss = base * double{r.lobe} + double{r.coat};
     const glm::dvec3 toward_eye = in.view.eye.w == 0.0f
                                       ? glm::normalize(glm::dvec3(in.view.eye) - p)
                                       : -glm::dvec3(in.view.forward);
-    const glm::dvec3 mirror = 2.0 * glm::dot(n, toward_eye) * n - toward_eye;
-    const double exponent = double{r.exponent};
     for (const Emitter& e : in.emitters) {
         if (!(in.params.effects & COMBINE_DIRECT)) break;
         const uint kind = e.kind & EMITTER_KIND;
@@ -199,24 +199,20 @@ inline ShadedTruth shaded_truth(const Shading& in, const ShadedPixel& pixel) {
         const double lit = lit_share(at, in.visibility, &out.doubtful);
         const double width = at.view ? std::max(at.view->width, at.view->height) : 1.0;
         const double arriving = strength * cosine * lit;
-        const double alpha = std::max(glm::dot(mirror, t), 0.0);
-        const double lobe = in.params.effects & COMBINE_SPECULAR && r.coat + r.lobe > 0.0f
-                                ? (exponent + 2.0) / (2.0 * pi) * std::pow(alpha, exponent)
-                                : 0.0;
+        GltfReflected to = gltf_reflected(material, base, glm::normalize(n), toward_eye, t);
+        if (!(in.params.effects & COMBINE_SPECULAR)) to = {rho / pi, glm::dvec3(0.0), 1.0};
         for (int c = 0; c < 3; ++c) {
             const double light = double{e.intensity[c]};
-            out.radiance[c] += light * arriving * (rho[c] / pi + gloss[c] * lobe);
+            out.radiance[c] += light * arriving * (to.diffuse[c] + to.gloss[c]);
             // A cosine is 8 spacings off, a place on the shadow map 8 of the map's width, and the
             // lobe enlarges what its cosine is off.
             const double off = 16 * u * (steep + width + 4 / cosine);
             out.bound[c] += light * strength * cosine *
-                            (rho[c] / pi * off +
-                             gloss[c] * lobe * (off + 16 * u * exponent / std::max(alpha, 0.1)));
+                            (to.diffuse[c] * off + to.gloss[c] * (off + 16 * u * to.steep));
         }
     }
     for (int c = 0; c < 3; ++c) {
-        const double spread =
-            in.params.effects & COMBINE_SPREAD_LOBES ? gloss[c] * lobe_mean(exponent) : 0.0;
+        const double spread = in.params.effects & COMBINE_SPREAD_LOBES ? gloss[c] : 0.0;
         if (in.params.effects & COMBINE_INDIRECT)
             out.radiance[c] += (rho[c] + spread) / pi * std::max(double{pixel.irradiance[c]}, 0.0);
         if (in.params.effects & COMBINE_EMISSION) out.radiance[c] += double{pixel.emission[c]};

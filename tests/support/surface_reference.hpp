@@ -100,11 +100,13 @@ public:
         const SceneTriangle& t = scene_.triangles[static_cast<std::size_t>(triangle)];
         const Material& material = scene_.materials[t.material];
         DetailTruth out;
-        const TextureSlot &normal = material.normal_texture, &finish = material.finish_texture;
+        const TextureSlot &normal = material.normal_texture,
+                          &finish = material.metallic_roughness_texture;
         out.finished = finish.texture >= 0;
         if (out.finished) {
             const glm::dvec4 texel = textured(finish, view, t, column, row, truth);
-            out.finish = glm::dvec2(material.finish) * glm::dvec2(texel.z, texel.y);
+            out.finish =
+                glm::dvec2(material.metallic_roughness_factor) * glm::dvec2(texel.z, texel.y);
         }
         if (normal.texture < 0) return out;
         out.mapped = true;

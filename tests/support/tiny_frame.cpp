@@ -15,6 +15,7 @@ using namespace clgi;
 Scene stamp() {
     Scene scene = test::plain_scene();
     scene.materials[0].roughness = 0.5f;
+    scene.materials[0].specular = 1.0f;
     test::add_box(scene, {-1, -1, -1}, {1, 1, 1}, -1);
     test::add_box(scene, {-0.4, -0.4, -0.4}, {0.4, -0.2, 0.3}, 1);
     Material masked;

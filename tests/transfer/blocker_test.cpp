@@ -19,8 +19,8 @@ namespace {
 
 using std::numbers::pi;
 constexpr int emitter_rings = 64;  // of the emitter, of equal area, as many lights on each
-constexpr int samples = 4096;   // negative VPLs
-constexpr double border = 1.1;  // half the image, in radii of the blocker
+constexpr int samples = 4096;      // negative VPLs
+constexpr double border = 1.1;     // half the image, in radii of the blocker
 
 // Facing down.
 void add_disc(Scene& scene, double radius, double y) {

@@ -17,6 +17,7 @@ const Scene& rich() {
     static const Scene scene = [] {
         Scene out = test::heap_of_solids(3);
         out.materials[1].roughness = 0.3f;
+        out.materials[1].specular = 1.0f;
         out.materials[2].double_sided = true;
         out.lights = {test::directional_light({0, -1, 0}, 2.0f)};
         test::light_by_gradient(out, {0.9f, 2.0f, 3.5f}, {0, 1, 0});
@@ -100,7 +101,7 @@ TEST(DynamicTransferEstimate, FollowsTheScene) {
     scene.materials[2].double_sided = false;
     EXPECT_LT(estimated(scene, test::on_device(scene), {}), whole);
     scene = rich();
-    scene.materials[1].roughness = 1.0f;
+    scene.materials[1].specular = 0.0f;
     EXPECT_LT(estimated(scene, test::on_device(scene), {}), whole);
     scene = rich();
     scene.environment.reset();

@@ -161,8 +161,9 @@ TEST_P(TransferPictures, HaveTheGlossOfBroadLobes) {
         const test::Apart result =
             test::apart(picture_of(scene, threshold, {}, GetParam()).radiance, truth, seen);
         std::printf("gloss: error %.2f %%, energy %.4f\n", 100 * result.error, result.energy);
-        EXPECT_LT(result.high, 0.08);
-        EXPECT_NEAR(result.energy, 1.0, 0.03);
+        // What is left is the Phong lobe in place of GGX.
+        EXPECT_LT(result.high, 0.09);
+        EXPECT_NEAR(result.energy, 1.0, 0.02);
     }
     for (Material& material : scene.materials) material.metallic = 0.0f, material.roughness = 1.0f;
     EXPECT_GT(test::apart(picture_of(scene, 0.0f, {}, GetParam()).radiance, truth, seen).error,

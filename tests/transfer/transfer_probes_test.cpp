@@ -9,6 +9,7 @@
 
 #include "device.hpp"
 #include "math_modes.hpp"
+#include "microfacet.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -149,6 +150,7 @@ TEST_P(TransferProbes, AreComparedWithTheGlossThatIsShown) {
     metal.metallic = 1.0f;
     metal.roughness = plastic.roughness = 0.5f;
     plastic.metallic = 0.0f;
+    plastic.specular = 1.0f;
     test::add_material(world, metal);
     test::add_material(world, plastic);
     for (const std::uint32_t material : {0u, 1u, 2u})
@@ -156,13 +158,16 @@ TEST_P(TransferProbes, AreComparedWithTheGlossThatIsShown) {
     world.materials[0].roughness = 1.0f;
     world.materials[0].metallic = 0.0f;
     const DeviceScene scene = test::on_device(world);
-    const Reflectance shares[] = {reflectance(0.0f, 1.0f), reflectance(1.0f, 0.5f),
-                                  reflectance(0.0f, 0.5f)};
+    const Reflectance shares[] = {reflectance(test::finished(0.0f, 1.0f)),
+                                  reflectance(test::finished(1.0f, 0.5f)),
+                                  reflectance(test::finished(0.0f, 0.5f, 1.0f))};
     ASSERT_GT(shares[1].lobe * shares[2].coat * shares[1].diffuse, 0.0f);
     // All gloss that is shown is 1. How much is it where more than a quarter of all light is
     // missing?
     const float base[] = {0.5f, 0.25f, 0.75f}, diffuse[] = {3.0f, 2.0f, 1.0f};
-    const auto lobe = [&](int of, int c) { return shares[of].coat + shares[of].lobe * base[c]; };
+    const auto lobe = [&](int of, int c) {
+        return (shares[of].coat + shares[of].lobe * base[c]) / test::lobe_mean(shares[of].exponent);
+    };
     const auto edge = [&](int of) {
         double rest = 0.0, lobes = 0.0;
         for (int c = 0; c < 3; ++c) {

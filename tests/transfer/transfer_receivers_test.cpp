@@ -8,6 +8,7 @@
 
 #include "device.hpp"
 #include "math_modes.hpp"
+#include "microfacet.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -107,7 +108,7 @@ TEST_P(TransferReceivers, AtPixelsStandAboveTheSurface) {
                 out, exponents);
     const auto planes = test::download<float>(out.planes, RECEIVER_PLANES * stride);
     const auto lobes = test::download<float>(exponents, stride);
-    const float glossy = reflectance(0.6f, 0.5f).exponent;
+    const float glossy = reflectance(test::finished(0.6f, 0.5f)).exponent;
     EXPECT_GT(glossy, 1.0f);
     const std::uint32_t listed[] = {7, 5, 0, 11, 2};
     for (std::size_t i = 0; i < 7; ++i) {
@@ -237,7 +238,7 @@ TEST_P(TransferReceivers, LightPixelsBetweenThem) {
 
 TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {
     const DeviceScene scene = test::on_device(two_triangles());
-    const Reflectance r = reflectance(0.6f, 0.5f);
+    const Reflectance r = reflectance(test::finished(0.6f, 0.5f));
     EXPECT_GT(r.coat * r.lobe, 0.0f);
     Pixels seen;
     std::vector<float> light(3 * stride), radiance(3 * stride);
@@ -266,7 +267,9 @@ TEST_P(TransferReceivers, AddTheGlossOfTheirMaterials) {
             const std::size_t at = c * stride + pixel;
             const bool none = pixel < 2 || (pixel == 3 && c == 0) || (pixel == 4 && c == 1) ||
                               (pixel == 5 && c == 0);
-            const float gloss = none ? 0.0f : 8.0f * (r.coat + r.lobe * base[c]) * light[at];
+            const float gloss =
+                none ? 0.0f
+                     : 8.0f * (r.coat + r.lobe * base[c]) / test::lobe_mean(r.exponent) * light[at];
             EXPECT_NEAR(found[at], radiance[at] + gloss, 1e-5f * (1 + gloss)) << pixel << ", " << c;
         }
 }

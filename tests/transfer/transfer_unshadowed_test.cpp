@@ -74,6 +74,7 @@ TEST_P(Unshadowed, LightsWhatLiesUnderAPlate) {
 TEST_P(Unshadowed, IsWhatMasksFindWhereNothingBlocks) {
     Scene scene = test::plain_scene({0.6f, 0.5f, 0.3f});
     scene.materials[0].roughness = 0.4f;
+    scene.materials[0].specular = 1.0f;
     test::add_sphere(scene, {3, -2, 5}, 0.7, 2);
     test::light_by_gradient(scene, colour, glm::normalize(glm::dvec3(-0.4, 0.2, 0.9)));
     for (const sh::Window window : {sh::Window::none, sh::Window::lanczos}) {
@@ -196,6 +197,7 @@ TEST_P(Unshadowed, ShowsLobesAsMasksDo) {
     test::add_sphere(ball, {0, 0, 0}, 0.9, 0);
     Scene scene = test::plain_scene({0.6f, 0.5f, 0.3f});
     scene.materials[0].roughness = 0.5f;
+    scene.materials[0].specular = 1.0f;
     // Flat faces, so that nothing lies above the horizon of a pixel.
     for (const SceneTriangle& t : ball.triangles)
         test::add_triangle(scene, ball.positions[t.vertex[0]], ball.positions[t.vertex[1]],

@@ -106,7 +106,10 @@ void add_furniture(Scene& scene, Draws& draws, const Chamber& chamber, float rou
     for (int k = 0; k < count; ++k) {
         const std::uint32_t material = add_material(scene, "thing", draws.colour());
         scene.materials[material].roughness = roughness;
-        if (roughness < 1.0f) scene.materials[material].metallic = 0.5f;
+        if (roughness < 1.0f) {
+            scene.materials[material].metallic = 0.5f;
+            scene.materials[material].specular = 1.0f;
+        }
         const double turn = draws.between(0.0, std::numbers::pi);
         const glm::dvec3 at(chamber.low.x + draws.between(0.2, 0.8) * chamber.size.x, chamber.low.y,
                             chamber.low.z + draws.between(0.4, 0.85) * chamber.size.z);

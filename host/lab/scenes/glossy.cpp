@@ -25,6 +25,7 @@ std::uint32_t add_shine(Scene& scene, const glm::vec3& color, const GlossyOption
     const std::uint32_t out = generated::add_material(scene, "glossy", color);
     scene.materials[out].roughness = options.roughness;
     scene.materials[out].metallic = options.metallic;
+    scene.materials[out].specular = 1.0f;
     return out;
 }
 

@@ -180,7 +180,10 @@ Scene hand_like(const HandOptions& options) {
     const std::uint32_t skin = generated::add_material(scene, "skin", options.skin);
     const std::uint32_t nail =
         generated::add_material(scene, "nail", glm::min(1.25f * options.skin, glm::vec3(0.95f)));
-    scene.materials[skin].roughness = scene.materials[nail].roughness = options.roughness;
+    for (const std::uint32_t material : {skin, nail}) {
+        scene.materials[material].roughness = options.roughness;
+        scene.materials[material].specular = options.roughness < 1.0f ? 1.0f : 0.0f;
+    }
     generated::add_tiles(scene, {8, 12}, 3, 0.05, {light, dark});
 
     generated::Rig rig(scene, "fist", clip_length);

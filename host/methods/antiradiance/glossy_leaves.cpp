@@ -3,6 +3,7 @@
 
 #include <clgi/passes/antiradiance_gloss.hpp>
 #include <cstring>
+#include <map>
 
 namespace clgi {
 namespace {
@@ -46,7 +47,7 @@ GlossyLeaves find_glossy_leaves(const ElementTree& tree, const ElementSurface& s
         const std::uint32_t i = surface.leaves[row];
         const std::uint32_t material = scene.triangles[tree.triangles[i]].material;
         const Material& of = scene.materials[material];
-        const Reflectance shares = reflectance(of.metallic, of.roughness);
+        const Reflectance shares = reflectance(of);
         if (!(double{shares.coat} + shares.lobe > least) || (tree.backs[i] && !of.double_sided)) {
             out.others.push_back(i);
             continue;
@@ -55,9 +56,12 @@ GlossyLeaves find_glossy_leaves(const ElementTree& tree, const ElementSurface& s
         out.leaves.push_back({i, row, material, shares.exponent});
     }
     if (out.leaves.empty()) return out;
+    std::map<float, std::vector<float>> curves;  // by alpha
     for (const Material& material : scene.materials) {
-        const Reflectance shares = reflectance(material.metallic, material.roughness);
-        const std::vector<float> of = lobe_albedos(shares.exponent);
+        const float alpha = surface_of(material).y;
+        const auto [known, fresh] = curves.try_emplace(alpha);
+        if (fresh) known->second = lobe_albedos(double{alpha});
+        const std::vector<float>& of = known->second;
         out.albedos.insert(out.albedos.end(), of.begin(), of.end());
     }
     share_vertices(surface, of_row, out);

@@ -65,10 +65,10 @@ Material lit(const Material& material, std::uint32_t page, bool named, int first
     out.emission = glm::vec3(page == no_index ? 0.0f : 1.0f);
     out.emission_texture = {};
     if (page != no_index) out.emission_texture = {first_page + static_cast<int>(page), 1};
-    out.finish_texture = out.normal_texture = {};
+    out.metallic_roughness_texture = out.normal_texture = {};
     if (options.lights) return out;
     out.base_color = glm::vec4(0.0f, 0.0f, 0.0f, material.base_color.a);
-    out.metallic = out.roughness = 1.0f;
+    out.metallic = out.roughness = out.specular = 1.0f;  // what readers take where nothing is said
     // Readers that take one UV set for all textures of a material (VTK) take that of the base
     // colour.
     if (out.alpha_mode != AlphaMode::mask) out.base_texture = out.emission_texture;

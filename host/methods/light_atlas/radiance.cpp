@@ -68,7 +68,7 @@ public:
         for (std::size_t t = 0; t < read.size(); ++t)
             textures_.push_back(read[t] ? Levels(scene.textures[t]) : Levels());
         for (const Material& material : scene.materials)
-            diffuse_.push_back(double{reflectance(material.metallic, material.roughness).diffuse});
+            diffuse_.push_back(double{reflectance(material).diffuse});
     }
 
     // Of a texel that receives 1, and of one that receives nothing.

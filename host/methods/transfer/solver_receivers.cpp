@@ -19,7 +19,7 @@ SceneReceivers::SceneReceivers(const Scene& scene, const DeviceScene& device)
     std::vector<bool> double_sided(other_side.size(), false);
     for (const SceneTriangle& triangle : scene.triangles) {
         const Material& material = scene.materials[triangle.material];
-        const float exponent = reflectance(material.metallic, material.roughness).exponent;
+        const float exponent = reflectance(material).exponent;
         for (const std::uint32_t corner : triangle.vertex) {
             exponents[of_file[corner]] = exponent;
             if (material.double_sided) double_sided[of_file[corner]] = true;
@@ -62,8 +62,7 @@ std::vector<float> SceneReceivers::reflectances(const Scene& scene, const Device
         for (const std::uint32_t corner : triangle.vertex) {
             const glm::dvec3 colour =
                 scene.colors.empty() ? glm::dvec3(1.0) : glm::dvec3(scene.colors[corner]);
-            sum[corner] +=
-                colour * base * double{reflectance(material.metallic, material.roughness).diffuse};
+            sum[corner] += colour * base * double{reflectance(material).diffuse};
             ++count[corner];
         }
     }

@@ -157,7 +157,7 @@ CombineParams combine_params(const DeviceScene& scene, const View& view, std::ui
     out.exposure = static_cast<float>(scene.frame().exposure);
     out.texel_bias = 1.0f;
     out.effects = scene.info().flags & SCENE_HAS_SHARES ? COMBINE_MATERIALS : 0;
-    if (scene.info().flags & SCENE_HAS_DETAIL) out.effects |= COMBINE_DETAIL;
+    if (scene.info().flags & SCENE_HAS_DETAIL) out.effects |= COMBINE_MAPPED_NORMALS;
     out.depth_words = shadow_maps == Pixels::depth ? 1 : 2;
     return out;
 }

@@ -67,10 +67,10 @@ private:
     PassKernel lobes_, sources_, gloss_, vertices_, show_;
 };
 
-// [ALBEDO_STEPS + 1] what a lobe of colour 1 reflects of the light that meets it at a cosine of
-// (k / ALBEDO_STEPS)^2 with the normal: all of it at 1.
-// Throws Error for exponents below 0 and such as are not finite.
-CLGI_API std::vector<float> lobe_albedos(double exponent);
+// [ALBEDO_STEPS + 1] what GGX reflects of the light that meets it at a cosine of
+// (k / ALBEDO_STEPS)^2 with the normal, as a share of what it reflects in the mean over all
+// directions by their cosine. alpha: [0.01, 1], else throws Error.
+CLGI_API std::vector<float> lobe_albedos(double alpha);
 
 // rows: of direction_rows(). [4][GLOSS_STRIDE(bins)]: x, y, z, sr; zero past the last bin.
 CLGI_API std::vector<float> direction_planes(const std::vector<glm::vec4>& rows);

@@ -99,8 +99,8 @@ typedef struct {
     float exponent;  // of the lobe; those narrower than a bin are widened to it
 } GlossyLeaf;
 
-// Albedos of a lobe that reflects all of what arrives from above: at cosine (k / ALBEDO_STEPS)^2
-// between the normal and the light, k from 0 to ALBEDO_STEPS.
+// Albedos of a lobe, as shares of their mean: at cosine (k / ALBEDO_STEPS)^2 between the normal and
+// the light, k from 0 to ALBEDO_STEPS.
 enum { ALBEDO_STEPS = 32 };
 
 // Bins of a row of a glossy leaf, those that fill its last packet included.

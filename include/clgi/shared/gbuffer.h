@@ -128,13 +128,14 @@ enum {
 enum {
     GBUFFER_MATERIAL = 0,
     GBUFFER_TRIANGLE = 1,
-    GBUFFER_DETAIL = 2,  // normal by a normal texture, unit, towards the viewer, by the octahedron:
-                         // 16 bits each of x and y, DETAIL_STEPS; -1: GBUFFER_NORMAL holds
-    GBUFFER_FINISH = 3,  // roughness and metalness by textures, FINISH_BITS each; -1: the
-                         // material's
+    // Normal by a normal texture, unit, towards the viewer, by the octahedron: 16 bits each of x and
+    // y, DETAIL_STEPS; -1: GBUFFER_NORMAL holds.
+    GBUFFER_MAPPED_NORMAL = 2,
+    // Roughness and metalness by textures, METALLIC_ROUGHNESS_BITS each; -1: the material's.
+    GBUFFER_METALLIC_ROUGHNESS = 3,
     GBUFFER_ID_PLANES = 4
 };
-enum { DETAIL_STEPS = 65534, FINISH_BITS = 15, FINISH_STEPS = 32767 };
+enum { DETAIL_STEPS = 65534, METALLIC_ROUGHNESS_BITS = 15, METALLIC_ROUGHNESS_STEPS = 32767 };
 
 // Which groups of planes `resolve` writes.
 enum {

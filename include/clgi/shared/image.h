@@ -49,9 +49,10 @@ enum {
     COMBINE_EMISSION = 4,
     COMBINE_SPECULAR = 8,    // with COMBINE_MATERIALS
     COMBINE_MATERIALS = 16,  // some material's diffuse share is not 1
-    // Lobes reflect indirect light as diffuse surfaces of their mean albedo do; with COMBINE_MATERIALS.
+    // Lobes reflect indirect light as diffuse surfaces of their mean albedo do; with
+    // COMBINE_MATERIALS.
     COMBINE_SPREAD_LOBES = 32,
-    COMBINE_DETAIL = 64  // normals and materials by textures, GBUFFER_DETAIL and GBUFFER_FINISH
+    COMBINE_MAPPED_NORMALS = 64  // GBUFFER_MAPPED_NORMAL holds where it is not -1
 };
 
 // Radiance planes: rgb, stride apart.

@@ -30,15 +30,16 @@ typedef struct {
     float4 emission_v;
     int normal_texture;
     int normal_uv_set;
-    int finish_texture;  // of metalness and roughness
-    int finish_uv_set;
+    int metallic_roughness_texture;  // of metalness and roughness
+    int metallic_roughness_uv_set;
     float4 normal_u;  // w: scale of the normal's x and y
     float4 normal_v;
-    float4 finish_u;  // w: metalness, times the texture's blue
-    float4 finish_v;  // w: roughness, times the texture's green
-} MaterialRecord;     //--- 208 B
+    float4 metallic_roughness_u;  // w: metalness, times the texture's blue
+    float4 metallic_roughness_v;  // w: roughness, times the texture's green
+    float4 surface;   // x: metalness, y: alpha of GGX, z, w: F of what is no metal at 0 and 90 degrees
+} MaterialRecord;     //--- 224 B
 
-enum { MATERIAL_ROWS = 13 };  // float4 rows of a MaterialRecord
+enum { MATERIAL_ROWS = 14 };  // float4 rows of a MaterialRecord
 enum {
     MATERIAL_BASE = 0,
     MATERIAL_EMISSION = 1,
@@ -46,7 +47,8 @@ enum {
     MATERIAL_BASE_UV = 4,  // two rows each
     MATERIAL_EMISSION_UV = 6,
     MATERIAL_NORMAL_UV = 9,
-    MATERIAL_FINISH_UV = 11
+    MATERIAL_METALLIC_ROUGHNESS_UV = 11,
+    MATERIAL_SURFACE = 13
 };
 
 // One texture in the texel pool: RGBA8, mip levels one after the other, each half the size.
