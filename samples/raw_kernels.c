@@ -32,6 +32,7 @@ typedef struct {
     cl_float4 base_u, base_v, emission_u, emission_v;
     cl_int normal_texture, normal_uv_set, metallic_roughness_texture, metallic_roughness_uv_set;
     cl_float4 normal_u, normal_v, metallic_roughness_u, metallic_roughness_v;
+    cl_float4 surface;
 } MaterialRecord;
 
 enum { width = 160, height = 120, pixels = width * height, stride = pixels };
@@ -184,6 +185,7 @@ static cl_mem draw(const View* view) {
     memset(&white, 0, sizeof white);
     white.base_color.s[0] = white.base_color.s[1] = white.base_color.s[2] = 0.5f;
     white.reflectance.s[0] = 1.0f; /* all of it diffuse */
+    white.surface.s[1] = 1.0f;     /* alpha: no lobe needs it here */
     white.base_texture = white.emission_texture = -1;
     const float nothing[256] = {0};
     const cl_mem empty = buffer(sizeof nothing, nothing);

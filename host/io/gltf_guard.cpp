@@ -73,7 +73,8 @@ constexpr const char* schema = R"({
         "roughnessFactor": "number", "*Texture": "$texture"},
     "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": "number"},
                    "KHR_materials_ior": {"ior": "number"},
-                   "KHR_materials_specular": {"specularFactor": "number"},
+                   "KHR_materials_specular": {"specularFactor": "number",
+                       "specularColorFactor": "numbers 3", "*Texture": {"index!": "index textures"}},
                    "KHR_materials_unlit": {}}}, 65536],
 
 "meshes": [{"name": "text", "weights": "numbers", "primitives!": [{

@@ -209,12 +209,17 @@ Material read_material(const tinygltf::Material& source, const std::string& name
     material.metallic = unit(metal_rough.metallicFactor);
     material.roughness = unit(metal_rough.roughnessFactor);
     material.specular = 1.0f;
-    if (const Value* specular = extension(source.extensions, "KHR_materials_specular"))
+    if (const Value* specular = extension(source.extensions, "KHR_materials_specular")) {
         material.specular = unit(number_in(*specular, "specularFactor", 1.0));
+        for (const char* ignored :
+             {"specularTexture", "specularColorFactor", "specularColorTexture"})
+            if (specular->Has(ignored))
+                warnings.add("of KHR_materials_specular only the factor is read, first in " + name);
+    }
     if (const Value* ior = extension(source.extensions, "KHR_materials_ior")) {
         const double index = number_in(*ior, "ior", 1.5);
         const bool known = index == 0.0 || (index >= 1.0 && index <= 1e6);
-        if (!known) warnings.add("an index of refraction below 1 is taken for 1.5");
+        if (!known) warnings.add("an index of refraction outside 1..1e6 is taken for 1.5");
         material.ior = known ? static_cast<float>(index) : 1.5f;
     }
     material.base_texture = read_slot(metal_rough.baseColorTexture, warnings);

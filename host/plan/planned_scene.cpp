@@ -140,7 +140,7 @@ Scene planned_scene(const Scene& scene, const Plan& plan) {
             material.emission = glm::vec3(0.0f);
             material.emission_texture = TextureSlot();
         }
-        if (!plan.on(Effect::gloss)) {  // Lambertian, as bright in even light
+        if (!plan.on(Effect::gloss)) {  // Lambertian, without the white coat
             const float albedo = microfacet_albedo(microfacet_alpha(material.roughness));
             const float share = 1.0f - material.metallic * (1.0f - albedo);
             material.base_color *= glm::vec4(glm::vec3(share), 1.0f);

@@ -78,7 +78,9 @@ double Bsdf::lobe_share(bool glossy) const {
     const double f = surface_.f0 + (surface_.f90 - surface_.f0) * grazing;
     const double lobe = luminance_of((1.0 - metal) * f + metal * (base + (1.0 - base) * grazing));
     const double diffuse = luminance_of((1.0 - metal) * (1.0 - f) * base);
-    return lobe > 0.0 ? std::max(lobe / (lobe + diffuse), 0.1) : 0.0;
+    if (!(lobe > 0.0)) return 0.0;
+    // At grazing angles F of the half vector is far from F of the viewer: neither is drawn rarely.
+    return diffuse > 0.0 ? std::clamp(lobe / (lobe + diffuse), 0.1, 0.75) : 1.0;
 }
 
 float Bsdf::density(const glm::vec3& to_light, bool glossy) const {

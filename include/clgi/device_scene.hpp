@@ -126,13 +126,14 @@ private:
 // What a material reflects of even light: shares of the base colour that are diffuse and in a lobe,
 // a white coat, which lies in the lobe too, and the exponent of the Phong lobe that stands for GGX
 // where light is kept in spherical harmonics or bins (clgi/shared/microfacet.h, docs/materials.md).
-// diffuse + coat + lobe is at most 1. A material without metal and with specular 0 has diffuse 1.
+// diffuse + coat + lobe is at most 1, the exponent in [0,1154]. A material without metal and with specular 0 has diffuse 1.
 struct Reflectance {
     float diffuse, coat, lobe, exponent;
 };
 CLGI_API Reflectance reflectance(const Material& material);
 
-// Metalness, alpha of GGX, and F of what is no metal at normal and at grazing incidence.
+// Metalness in [0,1], alpha of GGX in [0.01,1], and F of what is no metal at normal and at grazing
+// incidence, in [0,1].
 CLGI_API glm::vec4 surface_of(const Material& material);
 
 // The view of a camera for an image of this size, in the scene's local frame.

@@ -61,6 +61,14 @@ TEST(GltfMaterials, HaveAnIndexOfRefractionAndAStrengthOfGloss) {
                                 return warning.find("index of refraction") != std::string::npos;
                             }),
               1);
+    json coloured;
+    coloured["extensions"]["KHR_materials_specular"] = {{"specularColorFactor", {1, 0.5, 0.25}}};
+    GltfDraft other = triangle_draft();
+    other.add("materials", coloured);
+    const std::vector<std::string> said = other.load().warnings;
+    EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& warning) {
+        return warning.find("only the factor is read") != std::string::npos;
+    }));
     // F at normal incidence: ((n - 1) / (n + 1))^2; all of it where the index is 0.
     EXPECT_NEAR(surface_of(scene.materials[0]).z, 1.25 * 1.25 / (3.25 * 3.25), 1e-7);
     EXPECT_NEAR(surface_of(scene.materials[1]).z, 0.01, 1e-8);

@@ -45,16 +45,17 @@ std::vector<float> lobe_albedos(double alpha) {
     if (!(alpha >= double{MICROFACET_LEAST_ALPHA} && alpha <= 1.0))
         throw Error("lobe_albedos: alpha is " + std::to_string(alpha) + ", outside 0.01..1");
     std::vector<double> curve;
-    double mean = 0.0;
+    double mean = 0.0, sum = 0.0;
     for (int k = 0; k <= ALBEDO_STEPS; ++k) {
         const double at = double(k) / double(ALBEDO_STEPS);
         curve.push_back(albedo(alpha, std::max(at * at, least_cosine)));
         // Steps are even in the root of the cosine c: 2 c dc = 4 at^3 d(at).
-        mean += curve.back() * 4.0 * at * at * at * (k == ALBEDO_STEPS ? 0.5 : 1.0) /
-                double(ALBEDO_STEPS);
+        const double weight = 4.0 * at * at * at * (k == ALBEDO_STEPS ? 0.5 : 1.0);
+        mean += weight * curve.back();
+        sum += weight;
     }
     std::vector<float> out;
-    for (const double value : curve) out.push_back(static_cast<float>(value / mean));
+    for (const double value : curve) out.push_back(static_cast<float>(value * sum / mean));
     return out;
 }
 

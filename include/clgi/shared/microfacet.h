@@ -11,6 +11,7 @@ CLGI_SHARED_BEGIN
 
 #define MICROFACET_LEAST_ALPHA 0.01f  // smoother surfaces reflect like this one
 
+// roughness: [0, 1].
 CLGI_INLINE float microfacet_alpha(float roughness) {
     float alpha = roughness * roughness;
     return alpha > MICROFACET_LEAST_ALPHA ? alpha : MICROFACET_LEAST_ALPHA;
@@ -26,7 +27,7 @@ CLGI_INLINE float microfacet_albedo(float alpha) {
     return sum < 1.0f ? sum : 1.0f;
 }
 
-// Albedo of GGX where F is (1 - v.h)^5, within 0.0003; 1/21 of a mirror.
+// Albedo of GGX where F is (1 - v.h)^5, within 0.0003 for the same alpha; 1/21 of a mirror.
 CLGI_INLINE float microfacet_grazing(float alpha) {
     return 1.0f / (((87.33208766f * alpha + 298.14145951f) * alpha + 59.82343764f) * alpha +
                    20.49600209f);
@@ -39,7 +40,8 @@ CLGI_INLINE float microfacet_grazing(float alpha) {
 // of the lobe, from metalness, alpha, and F at normal and at grazing incidence of what is no metal.
 //   A, B       albedos above;  n = 0.11/alpha^2 + 0.55/alpha - 1.2, which has GGX's mean cosine
 //   coat       (1 - m)(f0 (A - B) + f90 B) + m B
-// Of a metal's lobe the share alpha^2 counts as diffuse.
+// Of a metal's lobe the share alpha^2 counts as diffuse. metallic, f0 <= f90: [0, 1]; alpha:
+// [0.01, 1].
 CLGI_INLINE float4 microfacet_means(float metallic, float alpha, float f0, float f90) {
     float grazing = microfacet_grazing(alpha), normal = microfacet_albedo(alpha) - grazing;
     float coat = f0 * normal + f90 * grazing;
