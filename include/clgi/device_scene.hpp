@@ -126,7 +126,8 @@ private:
 // What a material reflects of even light: shares of the base colour that are diffuse and in a lobe,
 // a white coat, which lies in the lobe too, and the exponent of the Phong lobe that stands for GGX
 // where light is kept in spherical harmonics or bins (clgi/shared/microfacet.h, docs/materials.md).
-// diffuse + coat + lobe is at most 1, the exponent in [0,1154]. A material without metal and with specular 0 has diffuse 1.
+// diffuse + coat + lobe is at most 1, the exponent in [0,1154]. A material without metal and with
+// specular 0 has diffuse 1.
 struct Reflectance {
     float diffuse, coat, lobe, exponent;
 };

@@ -1,7 +1,7 @@
-// What of glTF 2.0's reflectance (appendix B) depends on no direction: means over directions of view
-// and light by their cosines, and the Phong lobe that stands for GGX where a method needs a lobe of
-// spherical harmonics or of bins. [Walter07 GGX; Schlick94; derived: integrals, fits by least squares]
-// SPDX-License-Identifier: MIT
+// What of glTF 2.0's reflectance (appendix B) depends on no direction: means over directions of
+// view and light by their cosines, and the Phong lobe that stands for GGX where a method needs a
+// lobe of spherical harmonics or of bins. [Walter07 GGX; Schlick94; derived: integrals, fits by
+// least squares] SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_MICROFACET_H
 #define CLGI_SHARED_MICROFACET_H
 
@@ -29,15 +29,16 @@ CLGI_INLINE float microfacet_albedo(float alpha) {
 
 // Albedo of GGX where F is (1 - v.h)^5, within 0.0003 for the same alpha; 1/21 of a mirror.
 CLGI_INLINE float microfacet_grazing(float alpha) {
-    return 1.0f / (((87.33208766f * alpha + 298.14145951f) * alpha + 59.82343764f) * alpha +
-                   20.49600209f);
+    return 1.0f /
+           (((87.33208766f * alpha + 298.14145951f) * alpha + 59.82343764f) * alpha + 20.49600209f);
 }
 
 // Mean of (1 - v.h)^5 over directions v and l alone.
 #define MICROFACET_DIFFUSE_GRAZING 0.0037f
 
-// x: diffuse share of the base colour, y: coat, white, z: lobe share of the base colour, w: exponent
-// of the lobe, from metalness, alpha, and F at normal and at grazing incidence of what is no metal.
+// x: diffuse share of the base colour, y: coat, white, z: lobe share of the base colour, w:
+// exponent of the lobe, from metalness, alpha, and F at normal and at grazing incidence of what is
+// no metal.
 //   A, B       albedos above;  n = 0.11/alpha^2 + 0.55/alpha - 1.2, which has GGX's mean cosine
 //   coat       (1 - m)(f0 (A - B) + f90 B) + m B
 // Of a metal's lobe the share alpha^2 counts as diffuse. metallic, f0 <= f90: [0, 1]; alpha:
