@@ -1,7 +1,8 @@
 // What of glTF 2.0's reflectance (appendix B) depends on no direction: means over directions of
 // view and light by their cosines, and the Phong lobe that stands for GGX where a method needs a
-// lobe of spherical harmonics or of bins. [Walter07 GGX; Schlick94; derived: integrals, fits by
-// least squares] SPDX-License-Identifier: MIT
+// lobe of spherical harmonics or of bins.
+//                       [Walter07, GGX; Schlick94; derived: integrals, fits by least squares]
+// SPDX-License-Identifier: MIT
 #ifndef CLGI_SHARED_MICROFACET_H
 #define CLGI_SHARED_MICROFACET_H
 
