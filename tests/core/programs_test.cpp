@@ -54,6 +54,15 @@ TEST(Programs, AreOneForTheKernelsOfAFolderWithTheSameOptions) {
                  DeviceError);
 }
 
+TEST(Programs, AreBuiltForEachOwnerThatAsks) {
+    const test::Device& on = test::device();
+    const Programs one(on.context, on.device), other(on.context, on.device);
+    build({one.kernel("image", "count"), other.kernel("image", "count"),
+           one.kernel("image", "place")});
+    EXPECT_EQ(one.built(), 2u);
+    EXPECT_EQ(other.built(), 1u);
+}
+
 // Kernels of the folder "transfer" that would not build as one program do so each alone.
 TEST(Programs, BuildAloneWhatDoesNotBuildTogether) {
     const Programs programs(test::device().context, test::device().device);

@@ -22,8 +22,9 @@ public:
     // Builds once. Throws DeviceError with the compiler's log.
     void build();
 
-    // Builds kernels of equal options as one program: a compiler takes longer to read the built-in
-    // functions of OpenCL C than most kernels. What does not build with others is built alone.
+    // Builds kernels of one context and device, with equal options and different files, as one
+    // program: a compiler takes longer to read the built-in functions of OpenCL C than most
+    // kernels. What does not build with others is built alone.
     static void build_together(const std::vector<std::shared_ptr<KernelSlot>>& slots);
 
     // calls use(kernel) while no other thread sets arguments of it or enqueues it.
@@ -40,6 +41,7 @@ public:
     bool built() const { return built_; }
 
     const cl::Context& context() const { return context_; }
+    const cl::Device& device() const { return device_; }
     const std::string& file() const { return file_; }
     const std::string& options() const { return options_; }
 

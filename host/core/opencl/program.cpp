@@ -9,6 +9,7 @@
 #include <future>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <utility>
 
 #include "core/opencl/embedded.hpp"
@@ -129,14 +130,21 @@ void build(const std::vector<PassKernel>& kernels) {
         std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file
         bool parallel = true;
     };
-    std::map<std::pair<cl_context, std::string>, Program> programs;  // by folder and options
+    // By context, device, folder and options, and by a number: what several Programs have of the
+    // same kernel goes into programs of its own.
+    std::map<std::tuple<cl_context, cl_device_id, std::string, int>, Program> programs;
     for (const PassKernel& kernel : kernels) {
         if (!kernel.slot || kernel.slot->built()) continue;
-        const std::string& file = kernel.slot->file();
-        Program& program = programs[{kernel.slot->context()(),
-                                     file.substr(0, file.find('/')) + kernel.slot->options()}];
-        program.slots[file] = kernel.slot;
-        program.parallel = program.parallel && kernel.parallel;
+        const KernelSlot& slot = *kernel.slot;
+        const std::string alike = slot.file().substr(0, slot.file().find('/')) + slot.options();
+        for (int number = 0;; ++number) {
+            Program& program = programs[{slot.context()(), slot.device()(), alike, number}];
+            std::shared_ptr<KernelSlot>& held = program.slots[slot.file()];
+            if (held && held != kernel.slot) continue;
+            held = kernel.slot;
+            program.parallel = program.parallel && kernel.parallel;
+            break;
+        }
     }
     std::vector<std::future<void>> builds;
     for (const auto& [key, program] : programs) {
