@@ -107,41 +107,31 @@ TEST(Kernels, BuildWithoutMacros) {
     expect_content(sources, "-Werror ");
 }
 
-TEST(Kernels, BuildSixteenLanesWide) {
-    expect_content(folders_with("CLGI_WIDTH"), "-Werror -DCLGI_WIDTH=16");
+// A macro, of the kernels that name it, and the options it is tried with. Eight lanes differ from
+// four and sixteen in the types of kernels/packet.clh alone.
+struct Form {
+    const char *name, *macro, *options;
+};
+
+class KernelForms : public testing::TestWithParam<Form> {};
+
+TEST_P(KernelForms, Build) {
+    if (std::string(GetParam().macro) == "CLGI_ATOMIC64" && !has_atomics64())
+        GTEST_SKIP() << "the device has no cl_khr_int64_extended_atomics";
+    expect_content(folders_with(GetParam().macro), std::string("-Werror ") + GetParam().options);
 }
 
-TEST(Kernels, BuildWithNearLists) {
-    expect_content(folders_with("CLGI_NEAR"), "-Werror -DCLGI_WIDTH=4 -DCLGI_NEAR");
-}
-
-TEST(Kernels, BuildForGroups) {
-    expect_content(folders_with("CLGI_GROUPS"), "-Werror -DCLGI_GROUPS");
-}
-
-TEST(Kernels, BuildWith64BitAtomics) {
-    if (!has_atomics64()) GTEST_SKIP() << "the device has no cl_khr_int64_extended_atomics";
-    expect_content(folders_with("CLGI_ATOMIC64"), "-Werror -DCLGI_WIDTH=4 -DCLGI_ATOMIC64");
-}
-
-TEST(Kernels, BuildForDepthAlone) {
-    expect_content(folders_with("CLGI_DEPTH_ONLY"), "-Werror -DCLGI_WIDTH=4 -DCLGI_DEPTH_ONLY");
-}
-
-TEST(Kernels, BuildInHalf) {
-    expect_content(folders_with("CLGI_HALF"), "-Werror -DCLGI_WIDTH=8 -DCLGI_HALF");
-}
-
-TEST(Kernels, BuildWithoutTextures) {
-    expect_content(folders_with("CLGI_NO_TEXTURES"), "-Werror -DCLGI_WIDTH=4 -DCLGI_NO_TEXTURES");
-}
-
-// Four lanes wide. Eight differ from four and sixteen in the types of kernels/packet.clh alone.
-TEST(Kernels, BuildWithFastMath) {
-    const auto all = folders_with("");
-    EXPECT_GT(all.size(), 8u);
-    expect_content(all, "-Werror -DCLGI_WIDTH=4 -cl-fast-relaxed-math");
-}
+INSTANTIATE_TEST_SUITE_P(
+    Kernels, KernelForms,
+    testing::Values(Form{"sixteen_lanes", "CLGI_WIDTH", "-DCLGI_WIDTH=16"},
+                    Form{"near_lists", "CLGI_NEAR", "-DCLGI_WIDTH=4 -DCLGI_NEAR"},
+                    Form{"groups", "CLGI_GROUPS", "-DCLGI_GROUPS"},
+                    Form{"atomics64", "CLGI_ATOMIC64", "-DCLGI_WIDTH=4 -DCLGI_ATOMIC64"},
+                    Form{"depth_alone", "CLGI_DEPTH_ONLY", "-DCLGI_WIDTH=4 -DCLGI_DEPTH_ONLY"},
+                    Form{"half", "CLGI_HALF", "-DCLGI_WIDTH=8 -DCLGI_HALF"},
+                    Form{"no_textures", "CLGI_NO_TEXTURES", "-DCLGI_WIDTH=4 -DCLGI_NO_TEXTURES"},
+                    Form{"fast_math", "", "-DCLGI_WIDTH=4 -cl-fast-relaxed-math"}),
+    [](const auto& form) { return std::string(form.param.name); });
 
 // The library flattens its kernels itself: byte for byte what is installed.
 TEST(KernelSources, AreTheInstalledFiles) {
