@@ -52,16 +52,18 @@ Sums sums(double alpha, double slant, int steps = 150, int turns = 64) {
     Sums out;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < turns; ++j) {
-            const double share = (i + 0.5) / steps, round = 2 * pi * (j + 0.5) / turns;
-            const double tangent = alpha * std::sqrt(share / (1 - share));
+            // Even steps of the cube root of what is steeper: light near the horizon needs it.
+            const double step = (i + 0.5) / steps, steeper = step * step * step;
+            const double round = 2 * pi * (j + 0.5) / turns;
+            const double tangent = alpha * std::sqrt((1 - steeper) / steeper);
             const double cosine = 1 / std::sqrt(1 + tangent * tangent);
             const glm::dvec3 half(tangent * cosine * std::cos(round),
                                   tangent * cosine * std::sin(round), cosine);
             const double vh = glm::dot(viewer, half);
             const glm::dvec3 light = 2 * vh * half - viewer;
             if (vh <= 0 || light.z <= 0) continue;
-            const double value =
-                mask(light.z) * mask(viewer.z) * light.z * 4 * vh / cosine / (steps * turns);
+            const double value = 3 * step * step * mask(light.z) * mask(viewer.z) * light.z * 4 *
+                                 vh / cosine / (steps * turns);
             out.albedo += value;
             out.grazing += value * std::pow(1 - vh, 5);
             out.cosine += value * glm::dot(light, mirror);
@@ -105,8 +107,8 @@ TEST(MicrofacetMeans, AreTheIntegralsOverAllDirections) {
     for (const double alpha : {0.01, 0.03, 0.09, 0.17, 0.25, 0.36, 0.49, 0.64, 0.81, 1.0}) {
         const Sums wanted = means(alpha);
         const auto a = static_cast<float>(alpha);
-        EXPECT_NEAR(microfacet_albedo(a), wanted.albedo, 2.5e-3) << alpha;
-        EXPECT_NEAR(microfacet_grazing(a), wanted.grazing, 5e-4) << alpha;
+        EXPECT_NEAR(microfacet_albedo(a), wanted.albedo, 8e-4) << alpha;
+        EXPECT_NEAR(microfacet_grazing(a), wanted.grazing, 4e-4) << alpha;
         const float exponent = microfacet_means(1.0f, a, 0.0f, 0.0f).w;
         if (alpha > 0.62) {
             EXPECT_EQ(exponent, 0.0f) << alpha;

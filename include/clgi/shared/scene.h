@@ -36,7 +36,7 @@ typedef struct {
     float4 normal_v;
     float4 metallic_roughness_u;  // w: metalness, times the texture's blue
     float4 metallic_roughness_v;  // w: roughness, times the texture's green
-    float4 surface;   // x: metalness, y: alpha of GGX, z, w: F of what is no metal at 0 and 90 degrees
+    float4 surface;  // x: metalness, y: alpha of GGX, z, w: F of no metal at 0 and 90 degrees
 } MaterialRecord;     //--- 224 B
 
 enum { MATERIAL_ROWS = 14 };  // float4 rows of a MaterialRecord
@@ -47,8 +47,7 @@ enum {
     MATERIAL_BASE_UV = 4,  // two rows each
     MATERIAL_EMISSION_UV = 6,
     MATERIAL_NORMAL_UV = 9,
-    MATERIAL_METALLIC_ROUGHNESS_UV = 11,
-    MATERIAL_SURFACE = 13
+    MATERIAL_METALLIC_ROUGHNESS_UV = 11
 };
 
 // One texture in the texel pool: RGBA8, mip levels one after the other, each half the size.
