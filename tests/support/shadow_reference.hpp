@@ -3,7 +3,8 @@
 //   lit = bilinear weight of those of the four texels around that do not block. A texel blocks if
 //         what it shows is nearer than the receiver's own plane there and nearer than the receiver,
 //         both less a bias. If some texel does not, the planes of the others count: one blocks if
-//         the plane that it shows, followed to the receiver, is nearer than that, too
+//         the plane that it shows, followed to the receiver, is nearer than that, too. If all are
+//         nearer than the receiver, and so are all planes, all block
 //   bias = texel_bias texels at 45 degrees + 1/64 of the plane's slope in x and y + 1e-6
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -112,7 +113,7 @@ inline double lit_share(const Shadowed& at, const std::vector<std::uint64_t>& vi
     if (at.view == nullptr) return 1.0;
     const double fx = at.x - std::floor(at.x), fy = at.y - std::floor(at.y);
     double own = 0.0, all = 0.0;  // weights of texels that do not block, without and with planes
-    bool some = false;
+    bool some = false, within = false, follows = false;
     for (int ky = 0; ky < 2; ++ky)
         for (int kx = 0; kx < 2; ++kx) {
             const auto shown = [&](int x, int y) {
@@ -134,12 +135,15 @@ inline double lit_share(const Shadowed& at, const std::vector<std::uint64_t>& vi
             const double moved =
                 8 * 0x1p-24 *
                 (std::abs(rise_x) * at.view->width + std::abs(rise_y) * at.view->height);
-            if (seen > limit && std::abs(plane - nearest) < 2.0 * rounding + moved)
-                *doubtful = true;
+            if (std::abs(seen - nearest) < rounding) *doubtful = true;
+            if (std::abs(plane - nearest) < 2.0 * rounding + moved) *doubtful = true;
             some |= seen <= limit;
+            within |= seen <= nearest;
+            follows |= plane <= nearest;
             if (seen <= limit) own += weight;
             if (seen <= limit || plane <= nearest) all += weight;
         }
+    if (!within && !follows) return 0.0;
     return some ? all : own;
 }
 
