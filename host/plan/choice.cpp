@@ -13,6 +13,7 @@ namespace {
 
 constexpr double noticeable = 0.02;  // of the light that surfaces reflect, as gloss
 constexpr double few_backs = 0.05;   // of the area, double-sided
+constexpr double elsewhere = 10.0;   // so many times brighter than the picture is what surfaces reflect
 // Beyond so many triangles, links for all poses take minutes.
 constexpr std::size_t most_moving_triangles = 30000;
 // With more glossy triangles, each of which may be a leaf, a picture takes seconds.
@@ -49,6 +50,8 @@ Choice candidates_for(const Plan& plan) {
     if (sky) return {{Method::irradiance_cache}, "the sky lights what the picture sees"};
     if (sees_little(plan))
         return {{Method::irradiance_cache}, "the picture sees a small part of the scene"};
+    if (plan.probe && plan.probe->reflected > elsewhere)
+        return {{Method::irradiance_cache}, "little of the light reaches the picture"};
     if (analysis.surfaces.gloss > noticeable && plan.on(Effect::gloss) &&
         analysis.surfaces.triangles <= most_glossy_triangles)
         return {{Method::antiradiance}, "glossy surfaces reflect indirect light"};

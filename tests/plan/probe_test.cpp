@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "frames.hpp"
+#include "scenes.hpp"
 #include "slanted_room.hpp"
 
 namespace clgi {
@@ -61,6 +62,33 @@ TEST(Probe, TakesTheErrorOfDirectLightFromTwoPictures) {
     // The same kernels and the same sums, in another order.
     EXPECT_NEAR(found.direct_error / wanted, 1.0, 1e-9);
     EXPECT_EQ(found.first_bounce, 0.0);  // it is off
+}
+
+// The sun over a room: with a roof next to nothing of what it lights is seen, without one much is.
+TEST(Plan, GathersWhereLittleOfTheLightArrives) {
+    for (const bool roofed : {true, false}) {
+        Scene scene = test::plain_scene({0.5f, 0.6f, 0.4f});
+        test::add_box(scene, {-0.2, -0.2, -0.2}, {4.2, 0, 5.2}, 1);
+        for (const double z : {-0.2, 5.0}) test::add_box(scene, {-0.2, 0, z}, {4.2, 3, z + 0.2}, 1);
+        for (const double x : {-0.2, 4.0}) test::add_box(scene, {x, 0, 0}, {x + 0.2, 3, 5}, 1);
+        if (roofed) {  // but for a slit of 2 cm
+            test::add_box(scene, {-0.2, 3, -0.2}, {2, 3.1, 5.2}, 1);
+            test::add_box(scene, {2.02, 3, -0.2}, {4.2, 3.1, 5.2}, 1);
+        }
+        scene.lights = {test::directional_light({0.0f, -1.0f, 0.2f}, 1e4f)};
+        const Camera camera = test::camera_at({0.5, 1.5, 4.5}, {1.0, 1.6, 0}, 0.8f);
+        PlanRequest request;
+        request.width = 64;
+        request.height = 48;
+        const Plan plan =
+            make_plan(test::device().queue, test::programs(), scene, camera, request);
+        ASSERT_TRUE(plan.probe);
+        EXPECT_EQ(plan.probe->reflected > 10.0, roofed);
+        EXPECT_EQ(plan.why == "little of the light reaches the picture", roofed) << plan.why;
+        if (roofed) {
+            EXPECT_EQ(plan.method, Method::irradiance_cache);
+        }
+    }
 }
 
 }  // namespace
