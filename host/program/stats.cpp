@@ -90,6 +90,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
         out["cache"] = {{"seen", record.cache->seen},
                         {"met", record.cache->met},
                         {"refined", record.cache->refined},
+                        {"spots", record.cache->spots},
                         {"reflections", record.cache->bounces},
                         {"converged", record.cache->converged}};
     if (record.antiradiance) {

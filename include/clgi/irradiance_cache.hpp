@@ -17,11 +17,14 @@
 namespace clgi {
 
 struct IrradianceCacheOptions {
-    int seen = 400;   // records on what the picture shows, about; 1 to 20000
-    int met = 1200;   // records on what these see, and what those see in turn; 0 to 20000
+    int seen = 400;     // records on what the picture shows, about; 1 to 20000
+    int met = 1200;     // records on what these see, and what those see in turn; 0 to 20000
     int refined = 300;  // records more where light changes between those that are seen; 0 to 20000
-    int face = 32;    // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
-    int bounces = 0;  // reflections of light before it reaches a record; 0: until it rests
+    int face = 32;      // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
+    int bounces = 0;    // reflections of light before it reaches a record; 0: until it rests
+    // VPLs in what lights light of small places, such as the sun's spot behind a hole, which would
+    // fall between the pixels of hemicubes; 0 to 4096.
+    int spots = 128;
     // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false:
     // those within the scene's focus by points with shadow maps (EmitterOptions::area_samples),
     // whose shadows are sharper.
@@ -34,7 +37,8 @@ struct IrradianceCacheOptions {
 // brightest.
 struct IrradianceCacheStatus : SolverStatus {
     std::size_t seen = 0, met = 0, refined = 0;  // records
-    int bounces = 0;                // reflections that were made
+    std::size_t spots = 0;                       // VPLs in small lit places
+    int bounces = 0;                             // reflections that were made
 };
 
 // What a picture will allocate, without the picture's own buffers, and take, both about, before any

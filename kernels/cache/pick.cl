@@ -3,9 +3,10 @@
 //                                          [derived: importance from the eye, as Segovia06 has it]
 //
 // Work size    1D, one work-item a pick; any local size; tail guarded
-// Writes       its own place of the ten planes; a normal of 0 where the direction leaves the scene
+// Writes       its own place of the planes; a normal of 0 where the direction leaves the scene
 //              or meets a back that nothing is reflected by
 // SPDX-License-Identifier: MIT
+#include "cache/sees.clh"
 #include "clgi/shared/cache.h"
 #include "clgi/shared/halton.h"
 #include "gbuffer/hit.clh"
@@ -53,17 +54,25 @@ kernel void cache_pick(
     packet_store(surface.front, front);
     int sends = triangle >= 0 &&
                 (front[0] || (triangles[triangle].w & (uint)TRIANGLE_DOUBLE_SIDED));
-    floatp values[PICK_PLANES] = {surface.x,           surface.y,           surface.z,
+    floatp values[RECORD_PLANES] = {surface.x,           surface.y,           surface.z,
                                     surface.normal_x,    surface.normal_y,    surface.normal_z,
-                                    surface.geometric_x, surface.geometric_y, surface.geometric_z,
-                                   luminance(surface.base_r, surface.base_g, surface.base_b)};
-    if (sends) {
-        float4 shares = materials[triangles[triangle].w & TRIANGLE_MATERIAL].reflectance;
-        values[PICK_REFLECTANCE] = (shares.x + shares.z) * values[PICK_REFLECTANCE] + shares.y;
-    }
-    for (uint plane = 0; plane < PICK_PLANES; ++plane) {
+                                    surface.geometric_x, surface.geometric_y, surface.geometric_z};
+    for (uint plane = 0; plane < RECORD_PLANES; ++plane) {
         float lanes[CLGI_WIDTH];
         packet_store(values[plane], lanes);
         places[plane * params.pick_stride + item] = sends ? lanes[0] : 0.0f;
     }
+    float red[CLGI_WIDTH], green[CLGI_WIDTH], blue[CLGI_WIDTH];
+    packet_store(surface.base_r, red);
+    packet_store(surface.base_g, green);
+    packet_store(surface.base_b, blue);
+    float3 albedo = (float3)(0.0f);
+    if (sends)
+        albedo = cache_albedo(materials[triangles[triangle].w & TRIANGLE_MATERIAL].reflectance,
+                              (float3)(red[0], green[0], blue[0]));
+    places[PICK_REFLECTANCE * params.pick_stride + item] =
+        luminance(albedo.x, albedo.y, albedo.z);
+    places[PICK_ALBEDO * params.pick_stride + item] = albedo.x;
+    places[(PICK_ALBEDO + 1) * params.pick_stride + item] = albedo.y;
+    places[(PICK_ALBEDO + 2) * params.pick_stride + item] = albedo.z;
 }

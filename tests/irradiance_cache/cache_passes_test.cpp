@@ -244,11 +244,16 @@ TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
         queue.enqueueReadBuffer(places, CL_TRUE, 0, found.size() * sizeof(float), found.data());
         // Half a metal of alpha 0.25: integrals of D V, and of D V (1 - v.h)^5.
         const float albedo = 0.8793f, grazing = 0.018f;
-        const float reflects = (0.5f + 0.5f * (albedo - grazing)) *
-                                   (0.2126f * 0.2f + 0.7152f * 0.5f + 0.0722f * 0.7f) +
-                               0.5f * grazing;
-        for (std::size_t i = 0; i < 8; ++i)
-            EXPECT_NEAR(found[PICK_REFLECTANCE * plane + i], reflects, 1e-3f);
+        const auto reflects = [&](float base) {
+            return (0.5f + 0.5f * (albedo - grazing)) * base + 0.5f * grazing;
+        };
+        const float bases[] = {0.2f, 0.5f, 0.7f};
+        for (std::size_t i = 0; i < 8; ++i) {
+            EXPECT_NEAR(found[PICK_REFLECTANCE * plane + i],
+                        reflects(0.2126f * 0.2f + 0.7152f * 0.5f + 0.0722f * 0.7f), 1e-3f);
+            for (std::size_t c = 0; c < 3; ++c)
+                EXPECT_NEAR(found[(PICK_ALBEDO + c) * plane + i], reflects(bases[c]), 1e-3f) << c;
+        }
     }
     EXPECT_NE(picked[0], picked[1]);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/advanced/planes.hpp>
+#include <numeric>
 #include <string>
 
 #include "core/kit/ranges.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr const char* cache_owner = "irradiance-cache";
 constexpr std::uint32_t area_samples_at_once = 4;
+constexpr std::size_t most_chosen = 8192;  // places of other hemicubes than those of records
 
 IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene& scene) {
     need_range(cache_owner, "seen", options.seen, 1, 20000);
@@ -20,6 +22,7 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     need_range(cache_owner, "refined", options.refined, 0, 20000);
     need_range(cache_owner, "face", options.face, 8, 256);
     need_range(cache_owner, "bounces", options.bounces, 0, 1000);
+    need_range(cache_owner, "spots", options.spots, 0, 4096);
     if (options.face % 8 != 0)
         throw Error(std::string(cache_owner) + ": face is " + std::to_string(options.face) +
                     ", a multiple of 8 needed");
@@ -72,8 +75,12 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     BufferTable all = picture.table();
     add_to(all);
     picture.allocate(all);
+    std::vector<std::uint32_t> order(std::max<std::size_t>(capacity, most_chosen));
+    std::iota(order.begin(), order.end(), 0u);
+    picture.record().write(chosen, order.data(), order.size() * sizeof(std::uint32_t));
     passes.build({"link", "bounce", "show"});
     if (options.met > 0) passes.build({"pick", "weigh"});
+    if (casts_spots()) passes.build({"mark", "tally", "spots", "shine"});
     cubes.build({"cubes", "raster_views"});
 }
 
@@ -81,7 +88,8 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     const char* lower = "seen, met, refined or face";
     const std::size_t word = sizeof(float), plane = stride * word;
     const auto face = static_cast<std::size_t>(options.face);
-    pick_stride = plane_stride(capacity * picks_per_record);
+    const auto vpls = static_cast<std::size_t>(options.spots);  // whose picks are scattered
+    pick_stride = plane_stride(std::max(capacity, vpls) * picks_per_record);
     table.add(b.planes, "records", lower, RECORD_PLANES * plane);
     table.add(b.views, "hemicubes", lower, 5 * capacity * sizeof(View));
     table.add(b.visibility, "what hemicubes see", lower,
@@ -89,12 +97,13 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     table.add(b.rows, "transport", lower, 3 * plane * capacity);
     for (cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
         table.add(*light, "light", lower, 3 * plane);
-    table.add(chosen, "records", lower, plane);
+    table.add(chosen, "records", lower, std::max<std::size_t>(capacity, most_chosen) * word);
     table.add(doubt, "doubt", "width or height", word * picture.stride());
     table.add(places, "places", lower, PICK_PLANES * pick_stride * word);
     for (cl::Buffer* of : {&worth, &nearest}) table.add(*of, "places", lower, pick_stride * word);
     table.add(b.sky, "the sky", "the environment",
               std::max<std::size_t>(16, sky.texels.size() * word));
+    add_spots(table);
 }
 
 CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count) const {
@@ -121,6 +130,7 @@ CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count)
                                      [](const Emitter& one) { return one.kind != EMITTER_AREA; });
     out.emitter_count = static_cast<std::uint32_t>(emitters.size());
     out.whole_emitters = static_cast<std::uint32_t>(whole);  // they come first
+    out.spots = has_tiles ? 1 : 0;
     out.emitter_step =
         std::max(1u, (out.emitter_count - out.whole_emitters) / area_samples_at_once);
     return out;
@@ -144,6 +154,7 @@ cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
     if (s.records.empty()) {
         s.picture.record().fill(s.picture.irradiance(), 0);
     } else {
+        s.find_spots(true);
         s.link(0);
         s.light(s.options.bounces);
         s.show();

@@ -45,6 +45,10 @@ void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
     record("cache.link", count, [&](const WaitList& wait) {
         return passes.link(record.queue(), of, tree, scene, picture.emitter_buffers(), b, wait);
     });
+    if (spots.sample_count == 0) return;
+    record("cache.shine", count * spots.sample_count, [&](const WaitList& wait) {
+        return passes.shine(record.queue(), of, spots, scene, b, spot, wait);
+    });
 }
 
 void IrradianceCache::State::grow(cl::Buffer& buffer, std::size_t size) {

@@ -31,6 +31,24 @@ void need_tree(const PassKernel& pass, const CacheTree& tree, const CacheBuffers
     need(pass, "planes", b.planes, RECORD_PLANES * word * tree.stride);
 }
 
+std::size_t seen_bytes(const DeviceScene& scene) {
+    return (2 * std::size_t{scene.info().vertex_count} + 31) / 32 * word;
+}
+
+// size: pixels a side of every view.
+void need_spots(const PassKernel& pass, const SpotParams& params, std::uint32_t size,
+                const DeviceScene& scene, const EmitterBuffers& emitters, const SpotBuffers& b) {
+    if (size == 0 || size % SPOT_TILES != 0)
+        throw Error(pass.name + ": size is " + std::to_string(size) + ", a multiple of " +
+                    std::to_string(SPOT_TILES) + " needed");
+    need(pass, "seen", b.seen, seen_bytes(scene));
+    need(pass, "emitters.views", emitters.views, sizeof(View) * emitters.view_count);
+    need(pass, "of", b.of, params.view_count * sizeof(SpotView));
+    need(pass, "views", b.views, params.view_count * sizeof(View));
+    need(pass, "visibility", b.visibility, sizeof(std::uint64_t) * params.view_count * size * size);
+    need(pass, "wanted", b.wanted, SPOT_TILES_A_VIEW * word * emitters.view_count);
+}
+
 }  // namespace
 
 CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) {
@@ -46,10 +64,14 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     bounce_ = few("bounce");
     weigh_ = few("weigh");
     show_ = programs.kernel("cache", "show", options);
+    mark_ = few("mark");
+    tally_ = few("tally");
+    spots_ = few("spots");
+    shine_ = few("shine");
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
-    build_named({pick_, link_, bounce_, weigh_, show_}, passes);
+    build_named({pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_}, passes);
 }
 
 cl::Event CachePasses::pick(const cl::CommandQueue& queue, const CacheParams& params,
@@ -80,10 +102,59 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
     need_range("cache.link", "whole_emitters", params.whole_emitters, 0u, params.emitter_count);
     need_depth_words(link_, 1, emitters.kind);
     need_emitters(link_, emitters, params.emitter_count);
+    if (params.spots)
+        need(link_, "by_spots", b.by_spots, SPOT_TILES_A_VIEW * word * emitters.view_count);
     return launch(link_, queue, params.count * items_each(link_, groups_), wait, params, tree,
                   scene.info(), b.views, b.visibility, b.nodes, b.lists, b.planes, b.sky, scene,
-                  emitters.emitters, emitters.views, emitters.visibility, b.rows, b.base,
-                  b.reflected);
+                  emitters.emitters, emitters.views, emitters.visibility, b.by_spots, b.rows,
+                  b.base, b.reflected);
+}
+
+cl::Event CachePasses::mark(const cl::CommandQueue& queue, const CacheParams& params,
+                            const DeviceScene& scene, const CacheBuffers& b,
+                            const SpotBuffers& spots, const WaitList& wait) const {
+    need_records(mark_, params, b);
+    need(mark_, "seen", spots.seen, seen_bytes(scene));
+    return launch(mark_, queue, std::size_t{5} * params.count, wait, params, b.views, b.visibility,
+                  scene, spots.seen);
+}
+
+cl::Event CachePasses::tally(const cl::CommandQueue& queue, const SpotParams& params,
+                             std::uint32_t size, const DeviceScene& scene,
+                             const EmitterBuffers& emitters, const SpotBuffers& spots,
+                             const WaitList& wait) const {
+    need_spots(tally_, params, size, scene, emitters, spots);
+    const std::size_t tiles = std::size_t{params.view_count} * SPOT_TILES_A_VIEW;
+    need(tally_, "count", spots.count, tiles * word);
+    need(tally_, "area", spots.area, tiles * word);
+    return launch(tally_, queue, tiles, wait, params, spots.of, spots.views, spots.visibility,
+                  emitters.views, emitters.emitters, spots.seen, spots.wanted, scene, spots.count,
+                  spots.area);
+}
+
+cl::Event CachePasses::spots(const cl::CommandQueue& queue, const SpotParams& params,
+                             std::uint32_t size, const DeviceScene& scene,
+                             const EmitterBuffers& emitters, const SpotBuffers& spots,
+                             const WaitList& wait) const {
+    need_spots(spots_, params, size, scene, emitters, spots);
+    need(spots_, "samples", spots.samples, params.sample_count * sizeof(SpotSample));
+    need(spots_, "spots", spots.spots, params.sample_count * sizeof(Vpl));
+    return launch(spots_, queue, params.sample_count, wait, params, scene.info(), spots.of,
+                  spots.views, spots.visibility, emitters.views, spots.seen, spots.wanted, scene,
+                  emitters.emitters, spots.samples, spots.spots);
+}
+
+cl::Event CachePasses::shine(const cl::CommandQueue& queue, const CacheParams& params,
+                             const SpotParams& of, const DeviceScene& scene, const CacheBuffers& b,
+                             const SpotBuffers& spots, const WaitList& wait) const {
+    need_records(shine_, params, b);
+    need(shine_, "spots", spots.spots, of.sample_count * sizeof(Vpl));
+    need(shine_, "reflected", b.reflected, 3 * word * params.stride);
+    need(shine_, "hemicubes.views", spots.hemicubes.views, 5 * sizeof(View) * of.sample_count);
+    need(shine_, "hemicubes.visibility", spots.hemicubes.visibility,
+         3 * sizeof(std::uint64_t) * params.size * params.size * of.sample_count);
+    return launch(shine_, queue, params.count, wait, params, of, spots.hemicubes.views,
+                  spots.hemicubes.visibility, b.planes, scene, spots.spots, b.reflected);
 }
 
 cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,

@@ -34,42 +34,43 @@ std::vector<CacheRecord> IrradianceCache::State::read_records(const cl::Buffer& 
 
 void IrradianceCache::State::write_records() {
     std::vector<float> values(RECORD_PLANES * std::size_t{stride}, 0.0f);
-    std::vector<std::uint32_t> order(stride);
     for (std::size_t i = 0; i < records.size(); ++i) {
         const glm::vec3 parts[] = {records[i].position, records[i].normal, records[i].geometric};
         for (int part = 0; part < 3; ++part)
             for (int c = 0; c < 3; ++c)
                 values[static_cast<std::size_t>(3 * part + c) * stride + i] = parts[part][c];
-        order[i] = static_cast<std::uint32_t>(i);
     }
     picture.record().write(b.planes, values.data(), values.size() * sizeof(float));
-    picture.record().write(chosen, order.data(), order.size() * sizeof(std::uint32_t));
 }
 
 void IrradianceCache::State::draw(std::size_t first) {
-    const auto from = static_cast<std::uint32_t>(first);
-    const auto count = static_cast<std::uint32_t>(records.size() - first);
-    const auto face = static_cast<std::uint32_t>(options.face);
+    draw_cubes({b.planes, chosen, b.views, b.visibility, stride,
+                static_cast<std::uint32_t>(options.face), first, records.size() - first});
+}
+
+void IrradianceCache::State::draw_cubes(const Hemicubes& of) {
+    const auto from = static_cast<std::uint32_t>(of.first),
+               points = static_cast<std::uint32_t>(of.count);
     const float lift = lift_share * scene.frame().detail;
     CubeParams params{};
-    params.point_count = count;
+    params.point_count = points;
     params.faces = 5;
-    params.size = face;
+    params.size = of.face;
     params.first_view = 5 * from;
-    params.first_pixel = 3 * face * face * from;
-    params.stride = stride;
+    params.first_pixel = 3 * of.face * of.face * from;
+    params.stride = of.stride;
     params.lift = lift;
     params.near = 0.5f * lift;
     params.first_chosen = from;
     params.turned = 1;
     Recorder& record = picture.record();
-    record("gbuffer.cubes", count, [&](const WaitList& wait) {
-        return cubes.cubes(record.queue(), params, b.planes, chosen, b.views, wait);
+    record("gbuffer.cubes", points, [&](const WaitList& wait) {
+        return cubes.cubes(record.queue(), params, of.planes, of.chosen, of.views, wait);
     });
-    const ViewSpan span{5 * from, 5 * count, face, face,
-                        std::size_t{3} * face * face * records.size()};
+    const ViewSpan span{5 * from, 5 * points, of.face, of.face,
+                        std::size_t{3} * of.face * of.face * (of.first + of.count)};
     record("gbuffer.raster_views", span.count, [&](const WaitList& wait) {
-        return cubes.raster_views(record.queue(), span, b.views, scene, b.visibility,
+        return cubes.raster_views(record.queue(), span, of.views, scene, of.visibility,
                                   Pixels::visibility, wait);
     });
 }
@@ -150,6 +151,7 @@ void IrradianceCache::State::choose(const View& view) {
     const std::size_t weighed = 2 * met / 3, spread = met - weighed;
     meet(0, spread - spread / 3);
     meet(found.seen, spread / 3);
+    find_spots(false);
     for (int round = 0; round < weighings; ++round) weigh(weighed / weighings);
     found.met = records.size() - found.seen;
 }

@@ -24,6 +24,13 @@ struct IrradianceCache::State {
     void write_records();
     // The scene as records from `first` on see it.
     void draw(std::size_t first);
+    // Hemicubes of `count` places from `first` on; chosen: which of those that planes have.
+    struct Hemicubes {
+        const cl::Buffer &planes, &chosen, &views, &visibility;
+        std::uint32_t stride, face;
+        std::size_t first, count;
+    };
+    void draw_cubes(const Hemicubes& of);
     CacheParams params(std::size_t first, std::size_t count) const;
     // What the records from `first` on see becomes up to `count` more records.
     void meet(std::size_t first, std::size_t count);
@@ -48,6 +55,20 @@ struct IrradianceCache::State {
     // Whether the last step changed little.
     bool rests();
     void show();
+    // Rows of the buffers for VPLs in small lit places; finds these places, as the records see
+    // them.
+    void add_spots(BufferTable& table);
+    void find_spots(bool finely);
+    bool casts_spots() const;
+    struct SpotTally {
+        std::vector<std::uint32_t> count;
+        std::vector<float> area;
+    };
+    SpotTally tally_spots(const std::vector<SpotView>& of, std::vector<View>& views,
+                          const std::vector<std::uint32_t>& tiles);
+    void mark_sides(bool finely);  // that records see
+    void draw_hemicubes(const std::vector<Vpl>& vpls, std::size_t first);
+    void scatter_spots();
 
     const DeviceScene& scene;
     IrradianceCacheOptions options;
@@ -55,7 +76,12 @@ struct IrradianceCache::State {
     CachePasses passes;
     GBufferPasses cubes;
     CacheBuffers b;
-    CacheTree tree{}, all_tree{};  // of those that light goes between, of these and refined ones
+    SpotBuffers spot;
+    SpotParams spots{};
+    bool has_tiles = false;         // of lights that do not light pixels
+    std::uint32_t spot_size = 0;    // pixels a side
+    std::uint32_t spot_stride = 0;  // of the planes of VPLs
+    CacheTree tree{}, all_tree{};   // of those that light goes between, of these and refined ones
     CoarseSky sky;
     cl::Buffer all_nodes, all_lists;  // of all_tree
     cl::Buffer chosen, places, worth, nearest, doubt;

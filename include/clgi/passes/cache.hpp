@@ -24,6 +24,22 @@ struct CacheBuffers {
     cl::Buffer rows;             // [records][3][stride] float
     cl::Buffer base, reflected;  // [3][stride] float, exposed lux
     cl::Buffer light, next;      // the same; without direct light
+    cl::Buffer by_spots;  // [light views][SPOT_TILES_A_VIEW] uint, read where params.spots is 1
+};
+
+// Small lit places and VPLs on them.
+struct SpotBuffers {
+    cl::Buffer seen;   // [(2 vertices + 31) / 32] uint, a bit for each side of the surface there
+    cl::Buffer some;   // which records look more finely, uint
+    cl::Buffer of;     // [view_count] SpotView
+    cl::Buffer views;  // [view_count] View, drawn
+    cl::Buffer visibility;   // their pixels, ulong
+    cl::Buffer wanted;       // [light views][SPOT_TILES_A_VIEW] uint, 0: the tile does not count
+    cl::Buffer count;        // [view_count][SPOT_TILES_A_VIEW] uint, texels
+    cl::Buffer area;         // [view_count][SPOT_TILES_A_VIEW] float, local units squared
+    cl::Buffer samples;      // [sample_count] SpotSample
+    cl::Buffer spots;        // [sample_count] Vpl
+    CacheBuffers hemicubes;  // views and visibility of these
 };
 
 class CLGI_API CachePasses {
@@ -41,6 +57,28 @@ public:
     cl::Event link(const cl::CommandQueue& queue, const CacheParams& params, const CacheTree& tree,
                    const DeviceScene& scene, const EmitterBuffers& emitters,
                    const CacheBuffers& buffers, const WaitList& wait = {}) const;
+
+    // Vertices of triangles that the hemicubes of params.count records see: sets bits of
+    // spots.seen, that of 2 v for the front, of 2 v + 1 for the back.
+    cl::Event mark(const cl::CommandQueue& queue, const CacheParams& params,
+                   const DeviceScene& scene, const CacheBuffers& buffers, const SpotBuffers& spots,
+                   const WaitList& wait = {}) const;
+
+    // How much of each tile of the views shows such sides: count and area. views: as they were
+    // drawn, of `size` pixels a side.
+    cl::Event tally(const cl::CommandQueue& queue, const SpotParams& params, std::uint32_t size,
+                    const DeviceScene& scene, const EmitterBuffers& emitters,
+                    const SpotBuffers& spots, const WaitList& wait = {}) const;
+
+    // samples -> spots.
+    cl::Event spots(const cl::CommandQueue& queue, const SpotParams& params, std::uint32_t size,
+                    const DeviceScene& scene, const EmitterBuffers& emitters,
+                    const SpotBuffers& spots, const WaitList& wait = {}) const;
+
+    // spots -> added to buffers.reflected of params.count records.
+    cl::Event shine(const cl::CommandQueue& queue, const CacheParams& params, const SpotParams& of,
+                    const DeviceScene& scene, const CacheBuffers& buffers, const SpotBuffers& spots,
+                    const WaitList& wait = {}) const;
 
     // light -> next, of params.record_count records.
     cl::Event bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
@@ -64,7 +102,7 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel pick_, link_, bounce_, weigh_, show_;
+    PassKernel pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_;
     bool groups_;  // a record by a group of work-items
 };
 

@@ -12,9 +12,9 @@ CLGI_SHARED_BEGIN
 // lights light them.
 enum { RECORD_POSITION = 0, RECORD_NORMAL = 3, RECORD_GEOMETRIC = 6, RECORD_PLANES = 9 };
 
-// Planes of places that may become records: those of a record, and the luminance that the surface
-// reflects of white light.
-enum { PICK_REFLECTANCE = RECORD_PLANES, PICK_PLANES };
+// Planes of places that may become records: those of a record, what the surface reflects of white
+// light, in luminance and in colour.
+enum { PICK_REFLECTANCE = RECORD_PLANES, PICK_ALBEDO, PICK_PLANES = PICK_ALBEDO + 3 };
 
 // A tree over space that names the records near each place: eight children a node, and in leaves a
 // list for each of the six ways that a surface can face, +x, -x, +y and so on.
@@ -53,7 +53,39 @@ typedef struct {
     uint whole_emitters;  // so many light every pixel of a hemicube
     uint emitter_step;    // of the others each lights one block of 16 pixels in so many, at least 1
     uint thin;  // of the blocks of 16 pixels one in so many counts, at least 1
+    uint spots;  // 1: some tiles of lights, if any, do not light pixels
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
 } CacheParams;
+
+// What a light lights in small places, such as the sun's spot behind a hole, falls between the pixels
+// of hemicubes. It lights records by VPLs instead. Views of lights are divided into tiles, so many a
+// side, in each of which one or the other holds.
+enum { SPOT_TILES = 32, SPOT_TILES_A_VIEW = 1024 };
+
+// A view of a light, or a part of one, drawn to find such places.
+typedef struct {
+    uint emitter;
+    uint light_view;  // among the views of all emitters
+    uint pad0_;
+    uint pad1_;
+} SpotView;
+
+typedef struct {
+    uint view_count;    // views of lights that are drawn; of one size, a multiple of SPOT_TILES
+    uint sample_count;  // VPLs
+    uint pad0_;
+    uint pad1_;
+} SpotParams;
+
+// Where a VPL lies: the texel of this rank among those of a tile that count.
+typedef struct {
+    uint view;  // SpotView
+    uint tile;
+    uint rank;
+    float texels;  // that it stands for
+} SpotSample;
 
 typedef struct {
     uint record_count;

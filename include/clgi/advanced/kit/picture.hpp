@@ -63,6 +63,7 @@ public:
 
     Recorder& record() { return record_; }
     const GBufferPasses& passes() const { return gbuffer_; }
+    const RasterBuffers& lists() const { return raster_; }  // for draw()
     std::size_t pixels() const {
         return static_cast<std::size_t>(options_.width) * static_cast<std::size_t>(options_.height);
     }

@@ -1,0 +1,69 @@
+// Light of small lit places at records: VPLs on them, whose shadows their own hemicubes know. From
+// inside a hole its opening is wide; from a record it would fall between the pixels.
+//
+//   R_i += sum over VPLs Phi cos cos' k V      k: the kernel of a disc (lights/disc.clh)
+//   V: 1 where the plane of what the VPL's hemicube shows there is not nearer than the record
+//                                                                     [derived: VPLs, Keller97]
+//
+// Work size    1D, one work-item a record; any local size; tail guarded
+// Writes       its own reflected light
+// Cost         about 120 flops a VPL that both face
+// SPDX-License-Identifier: MIT
+#include "clgi/shared/cache.h"
+#include "clgi/shared/lights.h"
+#include "clgi/shared/scene.h"
+#include "gbuffer/locate.clh"
+#include "gbuffer/visibility.clh"
+#include "lights/disc.clh"
+#include "scene/buffers.clh"
+
+#define SHINE_SLACK 0.01f  // of a distance
+
+// Whether a hemicube, whose faces are given, sees a place.
+static int shine_sees(global const View* faces, global const ulong* visibility, float3 place,
+                      global const uint4* triangles, global const float4* positions) {
+    ViewPoint at = gbuffer_locate(faces, 0, 5, place);
+    if (at.view < 0) return 0;
+    View view = faces[at.view];
+    uint column = min((uint)at.pixel.x, view.width - 1), row = min((uint)at.pixel.y, view.height - 1);
+    int triangle = visibility_triangle(visibility[view.first_pixel + row * view.width + column]);
+    if (triangle < 0) return 1;
+    uint4 corners = triangles[triangle];
+    float3 a = positions[corners.x].xyz, eye = view.eye.xyz;
+    float3 normal = cross(positions[corners.y].xyz - a, positions[corners.z].xyz - a);
+    float toward = dot(normal, place - eye), plane = dot(normal, a - eye);
+    // The plane lies plane / toward of the way to the place.
+    return !(plane / toward > 0.0f && plane / toward < 1.0f - SHINE_SLACK);
+}
+
+kernel void cache_shine(
+    const CacheParams    params,
+    const SpotParams     of,
+    global const View*   restrict views,       // five of each VPL
+    global const ulong*  restrict visibility,  // of all VPLs
+    global const float*  restrict planes,      // [RECORD_PLANES][stride] of all records
+    SCENE_ARGUMENTS,
+    global const Vpl*    restrict spots,       // [sample_count]
+    global float*        restrict reflected)   // [3][stride] R
+{
+    uint item = (uint)get_global_id(0);
+    if (item >= params.count) return;
+    uint record = params.first + item, stride = params.stride;
+    global const float* at = planes + record;
+    float3 point = (float3)(at[0], at[stride], at[2 * stride]);
+    at += RECORD_NORMAL * stride;
+    float3 normal = (float3)(at[0], at[stride], at[2 * stride]), sum = (float3)(0.0f);
+    for (uint k = 0; k < of.sample_count; ++k) {
+        Vpl spot = spots[k];
+        float3 to = spot.position.xyz - point;
+        float arriving = dot(to, normal), leaving = -dot(to, spot.normal.xyz);
+        if (!(arriving > 0.0f && leaving > 0.0f)) continue;
+        if (!shine_sees(views + 5 * k, visibility, point, triangles, positions))
+            continue;
+        float factor = disc_kernel_one(arriving * leaving, dot(to, to), spot.position.w, spot.normal.w);
+        sum += spot.flux.xyz * (factor * (1.0f / CLGI_PI));
+    }
+    reflected[record] += sum.x;
+    reflected[stride + record] += sum.y;
+    reflected[2 * stride + record] += sum.z;
+}
