@@ -13,7 +13,7 @@ namespace {
 
 constexpr double noticeable = 0.02;  // of the light that surfaces reflect, as gloss
 constexpr double few_backs = 0.05;   // of the area, double-sided
-constexpr double elsewhere = 10.0;   // so many times brighter than the picture is what surfaces reflect
+constexpr double elsewhere = 10.0;   // what surfaces reflect, over what the picture shows
 // Beyond so many triangles, links for all poses take minutes.
 constexpr std::size_t most_moving_triangles = 30000;
 // With more glossy triangles, each of which may be a leaf, a picture takes seconds.
