@@ -295,6 +295,7 @@ View make_view(const Camera& camera, const SceneFrame& frame, int width, int hei
     view.window.z = near + 1.01f * (glm::length(eye) + frame.radius) + 1e-3f;
     view.window.x = 2.0f * camera.offset.x / static_cast<float>(width) * view.right.w;
     view.window.y = -2.0f * camera.offset.y / static_cast<float>(height) * view.up.w;
+    view.window.w = camera.footprint;
     view.width = static_cast<std::uint32_t>(width);
     view.height = static_cast<std::uint32_t>(height);
     view.flags = VIEW_CULL_BACK_FACES;

@@ -183,6 +183,9 @@ void check_cameras(const Scene& scene) {
         if (!std::isfinite(camera.offset.x) || !std::isfinite(camera.offset.y)) {
             fail(name + " has an offset that is not finite");
         }
+        if (!(camera.footprint > 0.0f && camera.footprint <= 1.0f)) {
+            fail(name + " has a footprint outside (0, 1]");
+        }
     }
 }
 

@@ -233,6 +233,40 @@ TEST(Samples, SmoothShadows) {
     }
 }
 
+// Texels smaller than pixels, on a floor that is seen at a slant: one picture blurs what lies
+// beyond a pixel's width too, many look closely.
+TEST(Samples, LookTexturesUpMoreClosely) {
+    Scene scene = test::plain_scene(glm::vec3(1.0f));
+    test::add_floor(scene, 6.0);
+    for (const glm::vec2 uv : {glm::vec2(0, 4), {4, 4}, {4, 0}, {0, 0}})
+        scene.uvs.push_back(glm::vec4(uv, uv));
+    test::Random random(5);
+    Texture texture{"noise", 64, 64, {}};
+    for (int i = 0; i < 64 * 64; ++i)
+        for (int c = 0; c < 4; ++c)
+            texture.rgba.push_back(
+                static_cast<std::uint8_t>(c == 3 ? 255 : random.integer(0, 1) * 255));
+    scene.textures.push_back(texture);
+    scene.materials[0].base_texture.texture = 0;
+    scene.lights = {test::directional_light({0.1f, -1.0f, 0.2f}, 3.0f)};
+    scene.cameras = {test::camera_at({0.2, 1.4, 5.5}, {0.0, 0.0, 1.0}, 0.5f)};
+    reference::Options truth;
+    truth.width = width;
+    truth.height = height;
+    truth.samples = 1024;
+    truth.filter = reference::Filter::box;
+    const test::Twice traced = test::render_twice(scene, scene.cameras[0], truth);
+    Renderer renderer(test::device().queue, scene, options_of(Method::direct));
+    const test::Apart one = test::apart(draw(renderer, scene.cameras[0]), traced);
+    for (int k = 1; k < 64; ++k) renderer.refine();
+    const test::Apart many = test::apart(read(renderer), traced);
+    EXPECT_GT(one.error, 0.08);
+    EXPECT_LT(many.high, 0.4 * one.error);
+    EXPECT_NEAR(many.energy, 1.0, 0.01);
+    scene.cameras[0].footprint = 0.0f;
+    EXPECT_THROW(validate(scene), InputError);
+}
+
 TEST(Samples, SayWhatIsWrong) {
     const Scene scene = lit_scene();
     RendererOptions options = options_of(Method::direct);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/picture.hpp>
 #include <clgi/advanced/planes.hpp>
@@ -21,6 +22,14 @@ EmitterOptions emitters_of(const PictureOptions& options, std::uint32_t sample =
     out.sample = sample;
     out.shadows = out.shadows && (options.direct || options.shadow_maps);
     return out;
+}
+
+// How many samples have the same shadow maps: few where these stand for points of emissive
+// surfaces, which soft shadows need many of.
+std::uint32_t samples_a_map(const std::vector<Emitter>& emitters) {
+    const bool soft = std::any_of(emitters.begin(), emitters.end(),
+                                  [](const Emitter& one) { return one.kind == EMITTER_AREA; });
+    return soft ? 4 : 16;
 }
 
 }  // namespace
@@ -70,8 +79,7 @@ void Picture::lights_changed() {
 }
 
 void Picture::sample(std::uint32_t index) {
-    constexpr std::uint32_t same = 4;  // samples
-    const std::uint32_t lights = index / same;
+    const std::uint32_t lights = index / samples_a_map(emitters_.set().emitters);
     keeps_maps_ = index > 0 && lights == lights_;
     if (lights == lights_) return;
     lights_ = lights;
