@@ -270,7 +270,7 @@ std::vector<OptionRow> of_records() {
                    "Pixels of the face of a record's hemicube, a multiple of 8", 8, 256),
                [](O& o) -> Number { return &o.cache.face; }),
         number(row("spots", "N", of_irradiance_cache,
-                   "VPLs in small places that lights light, as through a hole; 0: none", 0, 4096),
+                   "VPLs in small places that lights light, as through a hole; 0: none", 0, 1024),
                [](O& o) -> Number { return &o.cache.spots; }),
         number(row("reflections", "N", of_irradiance_cache,
                    "Reflections of light before it reaches a record; 0: all that matter", 0, 1000),

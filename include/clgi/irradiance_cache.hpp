@@ -23,7 +23,8 @@ struct IrradianceCacheOptions {
     int face = 32;      // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
     int bounces = 0;    // reflections of light before it reaches a record; 0: until it rests
     // VPLs in what lights light of small places, such as the sun's spot behind a hole, which would
-    // fall between the pixels of hemicubes; 0 to 4096.
+    // fall between the pixels of hemicubes; 0 to 1024. Of at most 32 views of lights: directional
+    // lights have one, then come spots, then point lights with six.
     int spots = 128;
     // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false:
     // those within the scene's focus by points with shadow maps (EmitterOptions::area_samples),

@@ -58,6 +58,7 @@ Surface surface_at(vec2 at, int triangle) {
     result.depth = dot(result.position - eye.xyz, forward.xyz);
     // What the pixel covers of the plane.
     float pixel = 4.0 * right.w * up.w / (float(size.x) * float(size.y));
+    if (window.w > 0.0) pixel *= window.w;
     float reach = perspective() ? result.depth * result.depth : 1.0;
     float slant = abs(determinant);
     float footprint = slant > 0.0 ? pixel * reach * twice_area / slant : 0.0;

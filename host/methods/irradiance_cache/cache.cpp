@@ -22,7 +22,7 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     need_range(cache_owner, "refined", options.refined, 0, 20000);
     need_range(cache_owner, "face", options.face, 8, 256);
     need_range(cache_owner, "bounces", options.bounces, 0, 1000);
-    need_range(cache_owner, "spots", options.spots, 0, 4096);
+    need_range(cache_owner, "spots", options.spots, 0, 1024);
     if (options.face % 8 != 0)
         throw Error(std::string(cache_owner) + ": face is " + std::to_string(options.face) +
                     ", a multiple of 8 needed");
@@ -53,13 +53,15 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     const IrradianceCacheOptions o = checked(options, scene);
     const auto most = static_cast<double>(most_records(o)), face = static_cast<double>(o.face);
     const double records = 1.6 * o.seen + o.met + o.refined;  // as many as a room has
-    const double per_record = 5.0 * sizeof(View) + 24.0 * face * face + 12.0 * most + 36.0 +
-                              48.0 * picks_per_record + 64.0;
+    const double hemicube = 5.0 * sizeof(View) + 24.0 * face * face;
+    const double per_record =
+        hemicube + 12.0 * most + 36.0 + (PICK_PLANES + 2) * 4.0 * picks_per_record + 64.0;
+    const double spots = o.spots > 0 ? (o.spots + 5.0 * scattered) * hemicube + 34e6 : 0.0;
     constexpr double pairs = 32.0, drawn = 4e-9;  // a pixel; a triangle in a hemicube, seconds
     const double milliseconds = 1e3 * records *
                                 (3.0 * face * face * pairs / pairs_per_second(device) +
                                  drawn * static_cast<double>(scene.info().triangle_count));
-    return {static_cast<std::size_t>(most * per_record), milliseconds};
+    return {static_cast<std::size_t>(most * per_record + spots), milliseconds};
 }
 
 IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& queue,
@@ -89,7 +91,7 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     const std::size_t word = sizeof(float), plane = stride * word;
     const auto face = static_cast<std::size_t>(options.face);
     const auto vpls = static_cast<std::size_t>(options.spots);  // whose picks are scattered
-    pick_stride = plane_stride(std::max(capacity, vpls) * picks_per_record);
+    pick_stride = plane_stride(std::max({capacity, vpls, scattered}) * picks_per_record);
     table.add(b.planes, "records", lower, RECORD_PLANES * plane);
     table.add(b.views, "hemicubes", lower, 5 * capacity * sizeof(View));
     table.add(b.visibility, "what hemicubes see", lower,

@@ -143,7 +143,9 @@ void IrradianceCache::State::choose(const View& view) {
                              static_cast<std::size_t>(options.refined);
     if (records.size() > most) records.resize(most);
     found.seen = records.size();
-    found.met = found.refined = 0;
+    found.met = found.refined = found.spots = 0;
+    spots = {};
+    has_tiles = false;
     if (records.empty()) return;
     write_records();
     draw(0);
@@ -151,7 +153,7 @@ void IrradianceCache::State::choose(const View& view) {
     const std::size_t weighed = 2 * met / 3, spread = met - weighed;
     meet(0, spread - spread / 3);
     meet(found.seen, spread / 3);
-    find_spots(false);
+    if (weighed / weighings > 0) find_spots(false);
     for (int round = 0; round < weighings; ++round) weigh(weighed / weighings);
     found.met = records.size() - found.seen;
 }

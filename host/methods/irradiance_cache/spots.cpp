@@ -17,7 +17,6 @@ constexpr std::uint32_t finest = 512;  // pixels, where there are several views
 constexpr std::size_t finer_count = 96, finer_at_once = 32;
 constexpr std::uint32_t finer_face = 128;  // pixels
 constexpr int reflections = 5;
-constexpr std::size_t scattered = 64;  // VPLs of each
 
 // Fewer views are finer.
 std::uint32_t view_size(const EmitterOptions& emitters, std::size_t views) {
@@ -30,17 +29,20 @@ std::uint32_t view_size(const EmitterOptions& emitters, std::size_t views) {
     return size / SPOT_TILES * SPOT_TILES;
 }
 
-// Views of lights that may light small places: of a directional light the one around the focus.
+// Views of lights that may light small places, of as many lights as there is room for: directional
+// ones first, of which the view around the focus, then spots, then point lights.
 std::vector<SpotView> spot_views(const std::vector<Emitter>& emitters) {
     std::vector<SpotView> out;
-    for (std::size_t e = 0; e < emitters.size(); ++e) {
-        const Emitter& one = emitters[e];
-        if ((one.kind & EMITTER_KIND) == EMITTER_AREA) continue;
-        const bool parallel = (one.kind & EMITTER_KIND) == EMITTER_DIRECTIONAL;
-        const std::uint32_t views = parallel ? std::min(one.view_count, 1u) : one.view_count;
-        for (std::uint32_t v = 0; v < views; ++v)
-            out.push_back({static_cast<std::uint32_t>(e), one.first_view + v, 0, 0});
-    }
+    for (const std::uint32_t kind : {EMITTER_DIRECTIONAL, EMITTER_SPOT, EMITTER_POINT})
+        for (std::size_t e = 0; e < emitters.size(); ++e) {
+            const Emitter& one = emitters[e];
+            if ((one.kind & EMITTER_KIND) != kind) continue;
+            const bool parallel = kind == EMITTER_DIRECTIONAL;
+            const std::uint32_t views = parallel ? std::min(one.view_count, 1u) : one.view_count;
+            if (out.size() + views > most_views) continue;
+            for (std::uint32_t v = 0; v < views; ++v)
+                out.push_back({static_cast<std::uint32_t>(e), one.first_view + v, 0, 0});
+        }
     return out;
 }
 
@@ -98,7 +100,7 @@ void IrradianceCache::State::find_spots(bool finely) {
     has_tiles = false;
     const EmitterSet& emitters = picture.emitters();
     std::vector<SpotView> of = spot_views(emitters.emitters);
-    if (!casts_spots() || of.empty() || of.size() > most_views) return;
+    if (!casts_spots() || of.empty()) return;
     Recorder& record = picture.record();
     mark_sides(finely);
     std::vector<std::uint32_t> tiles(emitters.views.size() * spot_tiles, 1);
@@ -254,7 +256,11 @@ void IrradianceCache::State::scatter_spots() {
             if (from.flux.w == 0.0f || met[i].normal == glm::vec3(0.0f) || !(cosine > 0.0f) ||
                 has_record(records, met[i], distance))
                 continue;
-            const float radius2 = distance * distance * distance / (cosine * picks_per_record);
+            // What a pick of a cosine lobe stands for: pi / (16 cos) steradians.
+            const float leaving = glm::dot(way, glm::vec3(from.normal));
+            const float slant = std::max(cosine * leaving, 0.0025f * distance * distance);
+            const float radius2 =
+                distance * distance * distance * distance / (slant * picks_per_record);
             Vpl out{float4(met[i].position, radius2), float4(met[i].normal, radius2 * radius2),
                     from.flux};
             for (std::size_t c = 0; c < 3; ++c)

@@ -13,6 +13,7 @@
 namespace clgi {
 
 constexpr std::uint32_t picks_per_record = 16;
+constexpr std::size_t scattered = 64;  // VPLs that others light, of each reflection
 
 struct IrradianceCache::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,
