@@ -56,7 +56,11 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     const double hemicube = 5.0 * sizeof(View) + 24.0 * face * face;
     const double per_record =
         hemicube + 12.0 * most + 36.0 + (PICK_PLANES + 2) * 4.0 * picks_per_record + 64.0;
-    const double spots = o.spots > 0 ? (o.spots + 5.0 * scattered) * hemicube + 34e6 : 0.0;
+    const auto vpls = static_cast<double>(most_vpls(o));
+    const double spots =
+        vpls > 0.0 ? vpls * hemicube + sizeof(std::uint64_t) *
+                                           static_cast<double>(spot_pixels(o.picture.emitters))
+                   : 0.0;
     constexpr double pairs = 32.0, drawn = 4e-9;  // a pixel; a triangle in a hemicube, seconds
     const double milliseconds = 1e3 * records *
                                 (3.0 * face * face * pairs / pairs_per_second(device) +

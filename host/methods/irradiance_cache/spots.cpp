@@ -58,29 +58,37 @@ bool has_record(const std::vector<CacheRecord>& records, const CacheRecord& plac
 
 }  // namespace
 
+std::size_t most_vpls(const IrradianceCacheOptions& options) {
+    return options.spots > 0 ? static_cast<std::size_t>(options.spots) + reflections * scattered
+                             : 0;
+}
+
+std::size_t spot_pixels(const EmitterOptions& emitters) {
+    std::size_t out = std::size_t{3} * finer_face * finer_face * finer_at_once;
+    for (const std::size_t views : {std::size_t{1}, std::size_t{4}, std::size_t{16}, most_views}) {
+        const std::size_t size = view_size(emitters, views);
+        out = std::max(out, views * size * size);
+    }
+    return out;
+}
+
 bool IrradianceCache::State::casts_spots() const {
     return options.spots > 0 && !picture.emitters().capacity.together.empty();
 }
 
 void IrradianceCache::State::add_spots(BufferTable& table) {
     if (options.spots == 0) return;
-    const char* lower = "spots or emitters.shadow_size";
+    const char* lower = "spots or face";
     const std::size_t word = sizeof(std::uint32_t), tiles = most_views * spot_tiles;
-    const std::size_t one = view_size(options.picture.emitters, 1),
-                      few = view_size(options.picture.emitters, 4),
-                      some = view_size(options.picture.emitters, 16),
-                      many = view_size(options.picture.emitters, most_views);
-    const std::size_t pixels =
-        std::max({one * one, 4 * few * few, 16 * some * some, most_views * many * many,
-                  3 * finer_face * finer_face * finer_at_once});
     const auto first = static_cast<std::size_t>(options.spots);
-    const std::size_t most = first + reflections * scattered;
+    const std::size_t most = most_vpls(options);
     const std::size_t sides = 2 * std::size_t{scene.info().vertex_count};
     table.add(spot.seen, "what records see", lower, (sides + 31) / 32 * word);
     table.add(spot.some, "small lit places", lower, finer_at_once * word);
     table.add(spot.of, "small lit places", lower, most_views * sizeof(SpotView));
     table.add(spot.views, "small lit places", lower, most_views * sizeof(View));
-    table.add(spot.visibility, "small lit places", lower, pixels * sizeof(std::uint64_t));
+    table.add(spot.visibility, "small lit places", "emitters.shadow_size",
+              spot_pixels(options.picture.emitters) * sizeof(std::uint64_t));
     table.add(spot.count, "small lit places", lower, tiles * word);
     table.add(spot.area, "small lit places", lower, tiles * word);
     table.add(spot.samples, "small lit places", lower, first * sizeof(SpotSample));
@@ -106,8 +114,9 @@ void IrradianceCache::State::find_spots(bool finely) {
     std::vector<std::uint32_t> tiles(emitters.views.size() * spot_tiles, 1);
     grow(b.by_spots, tiles.size() * sizeof(std::uint32_t));
     spot.wanted = b.by_spots;
-    std::vector<View> views;
-    for (const SpotView& one : of) views.push_back(emitters.views[one.light_view]);
+    std::vector<View> whole_views;
+    for (const SpotView& one : of) whole_views.push_back(emitters.views[one.light_view]);
+    std::vector<View> views = whole_views;
     const SpotTally all = tally_spots(of, views, tiles);
 
     const float side = 2.0f * scene.frame().detail / static_cast<float>(options.face);
@@ -119,15 +128,14 @@ void IrradianceCache::State::find_spots(bool finely) {
         std::uint32_t* chosen = tiles.data() + of[v].light_view * spot_tiles;
         const std::uint32_t* count = all.count.data() + v * spot_tiles;
         choose_tiles(count, all.area.data() + v * spot_tiles, a_tile, side, chosen);
-        for (const View& part : zoomed(emitters.views[of[v].light_view], count, chosen)) {
+        for (const View& part : zoomed(whole_views[v], count, chosen)) {
             views.push_back(part);
             parts.push_back(of[v]);
         }
     }
-    if (parts.size() > most_views) {  // whole views again
+    if (parts.size() > most_views) {
         parts = of;
-        views.clear();
-        for (const SpotView& one : of) views.push_back(emitters.views[one.light_view]);
+        views = whole_views;
     }
     const SpotTally finer = tally_spots(parts, views, tiles);
     has_tiles = true;

@@ -15,6 +15,12 @@ namespace clgi {
 constexpr std::uint32_t picks_per_record = 16;
 constexpr std::size_t scattered = 64;  // VPLs that others light, of each reflection
 
+// VPLs in small lit places, with those that others light; 0 without.
+std::size_t most_vpls(const IrradianceCacheOptions& options);
+
+// Of lights' views and of finer hemicubes, drawn to find such places.
+std::size_t spot_pixels(const EmitterOptions& emitters);
+
 struct IrradianceCache::State {
     State(const Programs& programs, const cl::CommandQueue& queue, const DeviceScene& of,
           const IrradianceCacheOptions& wanted);
