@@ -1,0 +1,129 @@
+// What hemicubes see by directions of a cosine lobe, against rays in double precision.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <clgi/passes/cache.hpp>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "device.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+// In a box whose walls differ: each pick lies where its ray of a cosine lobe meets them, as nearly
+// as pixels tell; a wall that turns its back sends nothing.
+TEST(CachePasses, PickWhereRaysMeetWalls) {
+    const glm::dvec3 low(-1.0, -0.6, -0.8), high(0.9, 1.1, 1.3), eye(0.2, 0.1, -0.1);
+    Scene box = test::plain_scene();
+    test::add_box(box, low, high, -1);
+    const auto colour = [](std::size_t wall) {
+        const auto k = static_cast<float>(wall);
+        return glm::vec3(0.1f + 0.1f * k, 0.9f - 0.1f * k, 0.15f * k + 0.05f);
+    };
+    box.materials[0].base_color = glm::vec4(colour(0), 1.0f);
+    for (std::size_t wall = 1; wall < 6; ++wall) {
+        Material material;
+        material.base_color = glm::vec4(colour(wall), 1.0f);
+        const std::uint32_t added = test::add_material(box, material);
+        for (const std::size_t half : {0, 1}) box.triangles[2 * wall + half].material = added;
+    }
+    for (const std::size_t half : {0, 1})
+        std::swap(box.triangles[half].vertex[1],
+                  box.triangles[half].vertex[2]);  // -x
+    const DeviceScene scene = test::on_device(box);
+    const cl::CommandQueue& queue = test::device().queue;
+    const CachePasses passes(test::programs(), test::usual_build());
+    const GBufferPasses gbuffer(test::programs(), test::usual_build());
+    constexpr std::uint32_t size = 64, picks = 2000, stride = 2000, plane = 16;
+    const double scale = scene.frame().scale;
+    const glm::dvec3 local = scale * (eye - scene.frame().origin);
+    int backs = 0, walls[6] = {};
+    for (const glm::dvec3& up : {glm::dvec3(0.5, 0.8, -0.7), glm::dvec3(-0.6, -0.7, 0.9)}) {
+        const glm::dvec3 normal = glm::normalize(up);
+        std::vector<float> planes(RECORD_PLANES * plane, 0.0f);
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            planes[c * plane] = static_cast<float>(local[static_cast<int>(c)]);
+            for (const std::uint32_t first : {RECORD_NORMAL, RECORD_GEOMETRIC})
+                planes[(first + c) * plane] = static_cast<float>(normal[static_cast<int>(c)]);
+        }
+        CacheBuffers b;
+        b.planes = test::upload(planes);
+        b.views = test::empty<View>(5);
+        b.visibility = test::empty<std::uint64_t>(3 * size * size);
+        CubeParams cube{};
+        cube.point_count = 1;
+        cube.faces = 5;
+        cube.size = size;
+        cube.stride = plane;
+        cube.near = 1e-5f;
+        cube.turned = 1;
+        gbuffer.cubes(queue, cube, b.planes, test::upload(std::vector<std::uint32_t>{0}), b.views);
+        gbuffer.raster_views(queue, {0, 5, size, size, 3 * size * size}, b.views, scene,
+                             b.visibility, Pixels::visibility);
+        CacheParams params{};
+        params.count = 1;
+        params.stride = plane;
+        params.size = size;
+        params.picks = picks;
+        params.pick_stride = stride;
+        params.first_sample = 7;
+        const cl::Buffer places = test::empty<float>(PICK_PLANES * stride);
+        passes.pick(queue, params, scene, b, places);
+        std::vector<float> found(PICK_PLANES * stride);
+        queue.enqueueReadBuffer(places, CL_TRUE, 0, found.size() * sizeof(float), found.data());
+        View front;
+        queue.enqueueReadBuffer(b.views, CL_TRUE, 0, sizeof front, &front);
+        const auto inverse = [](std::uint32_t index, std::uint32_t base) {
+            double out = 0.0, place = 1.0;
+            for (; index > 0; index /= base) out += (place /= base) * (index % base);
+            return out;
+        };
+        for (std::uint32_t i = 0; i < picks; ++i) {
+            const double radius = std::sqrt(inverse(i + 8, 2)),
+                         angle = 2.0 * glm::pi<double>() * inverse(i + 8, 3);
+            const glm::dvec3 way = radius * std::cos(angle) * glm::dvec3(front.right) +
+                                   radius * std::sin(angle) * glm::dvec3(front.up) +
+                                   std::sqrt(1.0 - radius * radius) * glm::dvec3(front.forward);
+            int wall = 0;
+            double reach = 1e9, second = 1e9;
+            for (int axis = 0; axis < 3; ++axis) {
+                const double to = ((way[axis] > 0 ? high : low)[axis] - eye[axis]) / way[axis];
+                if (to < reach) {
+                    second = reach;
+                    reach = to;
+                    wall = 2 * axis + (way[axis] > 0 ? 1 : 0);
+                } else {
+                    second = std::min(second, to);
+                }
+            }
+            if (second < 1.15 * reach) continue;  // near an edge a pixel may show either wall
+            const auto plane_of = [&](std::uint32_t p) { return double{found[p * stride + i]}; };
+            const glm::dvec3 facing(plane_of(RECORD_NORMAL), plane_of(RECORD_NORMAL + 1),
+                                    plane_of(RECORD_NORMAL + 2));
+            if (wall == 0) {
+                ++backs;
+                EXPECT_EQ(facing, glm::dvec3(0.0));
+                for (std::uint32_t p = 0; p < PICK_PLANES; ++p) EXPECT_EQ(plane_of(p), 0.0) << p;
+                continue;
+            }
+            ++walls[wall];
+            glm::dvec3 inward(0.0);
+            inward[wall / 2] = wall % 2 == 0 ? 1.0 : -1.0;
+            EXPECT_LT(glm::length(facing - inward), 1e-5);
+            const glm::dvec3 place =
+                glm::dvec3(plane_of(0), plane_of(1), plane_of(2)) / scale + scene.frame().origin;
+            EXPECT_NEAR(place[wall / 2], (wall % 2 == 0 ? low : high)[wall / 2], 1e-5);
+            EXPECT_LT(glm::length(glm::cross(glm::normalize(place - eye), way)), 1.5 / size) << i;
+            for (std::uint32_t c = 0; c < 3; ++c)
+                EXPECT_NEAR(plane_of(PICK_ALBEDO + c),
+                            colour(static_cast<std::size_t>(wall))[static_cast<int>(c)], 1e-5);
+        }
+    }
+    EXPECT_GT(backs, 5);
+    for (int wall = 1; wall < 6; ++wall) EXPECT_GT(walls[wall], 4) << wall;
+}
+
+}  // namespace
+}  // namespace clgi
