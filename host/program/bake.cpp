@@ -11,12 +11,12 @@
 #include "lab/bake_state.hpp"
 #include "lab/baked_atlas.hpp"
 #include "lab/reference_picture.hpp"
-#include "program/animation.hpp"
 #include "program/bake_gltf.hpp"
 #include "program/bake_stats.hpp"
 #include "program/commands.hpp"
 #include "program/option_flags.hpp"
 #include "program/picture.hpp"
+#include "program/scene_flags.hpp"
 #include "program/session.hpp"
 #include "program/stopwatch.hpp"
 #include "program/verify.hpp"
@@ -26,11 +26,9 @@ namespace clgi::program {
 namespace {
 
 struct BakeFlags {
-    std::string scene;
+    SceneFlags scene;
     DeviceFlags device;
     PictureFlags picture;
-    EnvironmentFlags environment;
-    AnimationFlags animation;
     VerifyFlags verify;
     RendererOptions options;  // vpls, layout and light_atlas of them
     bool progressive = false;
@@ -39,7 +37,6 @@ struct BakeFlags {
     BakeGltfFlags gltf;
     std::string stats;
     std::string resume;
-    int scene_index = -1;
 };
 
 // All that the bits of a bake depend on.
@@ -157,9 +154,8 @@ void run_bake(BakeFlags flags) {
             "thousands of VPLs");
     LightAtlasOptions& options = flags.options.light_atlas;
     options.build = flags.options.picture.build = build_of(flags.device);
-    Scene scene =
-        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
-    pose_scene("bake", flags.animation, scene);
+    Scene scene = open_scene(flags.scene, flags.device.quiet, true);
+    pose_scene("bake", flags.scene.animation, scene);
     const Session session = open_session(flags.device);
     check_bake_fits(session.device, flags.options.vpls);
 
@@ -215,9 +211,7 @@ void run_bake(BakeFlags flags) {
 void add_bake(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bake", "Multi-bounce light into a texture atlas");
     const auto flags = std::make_shared<BakeFlags>();
-    command->add_option("scene", flags->scene, ".gltf or .glb file")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_flags(*command, flags->scene);
     command->add_option("-o,--output", flags->picture.exr, "EXR of irradiance, lux")
         ->type_name("FILE")
         ->default_str("none");
@@ -239,12 +233,7 @@ void add_bake(CLI::App& app) {
     command->add_flag("--stitch", flags->stitch,
                       "Make light agree where charts cut a smooth surface");
     add_verify_flag(*command, flags->verify, "atlas");
-    add_environment_flags(*command, flags->environment);
     add_device_flags(*command, flags->device);
-    add_animation_flags(*command, flags->animation);
-    command->add_option("--scene", flags->scene_index, "Index of the glTF scene")
-        ->type_name("N")
-        ->default_str("the file's");
     command->add_option("--stats", flags->stats, "JSON file with VPLs, power and time")
         ->type_name("FILE")
         ->default_str("none");

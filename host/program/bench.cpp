@@ -13,6 +13,7 @@
 #include "lab/scenes/rooms.hpp"
 #include "program/commands.hpp"
 #include "program/count_flag.hpp"
+#include "program/scene_flags.hpp"
 #include "program/session.hpp"
 
 namespace clgi::program {
@@ -44,7 +45,7 @@ std::vector<std::pair<std::string, Scene>> scenes_of(const BenchFlags& flags) {
         out.emplace_back("box", flags.mesh.empty() ? box() : box(io::load_gltf(flags.mesh)));
     for (const std::string& file : flags.scenes)
         if (table == "schaerfig1")
-            out.emplace_back(scene_name(file), open_scene(file, -1, {}, flags.device.quiet, true));
+            out.emplace_back(scene_name(file), open_scene({file}, flags.device.quiet, true));
         else if (table == "views")
             out.emplace_back(file, io::load_gltf(file));
         else if (table == "animation")

@@ -12,24 +12,18 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <sstream>
 
 #include "program/session.hpp"
+#include "program/triple.hpp"
 
 namespace clgi::program {
 namespace {
 
 // "R,G,B"; nothing where the text is anything else, such as a file's name.
 std::optional<glm::vec3> parse_color(const std::string& text) {
-    std::istringstream words(text);
-    words.imbue(std::locale::classic());
-    glm::vec3 color(0.0f);
-    char comma = ',';
-    for (int c = 0; c < 3; ++c) {
-        if (c > 0 && !(words >> comma)) return std::nullopt;
-        if (comma != ',' || !(words >> color[c])) return std::nullopt;
-    }
-    if (words.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
+    const auto triple = parse_triple(text);
+    if (!triple) return std::nullopt;
+    const glm::vec3 color(*triple);
     for (int c = 0; c < 3; ++c)
         if (!(color[c] >= 0.0f) || !std::isfinite(color[c]))
             throw Error(fmt::format("--environment is '{}', radiances of at least 0 needed", text));

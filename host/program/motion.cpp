@@ -32,7 +32,7 @@ Camera orbited(const Camera& camera, const glm::dvec3& centre, double angle) {
 }  // namespace
 
 void prepare_motion(const RenderFlags& flags, Scene& scene) {
-    if (!flags.fps) return pose_scene("render", flags.animation, scene);
+    if (!flags.fps) return arrange_scene("render", flags.scene, scene);
     // Frame times must be finite, and apart from each other.
     if (!(*flags.fps >= 1e-3 && *flags.fps <= 1e6))
         throw Error(fmt::format("render: --fps is {}, 0.001 to 1000000 needed", *flags.fps));
@@ -43,7 +43,10 @@ void prepare_motion(const RenderFlags& flags, Scene& scene) {
         throw Error("render: --fps goes not with --target-error of second-order; --time does");
     if (flags.method == "second-order" && !flags.ask.frame_time.empty())
         throw Error("render: --fps goes with --frame-time of --method auto alone");
-    const std::size_t clip = clip_of("render", scene, flags.animation);
+    if (!flags.scene.eye.empty() || !flags.scene.target.empty() || !flags.scene.lights.empty())
+        throw Error("render: --eye, --look-at and --light go not with --fps");
+    place_scene("render", flags.scene, scene);
+    const std::size_t clip = clip_of("render", scene, flags.scene.animation);
     scene.moving_bounds = motion_bounds(scene, clip);
 }
 
@@ -52,11 +55,11 @@ Motion::Motion(const RenderFlags& flags, const Scene& scene, DeviceScene& device
     : flags_(flags),
       device_(device),
       lights_(scene.lights),
-      camera_(scene.cameras[static_cast<std::size_t>(flags.camera)]) {
+      camera_(camera_of(flags.scene, scene)) {
     const Bounds box = bounds(scene);
     centre_ = 0.5 * (box.low + box.high);
     if (!flags.fps) return;
-    clip_ = clip_of("render", scene, flags.animation);
+    clip_ = clip_of("render", scene, flags.scene.animation);
     animator_ = std::make_unique<SceneAnimator>(queue, scene, device, build_of(flags.device));
 }
 
@@ -74,9 +77,9 @@ Motion::Step Motion::at(int frame) {
     Step step;
     step.camera = camera_;
     if (animator_) {
-        const double seconds = flags_.animation.time.value_or(0.0) + frame / *flags_.fps;
+        const double seconds = flags_.scene.animation.time.value_or(0.0) + frame / *flags_.fps;
         step.lights = animator_->animate(clip_, seconds).lights;
-        step.camera = animator_->cameras()[static_cast<std::size_t>(flags_.camera)];
+        step.camera = animator_->cameras()[static_cast<std::size_t>(flags_.scene.camera)];
         for (const Carried& light : animator_->animation().lights)
             lights_[light.index] = device_.lights()[light.index];
     }

@@ -14,6 +14,7 @@
 #include "program/picture.hpp"
 #include "program/plan_request.hpp"
 #include "program/plan_text.hpp"
+#include "program/scene_flags.hpp"
 #include "program/session.hpp"
 
 namespace clgi::program {
@@ -21,10 +22,9 @@ namespace {
 
 struct PlanCommand {
     DeviceFlags device;
-    EnvironmentFlags environment;
     PlanFlags plan;
-    std::string scene, size, method = "auto", target_error, time_budget, frame_time;
-    int scene_index = -1, camera = 0;
+    SceneFlags scene;
+    std::string size, method = "auto", target_error, time_budget, frame_time;
     bool animated = false, json = false;
 };
 
@@ -49,15 +49,14 @@ PlanRequest request_of(const PlanCommand& flags) {
 
 void run_plan(const PlanCommand& flags) {
     const PlanRequest request = request_of(flags);
-    const Scene scene =
-        open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet, true);
-    check_camera("plan", flags.camera, scene);
+    Scene scene = open_scene(flags.scene, flags.device.quiet, true);
+    arrange_scene("plan", flags.scene, scene);
     DeviceFlags device = flags.device;
     device.quiet = device.quiet || flags.json;
     const Session session = open_session(device);
     const Programs programs(session.context, session.device);
-    const Plan plan = make_plan(session.queue, programs, scene,
-                                scene.cameras[static_cast<std::size_t>(flags.camera)], request);
+    const Plan plan =
+        make_plan(session.queue, programs, scene, camera_of(flags.scene, scene), request);
     if (flags.json)
         fmt::print("{}\n", plan_json(plan).dump(2));
     else
@@ -69,14 +68,11 @@ void run_plan(const PlanCommand& flags) {
 void add_plan(CLI::App& app) {
     CLI::App* command = app.add_subcommand("plan", "Say what a picture of a scene calls for");
     const auto flags = std::make_shared<PlanCommand>();
-    command->add_option("scene", flags->scene, ".gltf or .glb file")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_flags(*command, flags->scene);
     command->add_option("--size", flags->size, "Of the picture")
         ->type_name("WxH")
         ->default_str(fmt::format("{}x{}", PlanRequest().width, PlanRequest().height));
-    add_place_options(*command, flags->scene_index, flags->camera);
-    add_environment_flags(*command, flags->environment);
+    add_camera_flags(*command, flags->scene);
     command->add_option("--method", flags->method, "auto: the plan chooses")
         ->type_name("METHOD")
         ->check(CLI::IsMember(

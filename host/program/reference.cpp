@@ -10,10 +10,10 @@
 
 #include "io/atomic_file.hpp"
 #include "lab/reference_picture.hpp"
-#include "program/animation.hpp"
 #include "program/commands.hpp"
 #include "program/percent.hpp"
 #include "program/picture.hpp"
+#include "program/scene_flags.hpp"
 #include "program/session.hpp"
 #include "program/verify.hpp"
 #include "program/version.hpp"
@@ -22,18 +22,14 @@ namespace clgi::program {
 namespace {
 
 struct ReferenceFlags {
-    std::string scene;
+    SceneFlags scene;
     PictureFlags picture;
-    EnvironmentFlags environment;
-    AnimationFlags animation;
     int atlas = 0;    // texels, side; 0: a camera's picture
     int uv_set = -1;  // -1: 1 where that is a lightmap, else 0
     reference::Options options;
     std::string effects;
     std::string error;
     std::string filter = "center";
-    int scene_index = -1;
-    int camera = 0;
     std::string stats;
     bool quiet = false;
 };
@@ -50,8 +46,8 @@ struct Outcome {
 
 Outcome trace_picture(const reference::PathTracer& tracer, const Scene& scene,
                       const ReferenceFlags& flags, const Progress& progress) {
-    const reference::Picture found = tracer.render(
-        scene.cameras[static_cast<std::size_t>(flags.camera)], flags.options, progress);
+    const reference::Picture found =
+        tracer.render(camera_of(flags.scene, scene), flags.options, progress);
     if (found.cancelled) throw Interrupted();
     return {lab::reference_image(found, flags.effects),
             0,
@@ -102,10 +98,8 @@ void run_reference(ReferenceFlags flags) {
     flags.options.filter = filter_of(flags.filter);
     if (!flags.error.empty())
         flags.options.target = parse_percent("reference", "--error", flags.error);
-    Scene scene =
-        open_scene(flags.scene, flags.scene_index, flags.environment, flags.quiet, flags.atlas > 0);
-    pose_scene("reference", flags.animation, scene);
-    check_camera("reference", flags.camera, scene);
+    Scene scene = open_scene(flags.scene, flags.quiet, flags.atlas > 0);
+    arrange_scene("reference", flags.scene, scene);
     lab::AtlasPlaces atlas;
     if (flags.atlas > 0) {
         atlas = lab::atlas_places(scene, flags.atlas, flags.uv_set);
@@ -141,11 +135,8 @@ void run_reference(ReferenceFlags flags) {
 void add_reference(CLI::App& app) {
     CLI::App* command = app.add_subcommand("reference", "Ground truth by path tracing, on the CPU");
     const auto flags = std::make_shared<ReferenceFlags>();
-    command->add_option("scene", flags->scene, ".gltf or .glb file")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_flags(*command, flags->scene);
     add_picture_flags(*command, flags->picture, flags->options.width, flags->options.height);
-    add_environment_flags(*command, flags->environment);
     CLI::Option* atlas =
         command
             ->add_option("--atlas", flags->atlas,
@@ -184,9 +175,9 @@ void add_reference(CLI::App& app) {
     command->add_option("--threads", flags->options.threads, "Threads; 0: one for each core")
         ->type_name("N")
         ->check(CLI::Range(0, 4096));
-    add_place_options(*command, flags->scene_index, flags->camera);
-    add_animation_flags(*command, flags->animation);
-    command->get_option("--camera")->excludes(atlas);
+    add_camera_flags(*command, flags->scene);
+    for (const char* name : {"--camera", "--eye", "--look-at"})
+        command->get_option(name)->excludes(atlas);
     command->add_option("--stats", flags->stats, "JSON file with samples, error and time")
         ->type_name("FILE")
         ->default_str("none");

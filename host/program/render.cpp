@@ -101,9 +101,7 @@ void run_render(RenderFlags flags) {
         plan_request(flags);
     else
         request_of("render", flags.ask);
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, quiet,
-                             planned || flags.method == "atlas");
-    check_camera("render", flags.camera, scene);
+    Scene scene = open_scene(flags.scene, quiet, planned || flags.method == "atlas");
     prepare_motion(flags, scene);
     std::optional<GlFrames> gl;
     if (flags.gbuffer == "gl") gl.emplace();
@@ -113,7 +111,7 @@ void run_render(RenderFlags flags) {
            : open_session(flags.device);
     const Programs programs(session.context, session.device);
     flags.options.animated = flags.fps.has_value();
-    if (flags.fps) flags.options.clip = clip_of("render", scene, flags.animation);
+    if (flags.fps) flags.options.clip = clip_of("render", scene, flags.scene.animation);
     if (flags.coarse > 0)
         flags.options.transfer.coarse =
             lab::coarse_mesh(scene, static_cast<std::size_t>(flags.coarse));
@@ -123,8 +121,7 @@ void run_render(RenderFlags flags) {
     }
     flags.options.method = *method_of(flags.method);
     if (!flags.fps && !flags.orbit)
-        scene.focus = focus_of(scene, scene.cameras[static_cast<std::size_t>(flags.camera)],
-                               picture.width, picture.height);
+        scene.focus = focus_of(scene, camera_of(flags.scene, scene), picture.width, picture.height);
     catch_interrupts();
     RenderAttempt attempt(flags, session, programs, gl ? &*gl : nullptr, scene, flags.options,
                           nullptr);
@@ -139,9 +136,7 @@ void run_render(RenderFlags flags) {
 void add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Render a glTF scene");
     const auto flags = std::make_shared<RenderFlags>();
-    command->add_option("scene", flags->scene, ".gltf or .glb file")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_flags(*command, flags->scene);
     add_picture_flags(*command, flags->picture, flags->options.picture.width,
                       flags->options.picture.height);
     command
@@ -154,8 +149,7 @@ void add_render(CLI::App& app) {
         ->type_name("METHOD")
         ->check(CLI::IsMember(
             {"auto", "second-order", "atlas", "transfer", "antiradiance", "cache", "direct"}));
-    add_place_options(*command, flags->scene_index, flags->camera);
-    add_environment_flags(*command, flags->environment);
+    add_camera_flags(*command, flags->scene);
     add_option_flags(*command, flags->options, all_methods, {"math", "storage"});
     add_count(*command, "--coarse", flags->coarse,
               "transfer: Triangles of a simplified mesh that blocks where it is far away; 0: none",
@@ -166,7 +160,6 @@ void add_render(CLI::App& app) {
     add_ask_flags(*command, flags->ask);
     add_plan_flags(*command, flags->plan);
     add_verify_flag(*command, flags->verify, "picture");
-    add_animation_flags(*command, flags->animation);
     command->add_option("--frames", flags->frames, "Pictures to render and time; the last is kept")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000));

@@ -49,7 +49,7 @@ RenderAttempt::RenderAttempt(const RenderFlags& flags, const Session& session,
       device_scene_(session.context, session.device, scene_),
       renderer_(programs, session.queue, scene_, device_scene_, options_),
       motion_(flags, scene_, device_scene_, session.queue),
-      camera_(scene_.cameras[static_cast<std::size_t>(flags.camera)]),
+      camera_(camera_of(flags.scene, scene_)),
       last_camera_(camera_),
       moves_(flags.fps && moves(scene_)) {
     record_.planned = std::move(planned);

@@ -31,9 +31,9 @@ public:
 
     // All frames; with --fps they are saved, too. Throws Interrupted.
     void draw();
-    // More samples for the only frame, until they differ from their mean by no more than `error`, or
-    // as many as take so many seconds; at least `least` together with its own, whatever they take,
-    // and at most 1024. None where their number was given.
+    // More samples for the only frame, until they differ from their mean by no more than `error`,
+    // or as many as take so many seconds; at least `least` together with its own, whatever they
+    // take, and at most 1024. None where their number was given.
     void refine(double seconds, std::uint32_t least, double error);
     // Measures the error against all light of a scene. decide: as in VerifyOptions.
     void check(const Scene& truth, double decide);

@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "program/animation.hpp"
 #include "program/ask.hpp"
-#include "program/environment.hpp"
 #include "program/option_flags.hpp"
 #include "program/picture.hpp"
 #include "program/plan_request.hpp"
+#include "program/scene_flags.hpp"
 #include "program/session.hpp"
 #include "program/verify.hpp"
 
@@ -24,12 +23,8 @@ struct RenderFlags {
     PictureFlags picture;
     AskFlags ask;
     VerifyFlags verify;
-    EnvironmentFlags environment;
-    AnimationFlags animation;
+    SceneFlags scene;
     std::optional<double> fps;  // frames a second of the animation, each in a file of its own
-    std::string scene;
-    int scene_index = -1;
-    int camera = 0;
     std::string method = "auto";
     RendererOptions options;
     std::vector<const OptionRow*> given;  // options that flags have set

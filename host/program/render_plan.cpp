@@ -131,8 +131,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
     const PlanRequest request = plan_request(flags);
     const std::optional<double> budget = time_budget(flags, request);
     Planned first;
-    first.plan = make_plan(session.queue, programs, scene,
-                           scene.cameras[static_cast<std::size_t>(flags.camera)], request);
+    first.plan = make_plan(session.queue, programs, scene, camera_of(flags.scene, scene), request);
     const std::optional<double> target = checked_target(flags, first.plan);
     const std::string warning = unmet(first.plan, target.has_value(), budget.has_value());
     first.milliseconds = first.plan.analysis.milliseconds;

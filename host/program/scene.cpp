@@ -22,7 +22,7 @@ namespace clgi::program {
 namespace {
 
 // What was given on the command line; empty means the scene's own default.
-struct SceneFlags {
+struct GeneratedFlags {
     std::string name;
     std::string output;
     std::optional<std::string> mesh;
@@ -41,7 +41,7 @@ struct SceneFlags {
 struct SceneKind {
     std::string name;
     std::vector<std::string> flags;  // those it understands
-    Scene (*make)(const SceneFlags& flags);
+    Scene (*make)(const GeneratedFlags& flags);
 };
 
 template <typename Value, typename Given>
@@ -55,7 +55,7 @@ void take_angle(float& radians, const std::optional<float>& degrees) {
 
 // The light and, for a spot, its cone.
 template <typename Options>
-void take_lamp(Options& options, const SceneFlags& flags) {
+void take_lamp(Options& options, const GeneratedFlags& flags) {
     static const std::map<std::string, LightSource> lamps = {
         {"spot", LightSource::spot}, {"area", LightSource::area}, {"point", LightSource::point}};
     if (flags.light) {
@@ -71,19 +71,19 @@ void take_lamp(Options& options, const SceneFlags& flags) {
     take_angle(options.cone_angle, flags.cone);
 }
 
-Scene make_box(const SceneFlags& flags) {
+Scene make_box(const GeneratedFlags& flags) {
     BoxOptions options;
     take_lamp(options, flags);
     return flags.mesh ? box(io::load_gltf(*flags.mesh), options) : box(options);
 }
 
-Scene make_cornell(const SceneFlags& flags) {
+Scene make_cornell(const GeneratedFlags& flags) {
     CornellOptions options;
     take_lamp(options, flags);
     return cornell(options);
 }
 
-Scene make_corridor(const SceneFlags& flags) {
+Scene make_corridor(const GeneratedFlags& flags) {
     CorridorOptions options;
     take(options.rooms, flags.rooms);
     take_angle(options.door_angle, flags.door);
@@ -91,7 +91,7 @@ Scene make_corridor(const SceneFlags& flags) {
     return corridor(options);
 }
 
-Scene make_furnace(const SceneFlags& flags) {
+Scene make_furnace(const GeneratedFlags& flags) {
     FurnaceOptions options;
     take_lamp(options, flags);
     take(options.albedo, flags.albedo);
@@ -99,20 +99,20 @@ Scene make_furnace(const SceneFlags& flags) {
     return furnace(options);
 }
 
-Scene make_hand(const SceneFlags& flags) {
+Scene make_hand(const GeneratedFlags& flags) {
     HandOptions options;
     take(options.roughness, flags.roughness);
     return hand_like(options);
 }
 
 template <Scene (*make)(const GlossyOptions&)>
-Scene make_glossy(const SceneFlags& flags) {
+Scene make_glossy(const GeneratedFlags& flags) {
     GlossyOptions options;
     take(options.roughness, flags.roughness);
     return make(options);
 }
 
-Scene make_drawn(const SceneFlags& flags) {
+Scene make_drawn(const GeneratedFlags& flags) {
     DrawnOptions options;
     take(options.seed, flags.seed);
     take(options.extent, flags.extent);
@@ -122,19 +122,19 @@ Scene make_drawn(const SceneFlags& flags) {
 std::vector<SceneKind> all_kinds() {
     std::vector<SceneKind> kinds = {
         {"box", {"--mesh", "--light", "--cone"}, make_box},
-        {"character", {}, [](const SceneFlags&) { return character(); }},
-        {"chess", {}, [](const SceneFlags&) { return chess(); }},
-        {"cloth", {}, [](const SceneFlags&) { return cloth(); }},
+        {"character", {}, [](const GeneratedFlags&) { return character(); }},
+        {"chess", {}, [](const GeneratedFlags&) { return chess(); }},
+        {"cloth", {}, [](const GeneratedFlags&) { return cloth(); }},
         {"cornell", {"--light", "--cone"}, make_cornell},
         {"corridor", {"--rooms", "--door", "--cone"}, make_corridor},
-        {"fight-like", {}, [](const SceneFlags&) { return fight_like(); }},
+        {"fight-like", {}, [](const GeneratedFlags&) { return fight_like(); }},
         {"furnace", {"--light", "--albedo", "--subdivisions", "--cone"}, make_furnace},
         {"glossy-box", {"--roughness"}, make_glossy<glossy_box>},
         {"glossy-bust-like", {"--roughness"}, make_glossy<glossy_bust_like>},
         {"hand-like", {"--roughness"}, make_hand},
-        {"maze", {}, [](const SceneFlags&) { return maze(); }},
-        {"office", {}, [](const SceneFlags&) { return office(); }},
-        {"oriental-like", {}, [](const SceneFlags&) { return oriental_like(); }},
+        {"maze", {}, [](const GeneratedFlags&) { return maze(); }},
+        {"office", {}, [](const GeneratedFlags&) { return office(); }},
+        {"oriental-like", {}, [](const GeneratedFlags&) { return oriental_like(); }},
     };
     for (const DrawnKind& kind : drawn_kinds())
         kinds.push_back({kind.name, {"--seed", "--extent"}, make_drawn});
@@ -173,7 +173,7 @@ void refuse_foreign_flags(const CLI::App& command, const SceneKind& kind) {
     }
 }
 
-void run_scene(const CLI::App& command, const SceneFlags& flags) {
+void run_scene(const CLI::App& command, const GeneratedFlags& flags) {
     const SceneKind& kind = find_kind(flags.name);
     refuse_foreign_flags(command, kind);
     const Scene scene = kind.make(flags);
@@ -193,7 +193,7 @@ std::string cone_defaults() {
 
 void add_scene(CLI::App& app) {
     CLI::App* command = app.add_subcommand("scene", "Write a generated scene");
-    const auto flags = std::make_shared<SceneFlags>();
+    const auto flags = std::make_shared<GeneratedFlags>();
     command->add_option("name", flags->name, known_names())->required()->type_name("NAME");
     command->add_option("-o,--output", flags->output, "The .glb file")
         ->required()

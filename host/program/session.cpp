@@ -8,7 +8,6 @@
 #include <atomic>
 #include <chrono>
 #include <clgi/error.hpp>
-#include <clgi/io/gltf.hpp>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -31,15 +30,6 @@ void add_device_option(CLI::App& command, std::string& choice) {
 
 void add_quiet_flag(CLI::App& command, bool& quiet) {
     command.add_flag("--quiet", quiet, "Print no notices, no progress bar and no summary");
-}
-
-void add_place_options(CLI::App& command, int& scene, int& camera) {
-    command.add_option("--scene", scene, "Index of the scene in the file")
-        ->type_name("N")
-        ->default_str("the file's default");
-    command.add_option("--camera", camera, "Index of the camera in the scene")
-        ->type_name("N")
-        ->check(CLI::NonNegativeNumber);
 }
 
 void add_device_flags(CLI::App& command, DeviceFlags& flags) {
@@ -75,31 +65,6 @@ BuildOptions build_of(const DeviceFlags& flags) {
     out.math = flags.math == "fast" ? Math::fast : Math::strict;
     out.storage = flags.storage == "half" ? Storage::half : Storage::full;
     return out;
-}
-
-void check_camera(const std::string& command, int camera, const Scene& scene) {
-    if (camera >= static_cast<int>(scene.cameras.size()))
-        throw Error(fmt::format("{}: --camera is {}, the scene has {}", command, camera,
-                                scene.cameras.size()));
-}
-
-Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlags& environment,
-                 bool quiet, bool lightmaps) {
-    io::GltfOptions options;
-    options.scene = scene_index;
-    options.lightmaps = lightmaps;
-    Scene scene = io::load_gltf(path, options);
-    for (const std::string& warning : scene.warnings) notice(quiet, "warning: " + warning);
-    if (scene.cameras.empty()) {
-        scene.cameras.push_back(default_camera(scene));
-        notice(quiet, "note: the scene has no camera; a default camera is used");
-    }
-    add_environment(environment, scene, quiet);
-    if (scene.lights.empty() && !has_emission(scene) && !scene.environment) {
-        scene.lights.push_back(default_light(scene));
-        notice(quiet, "note: the scene has no light; a directional light of pi lux is used");
-    }
-    return scene;
 }
 
 void notice(bool quiet, const std::string& text) {

@@ -1,17 +1,14 @@
-// What several commands share: choosing a device, opening a scene, reacting to Ctrl-C.
+// What several commands share: choosing a device, notices, reacting to Ctrl-C.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <CLI/App.hpp>
 #include <clgi/advanced/pass.hpp>
 #include <clgi/device.hpp>
-#include <clgi/scene.hpp>
 #include <functional>
 #include <initializer_list>
 #include <string>
 #include <vector>
-
-#include "program/environment.hpp"
 
 namespace clgi::program {
 
@@ -25,9 +22,6 @@ struct DeviceFlags {
 void add_device_flags(CLI::App& command, DeviceFlags& flags);
 void add_device_option(CLI::App& command, std::string& choice);  // --device alone
 void add_quiet_flag(CLI::App& command, bool& quiet);             // --quiet alone
-
-// --scene and --camera of commands that read a glTF file.
-void add_place_options(CLI::App& command, int& scene, int& camera);
 
 // Those of the flags that the user gave.
 std::vector<std::string> given(const CLI::App& command, std::initializer_list<const char*> names);
@@ -45,15 +39,6 @@ Session open_session(const DeviceFlags& flags, const ContextProperties& properti
 
 // The build options that the flags select.
 BuildOptions build_of(const DeviceFlags& flags);
-
-// Throws Error that begins with the command's name for a camera that the scene has not.
-void check_camera(const std::string& command, int camera, const Scene& scene);
-
-// Loads a glTF file, prints its warnings and adds the environment of the flags. Adds a camera and a
-// light if the file has none, and prints a note. lightmaps: keeps texture coordinates without
-// textures.
-Scene open_scene(const std::string& path, int scene_index, const EnvironmentFlags& environment,
-                 bool quiet, bool lightmaps = false);
 
 // Prints a line on stderr, unless quiet.
 void notice(bool quiet, const std::string& text);

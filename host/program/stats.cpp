@@ -87,12 +87,10 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                            {"terms", record.transfer->terms},
                            {"receiver_pixels", record.transfer->receiver_pixels}};
     if (record.cache)
-        out["cache"] = {{"seen", record.cache->seen},
-                        {"met", record.cache->met},
-                        {"refined", record.cache->refined},
-                        {"spots", record.cache->spots},
-                        {"reflections", record.cache->bounces},
-                        {"converged", record.cache->converged}};
+        out["cache"] = {
+            {"seen", record.cache->seen},           {"met", record.cache->met},
+            {"refined", record.cache->refined},     {"spots", record.cache->spots},
+            {"reflections", record.cache->bounces}, {"converged", record.cache->converged}};
     if (record.antiradiance) {
         const AntiradianceSummary& a = *record.antiradiance;
         out["antiradiance"] = {{"elements", a.elements},

@@ -72,7 +72,7 @@ struct RenderRecord {
     std::optional<reference::Verification> verified;
     std::uint32_t samples = 1;  // of the last picture
     double refine_ms = 0.0;     // of those beyond the first frame's own
-    double prepare_ms = 0.0;  // what precedes the first picture, such as a bake
+    double prepare_ms = 0.0;    // what precedes the first picture, such as a bake
     std::optional<BakeSummary> bake;
     std::optional<TransferSummary> transfer;
     std::optional<IrradianceCacheStatus> cache;

@@ -17,12 +17,12 @@
 #include "lab/sweep_pictures.hpp"
 #include "lab/sweep_summary.hpp"
 #include "lab/sweep_transfer.hpp"
-#include "program/animation.hpp"
 #include "program/commands.hpp"
 #include "program/count_flag.hpp"
 #include "program/duration.hpp"
 #include "program/environment.hpp"
 #include "program/picture.hpp"
+#include "program/scene_flags.hpp"
 #include "program/session.hpp"
 #include "program/version.hpp"
 
@@ -32,17 +32,13 @@ namespace {
 // What clgi sweep was asked for.
 struct SweepFlags {
     DeviceFlags device;
-    EnvironmentFlags environment;
-    AnimationFlags animation;
-    std::string scene;
+    SceneFlags scene;
     std::string output;
     std::string method = "all";
     std::string size;
     std::string reference;
     std::string sheet_time = "100ms";
     int atlas_size = 0;
-    int scene_index = -1;
-    int camera = 0;
     int samples = 0;
     int rounds = 0;
     bool quick = false;
@@ -60,10 +56,9 @@ bool of_atlas(const SweepFlags& flags) { return flags.method == "atlas"; }
 bool of_transfer(const SweepFlags& flags) { return flags.method == "transfer"; }
 bool of_all(const SweepFlags& flags) { return flags.method == "all"; }
 
-lab::PictureSweep pictures_of(const SweepFlags& flags, const Scene& scene) {
+lab::PictureSweep pictures_of(const SweepFlags& flags) {
     lab::PictureSweep out;
-    check_camera("sweep", flags.camera, scene);
-    out.camera = flags.camera;
+    out.camera = flags.scene.camera;
     out.width = flags.quick ? 160 : 320;
     out.height = flags.quick ? 120 : 240;
     if (flags.method == "antiradiance") out.methods = {lab::antiradiance_method};
@@ -105,8 +100,8 @@ std::function<bool(double)> sweep_progress(const SweepFlags& flags) {
 
 // How the iterations of antiradiance come to rest.
 void run_convergence(const SweepFlags& flags) {
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet);
-    pose_scene("sweep", flags.animation, scene);
+    Scene scene = open_scene(flags.scene, flags.device.quiet);
+    arrange_scene("sweep", flags.scene, scene);
     const Session session = open_session(flags.device);
     make_folder(flags.output);
     lab::ConvergenceSetup setup{session.queue, scene};
@@ -142,18 +137,17 @@ void run_sweep(const SweepFlags& flags) {
     refuse(!of_atlas(flags), flags.atlas_only, "only with --method atlas");
     refuse(!of_all(flags), flags.all_only, "only with --method all");
     const double sheet_time = parse_milliseconds("sweep", "--sheet-time", flags.sheet_time);
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.device.quiet,
-                             of_atlas(flags));
+    Scene scene = open_scene(flags.scene, flags.device.quiet, of_atlas(flags));
     lab::TransferSweep motion;
     Scene animated;  // as it was before it is posed
-    if (of_transfer(flags) && flags.animation.given()) {
-        motion.clip = clip_of("sweep", scene, flags.animation);
+    if (of_transfer(flags) && flags.scene.animation.given()) {
+        motion.clip = clip_of("sweep", scene, flags.scene.animation);
         animated = scene;
         motion.animated = &animated;
     }
-    pose_scene("sweep", flags.animation, scene);
+    arrange_scene("sweep", flags.scene, scene);
     const lab::PictureSweep pictures =
-        of_atlas(flags) || of_transfer(flags) ? lab::PictureSweep() : pictures_of(flags, scene);
+        of_atlas(flags) || of_transfer(flags) ? lab::PictureSweep() : pictures_of(flags);
     const Session session = open_session(flags.device);
     lab::SweepSetup setup{session.queue, scene};
     setup.quick = flags.quick;
@@ -189,7 +183,8 @@ std::string command_of(const CLI::App& command, const SweepFlags& flags) {
     const auto file = [](const std::string& path) {
         return std::filesystem::path(path).filename().string();
     };
-    std::string out = fmt::format("clgi sweep {} -o {}", file(flags.scene), file(flags.output));
+    std::string out =
+        fmt::format("clgi sweep {} -o {}", file(flags.scene.file), file(flags.output));
     for (const CLI::Option* option : command.get_options()) {
         const std::string name = option->get_name();
         if (option->count() == 0 || option->get_positional() || name == "--output" ||
@@ -206,9 +201,7 @@ std::string command_of(const CLI::App& command, const SweepFlags& flags) {
 void add_sweep(CLI::App& app) {
     CLI::App* command = app.add_subcommand("sweep", "Measure accuracy against time");
     const auto flags = std::make_shared<SweepFlags>();
-    command->add_option("scene", flags->scene, ".gltf or .glb file")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_flags(*command, flags->scene);
     command
         ->add_option("-o,--output", flags->output,
                      "Folder for the results; references in it are used again")
@@ -249,18 +242,16 @@ void add_sweep(CLI::App& app) {
         ->add_option("--sheet-time", flags->sheet_time,
                      "all: Time of a frame that pictures of methods.png may take")
         ->type_name("TIME");
-    add_place_options(*command, flags->scene_index, flags->camera);
-    add_animation_flags(*command, flags->animation);
-    add_environment_flags(*command, flags->environment);
+    add_camera_flags(*command, flags->scene);
     add_device_flags(*command, flags->device);
     command->callback([flags, command] {
-        flags->pictures_only = given(*command, {"--size", "--camera"});
+        flags->pictures_only = given(*command, {"--size", "--camera", "--eye", "--look-at"});
         flags->atlas_only = given(*command, {"--atlas-size", "--reference"});
         flags->all_only = given(*command, {"--sheet-time"});
         flags->convergence_only = given(*command, {"--bins", "--elements", "--iterations"});
         flags->not_convergence =
-            given(*command, {"--method", "--size", "--camera", "--spp", "--rounds", "--atlas-size",
-                             "--reference", "--sheet-time"});
+            given(*command, {"--method", "--size", "--camera", "--eye", "--look-at", "--spp",
+                             "--rounds", "--atlas-size", "--reference", "--sheet-time"});
         flags->command = command_of(*command, *flags);
         run_sweep(*flags);
     });

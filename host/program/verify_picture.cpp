@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "io/image_formats.hpp"
-#include "program/animation.hpp"
 #include "program/commands.hpp"
 #include "program/duration.hpp"
+#include "program/scene_flags.hpp"
 #include "program/session.hpp"
 #include "program/verify.hpp"
 
@@ -20,15 +20,11 @@ namespace {
 
 struct VerifyPictureFlags {
     std::string picture;
-    std::string scene;
-    EnvironmentFlags environment;
-    AnimationFlags animation;
+    SceneFlags scene;
     std::string time = "2s";
     std::string effects;
     std::string filter;
     std::uint64_t seed = 1;
-    int scene_index = -1;
-    int camera = 0;
     bool json = false;
     bool quiet = false;
 };
@@ -54,14 +50,13 @@ void run_verify(const VerifyPictureFlags& flags) {
     options.filter = filter_of(!flags.filter.empty()              ? flags.filter
                                : says != picture.attributes.end() ? says->second
                                                                   : "center");
-    Scene scene = open_scene(flags.scene, flags.scene_index, flags.environment, flags.quiet);
-    pose_scene("verify", flags.animation, scene);
-    check_camera("verify", flags.camera, scene);
+    Scene scene = open_scene(flags.scene, flags.quiet);
+    arrange_scene("verify", flags.scene, scene);
     const reference::PathTracer tracer(scene);
     catch_interrupts();
-    const reference::Verification found = tracer.verify(
-        scene.cameras[static_cast<std::size_t>(flags.camera)], picture.width, picture.height,
-        radiance_of(picture), options, progress_bar("verify", flags.quiet));
+    const reference::Verification found =
+        tracer.verify(camera_of(flags.scene, scene), picture.width, picture.height,
+                      radiance_of(picture), options, progress_bar("verify", flags.quiet));
     if (found.cancelled) throw Interrupted();
     if (flags.json)
         fmt::print("{}\n", verify_json(found).dump(2));
@@ -81,12 +76,8 @@ void add_verify(CLI::App& app) {
             "The picture to judge, .exr or .hdr: radiance in cd/m^2 from the scene's camera")
         ->required()
         ->type_name("PICTURE");
-    command->add_option("scene", flags->scene, ".gltf or .glb file")
-        ->required()
-        ->type_name("SCENE");
-    add_environment_flags(*command, flags->environment);
-    add_place_options(*command, flags->scene_index, flags->camera);
-    add_animation_flags(*command, flags->animation);
+    add_scene_flags(*command, flags->scene);
+    add_camera_flags(*command, flags->scene);
     command->add_option("--limit", flags->time, "How long pixels are traced")->type_name("TIME");
     command
         ->add_option("--effects", flags->effects,

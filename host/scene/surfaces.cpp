@@ -126,16 +126,10 @@ Light point(const std::string& name, const glm::dvec3& position, const glm::vec3
 
 Camera look_at(const std::string& name, const glm::dvec3& position, const glm::dvec3& target,
                float vertical_fov) {
-    const glm::dvec3 forward = glm::normalize(target - position);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));
     Camera camera;
     camera.name = name;
-    camera.position = position;
-    camera.forward = glm::vec3(forward);
-    camera.right = glm::vec3(right);
-    camera.up = glm::vec3(glm::cross(right, forward));
     camera.vertical_fov = vertical_fov;
-    return camera;
+    return clgi::look_at(camera, position, target);
 }
 
 }  // namespace clgi::generated

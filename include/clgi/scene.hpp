@@ -179,6 +179,11 @@ CLGI_API void validate(const Scene& scene);
 // A camera for files that have none, in front of an object or inside a room.
 CLGI_API Camera default_camera(const Scene& scene);
 
+// The camera moved to `eye`, its axis through `target` and +Y upwards in the picture; what else it
+// is stays. Throws Error for places that are the same or not finite; along +Y its right stays as near
+// as may be to what it was.
+CLGI_API Camera look_at(const Camera& camera, const glm::dvec3& eye, const glm::dvec3& target);
+
 // A light for scenes without light, emissive surface and environment: directional, pi lux.
 CLGI_API Light default_light(const Scene& scene);
 

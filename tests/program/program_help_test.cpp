@@ -120,7 +120,7 @@ TEST_F(Program, HelpShowsTheDefaultOfEveryOption) {
             EXPECT_EQ(*documented_default, required ? "required" : option.fallback());
         }
     }
-    EXPECT_EQ(commands, 11);
+    EXPECT_GE(commands, 11);  // and view, where it is built
     EXPECT_GT(values, 60);
 }
 
