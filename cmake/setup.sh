@@ -13,9 +13,9 @@ clgi_packages=(
     libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri                 # clgi::gl
     libmeshoptimizer-dev                                                         # clgi::mesh
     libembree-dev libtbb-dev                                                     # clgi::reference
-    libcli11-dev libfmt-dev                                                      # the program
+    libcli11-dev libfmt-dev libglfw3-dev libimgui-dev                            # the program
     pocl-opencl-icd                                                              # OpenCL on CPUs
-    libgtest-dev oclgrind dpkg-dev                                               # tests
+    libgtest-dev oclgrind dpkg-dev xvfb xdotool                                  # tests
 )
 
 # Plots of sweeps, scale bars and sheets: 60 MB of downloads that a first picture does not need.

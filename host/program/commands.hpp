@@ -10,6 +10,7 @@ void add_devices(CLI::App& app);
 void add_scene(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_render(CLI::App& app);
+void add_view(CLI::App& app);  // of programs with CLGI_VIEW
 void add_bake(CLI::App& app);
 void add_transfer(CLI::App& app);
 void add_reference(CLI::App& app);

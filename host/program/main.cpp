@@ -68,6 +68,9 @@ int main(int argc, char** argv) {
         clgi::program::add_scene(app);
         clgi::program::add_plan(app);
         clgi::program::add_render(app);
+#ifdef CLGI_HAS_VIEW
+        clgi::program::add_view(app);
+#endif
         clgi::program::add_bake(app);
         clgi::program::add_transfer(app);
         clgi::program::add_reference(app);

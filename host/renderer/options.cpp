@@ -34,8 +34,12 @@ std::vector<OptionRow> of_pictures() {
     return {
         number(row("vpls", "N", of_second_order | of_light_atlas,
                    "VPLs of all emitters together; atlas: on all surfaces", 0, 1 << 20),
-               [](O& o) -> Number { return &o.second_order.emitters.vpls; },
-               {[](O& o) -> Number { return &o.vpls.count; }}),
+               [](O& o) -> Number {
+                   if (o.method == Method::light_atlas) return &o.vpls.count;
+                   return &o.second_order.emitters.vpls;
+               },
+               {[](O& o) -> Number { return &o.second_order.emitters.vpls; },
+                [](O& o) -> Number { return &o.vpls.count; }}),
         number(row("negative-vpls", "N", of_second_order, "Negative VPLs; 0: none", 0, 1 << 20),
                [](O& o) -> Number { return &o.second_order.negative_vpls; }),
         threshold(
