@@ -168,7 +168,7 @@ void run_bake(BakeFlags flags) {
     }
     const Stopwatch build;
     const DeviceScene device_scene(session.context, session.device, scene);
-    const Programs programs(session.context, session.device);
+    const Programs programs = programs_of(session);
     LightAtlasSolver solver(programs, session.queue, device_scene, layout.vpls, layout.atlas,
                             options);
     const double build_seconds = build.seconds();

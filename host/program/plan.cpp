@@ -54,7 +54,7 @@ void run_plan(const PlanCommand& flags) {
     DeviceFlags device = flags.device;
     device.quiet = device.quiet || flags.json;
     const Session session = open_session(device);
-    const Programs programs(session.context, session.device);
+    const Programs programs = programs_of(session);
     const Plan plan =
         make_plan(session.queue, programs, scene, camera_of(flags.scene, scene), request);
     if (flags.json)

@@ -109,7 +109,7 @@ void run_render(RenderFlags flags) {
         gl ? open_session(flags.device,
                           [&](const cl::Device& device) { return gl->properties(device); })
            : open_session(flags.device);
-    const Programs programs(session.context, session.device);
+    const Programs programs = programs_of(session);
     flags.options.animated = flags.fps.has_value();
     if (flags.fps) flags.options.clip = clip_of("render", scene, flags.scene.animation);
     if (flags.coarse > 0)

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 
 #include "core/opencl/error_text.hpp"
@@ -19,6 +21,22 @@ namespace clgi::program {
 namespace {
 
 std::atomic<bool> interrupt_flag{false};
+
+// Of the user, by the rules of XDG; empty: none.
+std::filesystem::path cache_folder() {
+    const char* caches = std::getenv("XDG_CACHE_HOME");
+    if (caches && std::filesystem::path(caches).is_absolute())
+        return std::filesystem::path(caches) / "clgi";
+    const char* home = std::getenv("HOME");
+    return home && *home ? std::filesystem::path(home) / ".cache" / "clgi"
+                         : std::filesystem::path();
+}
+
+bool keeps_programs(const cl::Device& device) {
+    const std::string name =
+        cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>();
+    return name == "Portable Computing Language" || name == "NVIDIA CUDA" || name == "Oclgrind";
+}
 
 }  // namespace
 
@@ -57,6 +75,17 @@ Session open_session(const DeviceFlags& flags, const ContextProperties& properti
         throw DeviceError(fmt::format("device: {} cannot be opened: {}", describe(out.device),
                                       error_text(error.err())));
     }
+    return out;
+}
+
+Programs programs_of(const Session& session) {
+    Programs out(session.context, session.device);
+    const char* wanted = std::getenv("CLGI_CACHE");
+    const std::string folder = wanted ? wanted : "";
+    if (!folder.empty() && folder != "off")
+        out.keep_binaries(folder);
+    else if (folder.empty() && !keeps_programs(session.device))
+        out.keep_binaries(cache_folder());
     return out;
 }
 

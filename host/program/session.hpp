@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <clgi/advanced/pass.hpp>
 #include <clgi/device.hpp>
+#include <clgi/programs.hpp>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -36,6 +37,10 @@ struct Session {
 // context, if any.
 using ContextProperties = std::function<std::vector<cl_context_properties>(const cl::Device&)>;
 Session open_session(const DeviceFlags& flags, const ContextProperties& properties = nullptr);
+
+// Kernels of a session. Their binaries are kept in the folder of CLGI_CACHE, or in the user's cache
+// where the platform keeps none itself.
+Programs programs_of(const Session& session);
 
 // The build options that the flags select.
 BuildOptions build_of(const DeviceFlags& flags);

@@ -164,7 +164,7 @@ void run_export(const ExportFlags& flags) {
 
     const Stopwatch build;
     const DeviceScene device_scene(session.context, session.device, scene);
-    const Programs programs(session.context, session.device);
+    const Programs programs = programs_of(session);
     DynamicTransferSolver solver(programs, session.queue, scene, device_scene, options);
     const double build_seconds = build.seconds();
     catch_interrupts();

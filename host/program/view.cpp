@@ -69,8 +69,7 @@ void run_view(const ViewFlags& flags) {
     subject.flags = repeated(flags.scene);
     subject.turned = flags.scene.environment.rotation;
     const Session session = open_session(flags.device);
-    const view::Viewed viewed =
-        view::view(Programs(session.context, session.device), std::move(subject), options);
+    const view::Viewed viewed = view::view(programs_of(session), std::move(subject), options);
     if (options.turntable && !flags.device.quiet)
         fmt::print("{} pictures in {:.2f} s, {:.1f} a second\n", viewed.frames, viewed.seconds,
                    static_cast<double>(viewed.frames) / viewed.seconds);

@@ -5,6 +5,7 @@
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/pass.hpp>
 #include <clgi/opencl.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,13 @@ public:
     // variant of the pass. Builds nothing yet. Throws Error when there is no such kernel.
     PassKernel kernel(const std::string& room, const std::string& pass,
                       const BuildOptions& options = {}, const std::string& defines = "") const;
+
+    // Programs that are built from now on are kept in this folder as the driver's binaries, and
+    // taken from there by the next process: for runtimes that keep none themselves. Empty: none are
+    // kept, as without this call. A file that is broken, or of another source, device or driver, is
+    // built anew; nothing is thrown where the folder cannot be read or written. Processes may share
+    // it.
+    void keep_binaries(const std::filesystem::path& folder);
 
     // How many kernels have been built so far.
     std::size_t built() const;

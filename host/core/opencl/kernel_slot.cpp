@@ -37,23 +37,27 @@ std::string options_for(const std::string& source, const std::string& options) {
 }
 
 KernelSlot::KernelSlot(const cl::Context& context, const cl::Device& device, std::string file,
-                       std::string function, std::string options)
+                       std::string function, std::string options,
+                       std::shared_ptr<const BinaryCache> cache)
     : context_(context),
       device_(device),
       file_(std::move(file)),
       function_(std::move(function)),
-      options_(std::move(options)) {}
+      options_(std::move(options)),
+      cache_(std::move(cache)) {}
 
 cl::Program KernelSlot::compiled(const std::vector<std::string>& files) const {
-    const std::string source = kernels_source(files);
+    const std::string source = kernels_source(files), options = options_for(source, options_);
+    if (auto kept = cache_->find(context_, device_, source, options)) return *kept;
     cl::Program program(context_, source);
     try {
-        program.build(device_, options_for(source, options_).c_str());
+        program.build(device_, options.c_str());
     } catch (const cl::Error& error) {
         throw DeviceError("program: " + files.front() + ".cl does not build on " +
                           describe(device_) + ": " + error_text(error.err()) + "\n" +
                           build_log(program, device_));
     }
+    cache_->keep(program, device_, source, options);
     return program;
 }
 

@@ -11,13 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "core/opencl/binary_cache.hpp"
+
 namespace clgi {
 
 class KernelSlot {
 public:
-    // file: "folder/pass" of the embedded kernel. function: its entry point.
+    // file: "folder/pass" of the embedded kernel. function: its entry point. cache: not null.
     KernelSlot(const cl::Context& context, const cl::Device& device, std::string file,
-               std::string function, std::string options);
+               std::string function, std::string options, std::shared_ptr<const BinaryCache> cache);
 
     // Builds once. Throws DeviceError with the compiler's log.
     void build();
@@ -52,6 +54,7 @@ private:
     cl::Context context_;
     cl::Device device_;
     std::string file_, function_, options_;
+    std::shared_ptr<const BinaryCache> cache_;
     std::once_flag once_;
     std::atomic<bool> built_ = false;
     std::mutex arguments_;

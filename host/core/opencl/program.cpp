@@ -85,6 +85,7 @@ struct Programs::Store {
     std::mutex mutex;
     std::map<std::string, std::string> sources;                // by file
     std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file and options
+    const std::shared_ptr<BinaryCache> cache = std::make_shared<BinaryCache>();
 };
 
 Programs::Programs(const cl::Context& context, const cl::Device& device)
@@ -105,9 +106,14 @@ PassKernel Programs::kernel(const std::string& room, const std::string& pass,
     const std::string asked = compiler_options(device_, options) + " " + defines;
     std::shared_ptr<KernelSlot>& slot = store_->slots[file + " " + options_for(source, asked)];
     if (!slot)
-        slot = std::make_shared<KernelSlot>(context_, device_, file, room + "_" + pass, asked);
+        slot = std::make_shared<KernelSlot>(context_, device_, file, room + "_" + pass, asked,
+                                            store_->cache);
     out.slot = slot;
     return out;
+}
+
+void Programs::keep_binaries(const std::filesystem::path& folder) {
+    store_->cache->set_folder(folder);
 }
 
 std::size_t Programs::built() const {
