@@ -22,6 +22,15 @@ io::Image radiance_picture(const Renderer& renderer) {
     return io::radiance_image(width, height, renderer.read_radiance());
 }
 
+std::vector<glm::vec3> radiance_of(const io::Image& picture) {
+    std::vector<glm::vec3> out(picture.find("R")->values.size());
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<float>& plane = picture.find(std::string(1, "RGB"[c]))->values;
+        for (std::size_t k = 0; k < out.size(); ++k) out[k][c] = plane[k];
+    }
+    return out;
+}
+
 float preview_exposure(const io::Image& picture) {
     std::vector<double> luminance = luminance_of(picture);
     std::erase_if(luminance, [](double y) { return !(y > 0.0); });

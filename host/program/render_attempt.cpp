@@ -167,7 +167,7 @@ void RenderAttempt::check(const Scene& truth, double decide) {
                    if (decide > 0.0 && flags_.verify.time.empty())
                        options.seconds = std::max(least, share * seconds());
                    return tracer.verify(last_camera_, picture_.width, picture_.height,
-                                        radiance_of(picture_), options,
+                                        lab::radiance_of(picture_), options,
                                         progress_bar("verify", flags_.device.quiet));
                });
 }

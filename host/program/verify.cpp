@@ -85,16 +85,6 @@ std::optional<Verification> verify(const Scene& scene, const VerifyFlags& flags,
     }
 }
 
-std::vector<glm::vec3> radiance_of(const io::Image& picture) {
-    std::vector<glm::vec3> out(static_cast<std::size_t>(picture.width) *
-                               static_cast<std::size_t>(picture.height));
-    for (int c = 0; c < 3; ++c) {
-        const std::vector<float>& plane = picture.find(std::string(1, "RGB"[c]))->values;
-        for (std::size_t k = 0; k < out.size(); ++k) out[k][c] = plane[k];
-    }
-    return out;
-}
-
 std::string verify_line(const Verification& found) {
     const Estimate &error = found.error, &energy = found.energy;
     const auto end = [](double value, const std::string& text) {

@@ -35,9 +35,6 @@ using Check = std::function<reference::Verification(const reference::PathTracer&
 std::optional<reference::Verification> verify(const Scene& scene, const VerifyFlags& flags,
                                               double spent, const Check& check);
 
-// The radiance of a picture with planes R, G and B, as PathTracer::verify takes it.
-std::vector<glm::vec3> radiance_of(const io::Image& picture);
-
 // "measured error 4.2 % (3.5 to 4.9), energy 0.990 (0.981 to 1.002)".
 std::string verify_line(const reference::Verification& found);
 

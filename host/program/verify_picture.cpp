@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/image_formats.hpp"
+#include "lab/preview.hpp"
 #include "program/commands.hpp"
 #include "program/duration.hpp"
 #include "program/scene_flags.hpp"
@@ -56,7 +57,7 @@ void run_verify(const VerifyPictureFlags& flags) {
     catch_interrupts();
     const reference::Verification found =
         tracer.verify(camera_of(flags.scene, scene), picture.width, picture.height,
-                      radiance_of(picture), options, progress_bar("verify", flags.quiet));
+                      lab::radiance_of(picture), options, progress_bar("verify", flags.quiet));
     if (found.cancelled) throw Interrupted();
     if (flags.json)
         fmt::print("{}\n", verify_json(found).dump(2));

@@ -25,21 +25,35 @@ struct ViewFlags {
     std::optional<float> exposure;
 };
 
-// What of the flags a saved picture's command repeats.
-std::string repeated(const SceneFlags& flags) {
-    const auto quoted = [](std::string text) {
-        if (text.find_first_of(" \t'\"\\$&;()<>|*?") == std::string::npos) return text;
-        for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4)
-            text.replace(at, 1, "'\\''");
-        return "'" + text + "'";
-    };
-    std::string out = quoted(flags.file);
-    if (flags.index >= 0) out += fmt::format(" --scene {}", flags.index);
-    if (flags.camera > 0) out += fmt::format(" --camera {}", flags.camera);
-    const EnvironmentFlags& sky = flags.environment;
-    if (!sky.source.empty()) out += " --environment " + quoted(sky.source);
+// What of the flags a saved picture's command repeats; what may change in a window is not among it.
+std::string repeated(const ViewFlags& flags) {
+    const SceneFlags& scene = flags.scene;
+    std::string out = view::quoted(scene.file);
+    if (!flags.device.device.empty()) out += " --device " + view::quoted(flags.device.device);
+    if (scene.index >= 0) out += fmt::format(" --scene {}", scene.index);
+    if (scene.camera > 0) out += fmt::format(" --camera {}", scene.camera);
+    const EnvironmentFlags& sky = scene.environment;
+    if (!sky.source.empty()) out += " --environment " + view::quoted(sky.source);
     if (sky.scale != 1.0) out += fmt::format(" --environment-scale {}", sky.scale);
-    for (const std::string& light : flags.lights) out += " --light " + quoted(light);
+    return out;
+}
+
+// The scene as the file has it, and what flags change of it: camera, lights, pose.
+view::Shown first_of(const ViewFlags& flags, const Scene& scene) {
+    view::Shown out;
+    out.method = method_of(flags.method);
+    out.seconds = flags.scene.animation.time;
+    Scene placed = scene;
+    arrange_scene("view", flags.scene, placed);
+    const Camera& camera = camera_of(flags.scene, placed);
+    if (!flags.scene.target.empty())
+        out.viewpoint = {camera.position, *parse_triple(flags.scene.target)};
+    else if (!flags.scene.eye.empty())
+        out.viewpoint = view::viewpoint_of(camera, bounds(placed));
+    for (const std::string& light : flags.scene.lights) {
+        const std::size_t index = std::stoul(light);
+        out.lights[index] = placed.lights[index];
+    }
     return out;
 }
 
@@ -47,30 +61,23 @@ void run_view(const ViewFlags& flags) {
     view::ViewerOptions options;
     parse_size("view", flags.size, 4096, options.pictures.width, options.pictures.height);
     options.pictures.build = build_of(flags.device);
-    options.method = method_of(flags.method);
     options.exposure = flags.exposure;
     options.output = flags.output;
+    if (flags.output.empty()) throw Error("view: -o is empty, a file needed");
+    check_formats("view", {flags.output});
     if (!flags.turntable.empty())
         options.turntable = 1e-3 * parse_milliseconds("view", "--turntable", flags.turntable);
     view::Subject subject;
     subject.scene = open_scene(flags.scene, flags.device.quiet, true);
-    place_scene("view", flags.scene, subject.scene);
-    if (flags.scene.animation.given()) {
+    options.first = first_of(flags, subject.scene);
+    if (flags.scene.animation.given())
         subject.clip = clip_of("view", subject.scene, flags.scene.animation);
-        options.seconds = flags.scene.animation.time;
-    }
-    if (!flags.scene.eye.empty() || !flags.scene.target.empty()) {
-        const Camera& camera = camera_of(flags.scene, subject.scene);
-        options.viewpoint = {camera.position,
-                             parse_triple(flags.scene.target)
-                                 .value_or(camera.position + glm::dvec3(camera.forward))};
-    }
     subject.camera = static_cast<std::size_t>(flags.scene.camera);
-    subject.flags = repeated(flags.scene);
+    subject.flags = repeated(flags);
     subject.turned = flags.scene.environment.rotation;
     const Session session = open_session(flags.device);
     const view::Viewed viewed = view::view(programs_of(session), std::move(subject), options);
-    if (options.turntable && !flags.device.quiet)
+    if (options.turntable && !flags.device.quiet && viewed.seconds > 0.0)
         fmt::print("{} pictures in {:.2f} s, {:.1f} a second\n", viewed.frames, viewed.seconds,
                    static_cast<double>(viewed.frames) / viewed.seconds);
 }

@@ -2,6 +2,7 @@
 #include "view/canvas.hpp"
 
 #include <chrono>
+#include <clgi/plan.hpp>
 #include <glm/gtc/constants.hpp>
 
 #include "lab/preview.hpp"
@@ -15,15 +16,16 @@ double since(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-Scene subject_of(const Subject& subject, const Shown& shown, const RendererOptions& options,
-                 bool moves) {
-    Shown still = shown;
-    if (moves) still.seconds.reset();
-    Scene out = scene_of(subject, still, options.picture.width, options.picture.height);
-    if (moves) {
-        out.focus.reset();
-        if (out.animation) out.moving_bounds = motion_bounds(out, subject.clip);
-    }
+Scene canvas_scene(const Subject& subject, const Shown& shown, const RendererOptions& options,
+                   bool moves) {
+    Shown as_made = shown;
+    if (moves) as_made.seconds.reset();
+    Scene out = scene_of(subject, as_made);
+    if (moves && out.animation)
+        out.moving_bounds = motion_bounds(out, subject.clip);
+    else if (!moves)
+        out.focus = focus_of(out, out.cameras[subject.camera], options.picture.width,
+                             options.picture.height);
     return out;
 }
 
@@ -33,13 +35,17 @@ Canvas::Canvas(const Programs& programs, const cl::CommandQueue& queue, const Su
                const Shown& shown, const RendererOptions& options, bool moves)
     : shown_(shown),
       clip_(subject.clip),
-      scene_(subject_of(subject, shown, options, moves)),
+      camera_index_(subject.camera),
+      uploaded_turn_(shown.turn),
       queue_(queue),
+      scene_(canvas_scene(subject, shown, options, moves)),
+      camera_(scene_.cameras[subject.camera]),
+      focus_(scene_.focus),
       device_scene_(programs.context(), programs.device(), scene_),
       renderer_(programs, queue_, scene_, device_scene_, options) {
     if (moves && scene_.animation) {
         animator_ = std::make_unique<SceneAnimator>(queue_, scene_, device_scene_);
-        if (shown_.seconds) pose();
+        if (shown.seconds) pose(shown);
     }
     renderer_.build();
     scene_ = Scene();  // it is on the device
@@ -50,23 +56,34 @@ bool Canvas::can_follow(const Shown& shown) const {
 }
 
 void Canvas::follow(const Shown& shown) {
-    const bool lit = shown.lit != shown_.lit, turned = shown.turn != shown_.turn,
-               posed = shown.seconds != shown_.seconds;
-    shown_ = shown;
-    if (lit)
+    if (animator_ && shown.seconds != shown_.seconds) pose(shown);
+    if (shown.lit != shown_.lit) {
         for (const auto& [index, light] : shown.lights) device_scene_.set_light(index, light);
-    if (turned) {
-        device_scene_.turn_environment(glm::radians(shown.turn));
+        renderer_.lights_changed();
+    }
+    if (shown.turn != shown_.turn) {
+        device_scene_.turn_environment(glm::radians(shown.turn - uploaded_turn_));
         renderer_.environment_changed();
     }
-    if (posed && animator_) pose();
-    if (lit) renderer_.lights_changed();
+    shown_ = shown;
 }
 
-void Canvas::pose() {
-    const Animated step = animator_->animate(clip_, shown_.seconds.value_or(0.0));
+// Lights that were moved by hand stay where they are.
+void Canvas::pose(const Shown& shown) {
+    const Animated step = animator_->animate(clip_, shown.seconds.value_or(0.0));
+    camera_ = animator_->cameras()[camera_index_];
     renderer_.geometry_changed({step.done});
-    if (step.lights) renderer_.lights_changed();
+    if (!step.lights) return;
+    for (const auto& [index, light] : shown.lights) device_scene_.set_light(index, light);
+    renderer_.lights_changed();
+}
+
+bool Canvas::suits(const std::optional<Focus>& focus) const {
+    if (focus.has_value() != focus_.has_value()) return false;
+    if (!focus) return true;
+    const double ratio = focus->radius / focus_->radius;
+    return ratio < 1.5 && ratio > 1.0 / 1.5 &&
+           glm::length(focus->centre - focus_->centre) < 0.25 * focus_->radius;
 }
 
 bool Canvas::prepare(const Progress& progress) {
@@ -76,9 +93,12 @@ bool Canvas::prepare(const Progress& progress) {
     return done || renderer_.status().given_up;
 }
 
-void Canvas::draw(const Camera& camera) {
+void Canvas::draw() {
+    drawn_from_ = camera_;
+    if (shown_.viewpoint)
+        drawn_from_ = look_at(camera_, shown_.viewpoint->eye, shown_.viewpoint->target);
     const Clock::time_point begin = Clock::now();
-    renderer_.render(camera).wait();
+    renderer_.render(drawn_from_).wait();
     frame_ms_ = since(begin);
 }
 
@@ -90,6 +110,8 @@ Drawn Canvas::drawn() const {
     out.options = renderer_.options();
     out.options.samples = static_cast<int>(renderer_.samples());
     out.picture = lab::radiance_picture(renderer_);
+    out.camera = drawn_from_;
+    out.lights = device_scene_.lights();
     out.prepared_ms = prepared_ms_;
     out.frame_ms = frame_ms_;
     out.warnings = renderer_.status().warnings;

@@ -17,7 +17,10 @@ public:
 
     // Whether follow() suffices to show this.
     bool can_follow(const Shown& shown) const;
+    // May be repeated after it threw.
     void follow(const Shown& shown);
+    // Whether the focus that it was made for is still about that of its picture.
+    bool suits(const std::optional<Focus>& focus) const;
 
     // Whether what is prepared serves every camera.
     bool serves_cameras() const { return renderer_.options().method != Method::irradiance_cache; }
@@ -25,7 +28,7 @@ public:
     bool is_quick() const { return serves_cameras() && frame_ms_ < 60.0; }
 
     bool prepare(const Progress& progress);  // false: cancelled
-    void draw(const Camera& camera);
+    void draw();                             // from the viewpoint of what it follows
     void refine();
     Drawn drawn() const;  // the last picture; waits for it
     std::uint32_t samples() const { return renderer_.samples(); }
@@ -33,12 +36,16 @@ public:
     const RendererOptions& options() const { return renderer_.options(); }
 
 private:
-    void pose();
+    void pose(const Shown& shown);
 
     Shown shown_;
-    std::size_t clip_;
-    Scene scene_;
+    std::size_t clip_, camera_index_;
+    double uploaded_turn_;  // degrees
     cl::CommandQueue queue_;
+    Scene scene_;
+    Camera camera_;      // without a viewpoint
+    Camera drawn_from_;  // the last picture
+    std::optional<Focus> focus_;
     DeviceScene device_scene_;
     std::unique_ptr<SceneAnimator> animator_;
     Renderer renderer_;

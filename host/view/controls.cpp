@@ -4,8 +4,8 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace clgi::view {
@@ -23,7 +23,9 @@ void drag_light(const Camera& camera, Light& light, float right, float down, int
     if (light.kind == Light::Kind::point) {
         const double depth =
             std::abs(glm::dot(light.position - camera.position, glm::dvec3(camera.forward)));
-        const double metres = 2.0 * depth * std::tan(0.5 * camera.vertical_fov) / height;
+        const double metres = camera.kind == Camera::Kind::orthographic
+                                  ? 2.0 * camera.half_height / height
+                                  : 2.0 * depth * std::tan(0.5 * camera.vertical_fov) / height;
         light.position += metres * (double{right} * glm::dvec3(camera.right) -
                                     double{down} * glm::dvec3(camera.up));
         return;
@@ -49,7 +51,7 @@ glm::dvec3 steps(const Window& window) {
             along(GLFW_KEY_W, GLFW_KEY_S)};
 }
 
-bool move_camera(Window& window, Viewpoint& viewpoint) {
+bool move_camera(Window& window, const Bounds& box, Viewpoint& viewpoint) {
     const ImGuiIO& io = ImGui::GetIO();
     bool moved = false;
     if (!io.WantCaptureMouse) {
@@ -57,7 +59,9 @@ bool move_camera(Window& window, Viewpoint& viewpoint) {
         const bool drags = x != 0.0 || y != 0.0;
         if (io.MouseDown[0] && drags) orbit(viewpoint, x, y);
         if (io.MouseDown[1] && drags) look(viewpoint, -x, y);
-        if (io.MouseWheel != 0.0f) approach(viewpoint, std::pow(0.9, io.MouseWheel));
+        if (io.MouseWheel != 0.0f)
+            approach(viewpoint, std::pow(0.9, io.MouseWheel),
+                     0.5 * glm::length(box.high - box.low));
         moved = (drags && (io.MouseDown[0] || io.MouseDown[1])) || io.MouseWheel != 0.0f;
     }
     const glm::dvec3 by = io.WantCaptureKeyboard ? glm::dvec3(0.0) : steps(window);
@@ -69,7 +73,8 @@ bool move_camera(Window& window, Viewpoint& viewpoint) {
 
 }  // namespace
 
-void follow_input(Window& window, const Subject& subject, Shown& shown, Controls& controls) {
+void follow_input(Window& window, const Subject& subject, const Drawn& drawn, Shown& shown,
+                  Controls& controls) {
     const ImGuiIO& io = ImGui::GetIO();
     if (!io.WantCaptureKeyboard)
         for (const int key : window.pressed()) {
@@ -82,11 +87,10 @@ void follow_input(Window& window, const Subject& subject, Shown& shown, Controls
     const float right = io.MouseDelta.x, down = io.MouseDelta.y;
     const bool drags = !io.WantCaptureMouse && io.MouseDown[0] && (right != 0.0f || down != 0.0f);
     if (io.KeyCtrl || io.KeyShift) {
-        if (drags && io.KeyCtrl && controls.light < subject.scene.lights.size()) {
-            Light& light =
-                shown.lights.try_emplace(controls.light, subject.scene.lights[controls.light])
-                    .first->second;
-            drag_light(camera_of(subject, shown), light, right, down, window.height());
+        if (drags && io.KeyCtrl && controls.light < drawn.lights.size()) {
+            Light& light = shown.lights.try_emplace(controls.light, drawn.lights[controls.light])
+                               .first->second;
+            drag_light(drawn.camera, light, right, down, window.height());
             ++shown.lit;
         } else if (drags && io.KeyShift && subject.scene.environment) {
             shown.turn = std::remainder(shown.turn + 0.5 * double{right}, 360.0);
@@ -95,8 +99,8 @@ void follow_input(Window& window, const Subject& subject, Shown& shown, Controls
         return;
     }
     Viewpoint viewpoint =
-        shown.viewpoint.value_or(viewpoint_of(camera_of(subject, shown), bounds(subject.scene)));
-    if (!move_camera(window, viewpoint)) return;
+        shown.viewpoint ? *shown.viewpoint : viewpoint_of(drawn.camera, controls.box);
+    if (!move_camera(window, controls.box, viewpoint)) return;
     shown.viewpoint = viewpoint;
     ++shown.moved;
 }

@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "lab/preview.hpp"
 #include "view/canvas.hpp"
 
 namespace clgi::view {
@@ -26,23 +27,17 @@ constexpr double fine = 2e-3;                   // error of samples
 constexpr std::chrono::milliseconds rest{150};  // without a change, before a picture stays
 constexpr double check_seconds = 1.0;
 
-std::vector<glm::vec3> pixels_of(const io::Image& picture) {
-    const auto &r = picture.find("R")->values, &g = picture.find("G")->values,
-               &b = picture.find("B")->values;
-    std::vector<glm::vec3> out(r.size());
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {r[i], g[i], b[i]};
-    return out;
-}
-
 }  // namespace
 
 struct Painter::State {
-    State(const Programs& all, Subject of, const PainterOptions& wanted, std::function<void()> call)
+    State(const Programs& all, Subject of, const Shown& first, const PainterOptions& wanted,
+          std::function<void()> call)
         : programs(all),
           subject(std::move(of)),
           options(wanted),
           painted(std::move(call)),
-          preview(programs, queue(), subject, {}, coarse(), true) {}
+          shown(first),
+          preview(programs, queue(), subject, first, sized(preview_options()), true) {}
 
     ~State() {
         {
@@ -72,22 +67,8 @@ struct Painter::State {
         out.picture.width = options.width;
         out.picture.height = options.height;
         out.picture.build = options.build;
+        if (out.method == Method::irradiance_cache) out.picture.build.storage = Storage::full;
         return as_flags(out);
-    }
-
-    // Of pictures while something moves: one bounce, few VPLs and shadow maps.
-    RendererOptions coarse() const {
-        RendererOptions out;
-        out.method = Method::second_order;
-        for (const auto& [name, value] : {std::pair("vpls", "100"),
-                                          {"negative-vpls", "30"},
-                                          {"low-res", "0.05"},
-                                          {"area-samples", "4"},
-                                          {"environment-lights", "8"},
-                                          {"shadow-size", "256"},
-                                          {"face-size", "64"}})
-            set_option(out, name, value);
-        return sized(out);
     }
 
     // ---- what both threads look at ------------------------------------------------------------
@@ -96,35 +77,41 @@ struct Painter::State {
         return shown;
     }
 
-    void publish(Drawn&& picture, const Shown& of) {
-        picture.shown = of;
+    // Neither older pictures than the last one nor coarser ones of the same take its place.
+    void publish(Drawn&& picture) {
         {
             const std::lock_guard lock(mutex);
-            // A coarse picture does not take the place of a finer one of the same.
-            if (drawn && picture.preview && !drawn->preview &&
-                drawn->shown.version() >= of.version())
+            const std::uint64_t version = picture.shown.version();
+            if (drawn && drawn->shown.version() > version) return;
+            if (drawn && picture.preview && !drawn->preview && drawn->shown.version() == version)
                 return;
             drawn = std::make_shared<const Drawn>(std::move(picture));
         }
         painted();
     }
 
-    void say(const std::string& doing, const std::string& trouble = "") {
+    void say(const std::string& doing) {
         {
             const std::lock_guard lock(mutex);
-            if (status.doing == doing && status.trouble == trouble) return;
-            status = {doing, trouble};
+            if (status.doing == doing) return;
+            status.doing = doing;
         }
         painted();
     }
 
-    // Runs a thread's work; an error is shown and ends what was begun.
+    // Runs a thread's work; an error is shown. False after one.
     template <typename Work>
-    void guard(const Work& work) {
+    bool guard(const Work& work) {
         try {
             work();
+            return true;
         } catch (const std::exception& failed) {
-            say("", failed.what());
+            {
+                const std::lock_guard lock(mutex);
+                status = {"", failed.what()};
+            }
+            painted();
+            return false;
         }
     }
 
@@ -144,26 +131,25 @@ struct Painter::State {
     }
 
     void draw_change(const Shown& now) {
-        const Camera camera = camera_of(subject, now);
+        const std::shared_ptr<const Drawn> last = picture();
+        if (last && !last->preview && last->shown.version() >= now.version()) return;
         {
             const std::unique_lock lock(canvas_mutex, std::try_to_lock);
             for (Canvas* one : {canvas.get(), quick.get()}) {
-                if (!lock || !one || !one->is_quick() || !shows(*one, now)) continue;
-                one->draw(camera);
+                if (!lock || !one || !one->is_quick() || !one->can_follow(now) ||
+                    canvas_lit != now.lit)
+                    continue;
+                one->follow(now);
+                one->draw();
                 if (one == canvas.get()) drew(now);
-                return publish(one->drawn(), now);
+                return publish(one->drawn());
             }
         }
         preview.follow(now);
-        preview.draw(camera);
-        Drawn picture = preview.drawn();
-        picture.preview = true;
-        publish(std::move(picture), now);
-    }
-
-    // Without anything to prepare anew.
-    bool shows(const Canvas& of, const Shown& now) const {
-        return of.can_follow(now) && canvas_lit == now.lit;
+        preview.draw();
+        Drawn coarse = preview.drawn();
+        coarse.preview = true;
+        publish(std::move(coarse));
     }
 
     // By the canvas, with its lock held.
@@ -187,8 +173,10 @@ struct Painter::State {
                 moves = Clock::now() < moved_at + rest;
             }
             const Shown now = latest();
+            const std::size_t before = rung;
             bool more = false;
-            guard([&] { more = step(now, moves); });
+            // Where settings cannot be drawn, coarser ones remain.
+            if (!guard([&] { more = step(now, moves); })) more = canvas && rung != before;
             if (more) continue;
             if (moves) {
                 std::unique_lock lock(mutex);
@@ -196,13 +184,8 @@ struct Painter::State {
                 continue;
             }
             rests = now.version();
-            if (latest().version() == now.version()) say("", troubled());
+            if (latest().version() == now.version()) say("");
         }
-    }
-
-    std::string troubled() const {
-        const std::lock_guard lock(mutex);
-        return status.trouble;
     }
 
     // False while work on `now` is still of use; what is prepared may serve other cameras too.
@@ -216,81 +199,106 @@ struct Painter::State {
         };
     }
 
-    // One step towards the finest picture. False if nothing is left to do.
+    // One step towards the finest picture. moves: the camera does. False if nothing is left to do.
     bool step(const Shown& now, bool moves) {
         std::unique_lock lock(canvas_mutex);
-        if (canvas && (!canvas->can_follow(now) ||
-                       (!canvas->serves_cameras() && canvas_moved != now.moved))) {
-            canvas.reset();
-            quick.reset();
-        }
+        if (quick && !quick->can_follow(now)) quick.reset();
+        if (canvas && is_stale(now, moves)) canvas.reset();
         if (!canvas) rung = 0;
         if (canvas && canvas_lit != now.lit) return light_anew(now);
-        if (canvas && !moves && canvas_drew != now.version()) return draw_canvas(now);
-        if (rung < rung_count && (!moves || climbs != now.set)) {
+        if (canvas && !moves && canvas_drew != now.version())
+            return canvas_drew > now.version() || draw_canvas(now);
+        if (rung < rung_count && (!moves || waits_for_rest != now.set)) {
             lock.unlock();
             return climb(now, moves);
         }
         if (moves) return false;
         if (canvas->samples() < most_samples && (canvas->samples() < 4 || error > fine))
-            return refine(now);
+            return refine();
         lock.unlock();
         return check(now);
     }
 
+    bool is_stale(const Shown& now, bool moves) const {
+        if (!canvas->can_follow(now)) return true;
+        if (canvas_moved == now.moved) return false;
+        if (!canvas->serves_cameras()) return true;
+        if (moves) return false;
+        const Scene scene = scene_of(subject, now);
+        return !canvas->suits(
+            focus_of(scene, scene.cameras[subject.camera], options.width, options.height));
+    }
+
+    // What a cancelled bake has found is not lost: the next one goes on.
     bool light_anew(const Shown& now) {
         quick.reset();
         canvas->follow(now);
-        if (!canvas->prepare(while_shown(now, "lights anew", canvas->serves_cameras()))) {
-            canvas.reset();
+        if (!canvas->prepare(while_shown(now, "lights anew", canvas->serves_cameras())))
             return true;
-        }
         canvas_lit = now.lit;
+        if (rung == rung_count && !now.by_hand) --rung;  // the plan may be another one
         return draw_canvas(now);
     }
 
     bool draw_canvas(const Shown& now) {
-        canvas->draw(camera_of(subject, now));
+        canvas->follow(now);
+        canvas->draw();
         drew(now);
         checked.reset();
-        publish(canvas->drawn(), now);
+        publish(canvas->drawn());
         return true;
     }
 
     // The next of the settings that take longer and err less.
     bool climb(const Shown& now, bool moves) {
         say("plans");
-        const Scene scene = scene_of(subject, now, options.width, options.height);
-        RendererOptions next =
-            now.by_hand ? *now.by_hand
-                        : make_plan(plan_queue, programs, scene, scene.cameras[subject.camera],
-                                    request(rungs[rung], now.method));
-        next = sized(next);
-        const std::string text = option_text(next, methods_of(next.method));
+        const std::size_t of = rung;
+        rung = now.by_hand ? rung_count : of + 1;
+        RendererOptions next;
+        if (now.by_hand) {
+            next = sized(*now.by_hand);
+        } else {
+            const Scene scene = scene_of(subject, now);
+            next = sized(make_plan(plan_queue, programs, scene, scene.cameras[subject.camera],
+                                   request(rungs[of], now.method)));
+        }
         if (moves && next.method == Method::irradiance_cache) {
-            climbs = now.set;  // of no use before the camera rests
+            waits_for_rest = now.set;
+            rung = of;
             return false;
         }
-        rung = now.by_hand ? rung_count : rung + 1;
+        const std::string text = option_text(next, methods_of(next.method));
         if (canvas && canvas->options().method == next.method && settings == text) return true;
         auto made = std::make_unique<Canvas>(programs, queue(), subject, now, next, false);
         const std::string what = fmt::format("prepares {}", name_of(next.method));
-        if (!made->prepare(while_shown(now, what, made->serves_cameras()))) return true;
+        if (!made->prepare(while_shown(now, what, made->serves_cameras()))) {
+            rung = of;
+            return true;
+        }
         const std::lock_guard lock(canvas_mutex);
         if (canvas && canvas->is_quick()) quick = std::move(canvas);
         canvas = std::move(made);
         canvas_lit = now.lit;
         settings = text;
-        return draw_canvas(moves ? latest() : now);
+        return draw_canvas(from_here(now));
     }
 
-    bool refine(const Shown& now) {
+    // With the camera where it is meanwhile.
+    Shown from_here(Shown now) const {
+        if (!canvas->serves_cameras()) return now;
+        const Shown last = latest();
+        now.viewpoint = last.viewpoint;
+        now.moved = last.moved;
+        return now;
+    }
+
+    bool refine() {
         canvas->refine();
         const std::uint32_t samples = canvas->samples();
         say(fmt::format("refines, {} samples", samples));
         if (samples >= 4) error = canvas->sampling_error();
         if (samples < most_samples && error > fine && samples % 4 != 0) return true;
-        publish(canvas->drawn(), now);
+        publish(canvas->drawn());
         return true;
     }
 
@@ -298,21 +306,22 @@ struct Painter::State {
         if (checked == now.version()) return false;
         checked = now.version();
         const std::shared_ptr<const Drawn> last = picture();
-        if (!last || last->preview || last->shown.version() != now.version()) return false;
-        const Scene scene = scene_of(subject, now, options.width, options.height);
-        const reference::PathTracer tracer(scene);
+        if (!last || last->preview || last->shown.version() != now.version() ||
+            !last->options.picture.direct)
+            return false;
+        const reference::PathTracer tracer(scene_of(subject, now));
         reference::VerifyOptions wanted;
         wanted.samples = 1 << 20;  // time is the limit
         wanted.seconds = check_seconds;
         wanted.filter =
             last->options.samples > 1 ? reference::Filter::box : reference::Filter::center;
-        const reference::Verification found =
-            tracer.verify(scene.cameras[subject.camera], options.width, options.height,
-                          pixels_of(last->picture), wanted, while_shown(now, "checks", false));
+        const reference::Verification found = tracer.verify(
+            last->camera, options.width, options.height, lab::radiance_of(last->picture), wanted,
+            while_shown(now, "checks", false));
         if (found.cancelled) return true;
         Drawn with_check = *last;
         with_check.check = found;
-        publish(std::move(with_check), now);
+        publish(std::move(with_check));
         return false;
     }
 
@@ -338,22 +347,23 @@ struct Painter::State {
     std::mutex canvas_mutex;  // of what follows; the second thread alone replaces it
     std::unique_ptr<Canvas> canvas;
     std::unique_ptr<Canvas> quick;  // a coarser one, while the canvas takes long
-    std::uint64_t canvas_lit = 0, canvas_moved = 0, canvas_drew = 0;
-    double error = 1.0;  // of its samples
+    std::uint64_t canvas_lit = 0, canvas_moved = 0, canvas_drew = 0;  // parts of its version
+    double error = 1.0;                                               // of its samples
 
     // Of the second thread alone.
     cl::CommandQueue plan_queue = queue();
     std::size_t rung = 0;
     std::string settings;  // of the canvas
     std::optional<std::uint64_t> checked;
-    std::optional<std::uint64_t> climbs;  // settings that serve one camera alone
+    std::optional<std::uint64_t> waits_for_rest;  // settings that serve one camera alone
 
     std::thread moving, staying;
 };
 
-Painter::Painter(const Programs& programs, Subject subject, const PainterOptions& options,
-                 std::function<void()> painted)
-    : state_(std::make_unique<State>(programs, std::move(subject), options, std::move(painted))) {
+Painter::Painter(const Programs& programs, Subject subject, const Shown& first,
+                 const PainterOptions& options, std::function<void()> painted)
+    : state_(std::make_unique<State>(programs, std::move(subject), first, options,
+                                     std::move(painted))) {
     State& s = *state_;
     s.moving = std::thread([&s] { s.follow_changes(); });
     s.staying = std::thread([&s] { s.draw_what_stays(); });
@@ -366,6 +376,7 @@ void Painter::show(const Shown& shown) {
         const std::lock_guard lock(state_->mutex);
         Shown& last = state_->shown;
         state_->moved_at = Clock::now();
+        if (shown.set != last.set) state_->status.trouble.clear();
         if (shown.set != last.set || shown.posed != last.posed || shown.lit != last.lit)
             state_->changed_at = state_->moved_at;
         last = shown;

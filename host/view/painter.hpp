@@ -20,8 +20,8 @@ class Painter {
 public:
     // painted: called by either thread after each picture, and when status() has changed. Throws
     // what a Renderer does where not even a coarse picture is possible.
-    Painter(const Programs& programs, Subject subject, const PainterOptions& options,
-            std::function<void()> painted);
+    Painter(const Programs& programs, Subject subject, const Shown& first,
+            const PainterOptions& options, std::function<void()> painted);
     ~Painter();  // cancels
     Painter(const Painter&) = delete;
     Painter& operator=(const Painter&) = delete;
@@ -33,7 +33,7 @@ public:
 
     struct Status {
         std::string doing;    // "prepares atlas, 40 %"; empty: nothing is left to do
-        std::string trouble;  // the last error
+        std::string trouble;  // the last error of these settings
     };
     Status status() const;
 

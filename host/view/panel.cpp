@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <clgi/error.hpp>
 #include <clgi/options.hpp>
+#include <cmath>
 
 #include "view/controls.hpp"
 
@@ -12,7 +14,7 @@ namespace {
 
 void text(const std::string& line) { ImGui::TextUnformatted(line.c_str()); }
 
-void choose_method(Shown& shown) {
+void choose_method_of_list(Shown& shown) {
     const char* now = shown.method ? name_of(*shown.method) : "auto";
     if (!ImGui::BeginCombo("method", now)) return;
     for (int m = -1; m <= static_cast<int>(Method::irradiance_cache); ++m) {
@@ -76,13 +78,19 @@ bool edit(const OptionRow& row, RendererOptions& options) {
     return true;
 }
 
+// Rows that a picture of a window has no use for.
+bool fixed(const OptionRow& row) {
+    for (const char* name : {"samples", "math", "storage", "rings", "poses", "least-change"})
+        if (row.name == name) return true;
+    return false;
+}
+
 void edit_settings(const Drawn& drawn, Shown& shown) {
     if (!ImGui::CollapsingHeader("settings")) return;
     RendererOptions options = shown.by_hand.value_or(drawn.options);
     bool changed = false;
     for (const OptionRow& row : option_table())
-        if (row.of(methods_of(options.method)) && row.name != "samples")
-            changed |= edit(row, options);
+        if (row.of(methods_of(options.method)) && !fixed(row)) changed |= edit(row, options);
     if (changed) {
         options.samples = 1;
         shown.method = options.method;
@@ -95,8 +103,9 @@ void edit_settings(const Drawn& drawn, Shown& shown) {
     }
 }
 
-void edit_lights(const Subject& subject, Shown& shown, std::size_t& chosen) {
-    const std::vector<Light>& lights = subject.scene.lights;
+void edit_lights(const std::vector<Light>& lights, Shown& shown, std::size_t& chosen) {
+    constexpr auto clamped = ImGuiSliderFlags_AlwaysClamp;
+    constexpr float far = 1e6f;  // metres
     if (lights.empty() || !ImGui::CollapsingHeader("lights")) return;
     const auto name = [&](std::size_t i) { return fmt::format("{} {}", i, lights[i].name); };
     if (ImGui::BeginCombo("light", name(chosen).c_str())) {
@@ -107,22 +116,23 @@ void edit_lights(const Subject& subject, Shown& shown, std::size_t& chosen) {
     const auto edited = shown.lights.find(chosen);
     Light light = edited == shown.lights.end() ? lights[chosen] : edited->second;
     glm::vec3 place(light.position);
-    const float largest =
-        std::max({light.intensity.r, light.intensity.g, light.intensity.b, 1e-6f});
-    float factor = 1.0f;
+    float stops = 0.0f;  // by which it gets brighter
     bool changed = false;
-    if (light.kind != Light::Kind::directional && ImGui::DragFloat3("position", &place.x, 0.01f)) {
+    if (light.kind != Light::Kind::directional &&
+        ImGui::DragFloat3("position", &place.x, 0.01f, -far, far, "%.3f", clamped)) {
         light.position = glm::dvec3(place);
         changed = true;
     }
     if (light.kind != Light::Kind::point &&
-        ImGui::DragFloat3("direction", &light.direction.x, 0.01f, -1.0f, 1.0f)) {
+        ImGui::DragFloat3("direction", &light.direction.x, 0.01f, -1.0f, 1.0f, "%.3f", clamped)) {
         const float length = glm::length(light.direction);
         changed = length > 0.0f;
         if (changed) light.direction /= length;
     }
-    if (ImGui::DragFloat("brighter", &factor, 0.01f, 0.1f, 10.0f)) {
-        light.intensity *= std::min(factor, 1e30f / largest);
+    const float most = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+    if (ImGui::DragFloat("brighter, stops", &stops, 0.01f, -8.0f, 8.0f, "%.2f", clamped) &&
+        most < 1e30f) {
+        light.intensity *= std::exp2(stops);
         changed = true;
     }
     if (!changed) return;
@@ -133,7 +143,8 @@ void edit_lights(const Subject& subject, Shown& shown, std::size_t& chosen) {
 void edit_sky_and_pose(const Subject& subject, Shown& shown, Controls& controls) {
     if (subject.scene.environment) {
         auto turn = static_cast<float>(shown.turn);
-        if (ImGui::SliderFloat("sky, degrees", &turn, -180.0f, 180.0f)) {
+        if (ImGui::SliderFloat("sky, degrees", &turn, -180.0f, 180.0f, "%.1f",
+                               ImGuiSliderFlags_AlwaysClamp)) {
             shown.turn = double{turn};
             ++shown.lit;
         }
@@ -141,7 +152,8 @@ void edit_sky_and_pose(const Subject& subject, Shown& shown, Controls& controls)
     if (!subject.scene.animation) return;
     ImGui::Checkbox("play", &controls.playing);
     auto seconds = static_cast<float>(shown.seconds.value_or(0.0));
-    if (ImGui::DragFloat("seconds", &seconds, 0.01f, 0.0f, 1e6f)) {
+    if (ImGui::DragFloat("seconds", &seconds, 0.01f, 0.0f, 1e6f, "%.2f",
+                         ImGuiSliderFlags_AlwaysClamp)) {
         shown.seconds = double{seconds};
         ++shown.posed;
     }
@@ -149,22 +161,24 @@ void edit_sky_and_pose(const Subject& subject, Shown& shown, Controls& controls)
 
 }  // namespace
 
-void draw_panel(const Subject& subject, const Drawn* drawn, const Painter::Status& status,
+void draw_panel(const Subject& subject, const Drawn& drawn, const Painter::Status& status,
                 double frames_a_second, Shown& shown, Controls& controls) {
     if (!controls.panel) return;
     ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowBgAlpha(0.7f);
     ImGui::Begin("clgi", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(170.0f);
-    choose_method(shown);
-    if (drawn) tell(*drawn, frames_a_second);
+    choose_method_of_list(shown);
+    tell(drawn, frames_a_second);
     if (!status.doing.empty()) text(status.doing);
     if (!status.trouble.empty()) ImGui::TextWrapped("%s", status.trouble.c_str());
-    if (drawn && !drawn->preview) edit_settings(*drawn, shown);
-    edit_lights(subject, shown, controls.light);
+    if (!drawn.preview || shown.by_hand) edit_settings(drawn, shown);
+    edit_lights(drawn.lights, shown, controls.light);
     edit_sky_and_pose(subject, shown, controls);
     ImGui::Checkbox("exposure from the picture", &controls.automatic);
-    if (!controls.automatic) ImGui::SliderFloat("stops", &controls.stops, -16.0f, 16.0f);
+    if (!controls.automatic)
+        ImGui::SliderFloat("stops", &controls.stops, -16.0f, 16.0f, "%.1f",
+                           ImGuiSliderFlags_AlwaysClamp);
     controls.save |= ImGui::Button("save picture (P)");
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s",

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <clgi/advanced/animation.hpp>
 #include <clgi/options.hpp>
-#include <clgi/plan.hpp>
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/constants.hpp>
 
 namespace clgi::view {
@@ -26,27 +28,32 @@ std::string flags_of(std::size_t index, const Light& light) {
     return out;
 }
 
-}  // namespace
-
-Camera camera_of(const Subject& subject, const Shown& shown) {
-    const Camera& camera = subject.scene.cameras[subject.camera];
-    if (shown.viewpoint) return look_at(camera, shown.viewpoint->eye, shown.viewpoint->target);
-    return camera;
+// Options of the method that are not at their defaults.
+std::vector<const OptionRow*> unusual(const RendererOptions& options) {
+    RendererOptions usual;
+    usual.method = options.method;
+    std::vector<const OptionRow*> out;
+    for (const OptionRow& row : option_table()) {
+        // --low-res off is a step of 1.
+        if (row.name == "low-res-step" && options.second_order.low_resolution_step == 1) continue;
+        if (row.of(methods_of(options.method)) && row.get(options) != row.get(usual))
+            out.push_back(&row);
+    }
+    return out;
 }
 
-Scene scene_of(const Subject& subject, const Shown& shown, int width, int height) {
-    Scene out =
-        shown.seconds
-            ? posed(subject.scene, pose_at(*subject.scene.animation, subject.clip, *shown.seconds))
-            : subject.scene;
+}  // namespace
+
+Scene scene_of(const Subject& subject, const Shown& shown) {
+    Scene out = subject.scene;
+    if (shown.seconds && out.animation)
+        out = posed(out, pose_at(*out.animation, subject.clip, *shown.seconds));
     for (const auto& [index, light] : shown.lights) out.lights[index] = light;
     if (out.environment)
         out.environment->rotation =
             static_cast<float>(glm::radians(std::remainder(subject.turned + shown.turn, 360.0)));
-    if (shown.viewpoint)
-        out.cameras[subject.camera] =
-            look_at(out.cameras[subject.camera], shown.viewpoint->eye, shown.viewpoint->target);
-    out.focus = focus_of(out, out.cameras[subject.camera], width, height);
+    Camera& camera = out.cameras[subject.camera];
+    if (shown.viewpoint) camera = look_at(camera, shown.viewpoint->eye, shown.viewpoint->target);
     return out;
 }
 
@@ -55,11 +62,32 @@ RendererOptions as_flags(const RendererOptions& options) {
     out.method = options.method;
     out.picture.width = options.picture.width;
     out.picture.height = options.picture.height;
-    const RendererOptions usual = out;
-    for (const OptionRow& row : option_table())
-        if (row.of(methods_of(out.method)) && row.get(options) != row.get(usual))
-            row.set(out, row.get(options));
+    for (const OptionRow* row : unusual(options)) row->set(out, row->get(options));
     return out;
+}
+
+RendererOptions preview_options() {
+    RendererOptions out;
+    out.method = Method::second_order;
+    for (const auto& [name, value] : {std::pair("vpls", "100"),
+                                      {"negative-vpls", "30"},
+                                      {"low-res", "0.05"},
+                                      {"area-samples", "4"},
+                                      {"environment-lights", "8"},
+                                      {"shadow-size", "256"},
+                                      {"face-size", "64"}})
+        set_option(out, name, value);
+    return out;
+}
+
+std::string quoted(const std::string& word) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) || std::strchr("_./:=,+@%-", c);
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+    std::string out = "'";
+    for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+    return out + "'";
 }
 
 std::string command_of(const Subject& subject, const Drawn& drawn) {
@@ -76,12 +104,9 @@ std::string command_of(const Subject& subject, const Drawn& drawn) {
     for (const auto& [index, light] : shown.lights) out += flags_of(index, light);
     out += fmt::format(" --size {}x{} --method {}", picture.width, picture.height,
                        name_of(drawn.options.method));
-    RendererOptions usual;
-    usual.method = drawn.options.method;
-    for (const OptionRow& row : option_table()) {
-        if (!row.of(methods_of(usual.method)) || row.get(drawn.options) == row.get(usual)) continue;
-        out += " --" + row.name;
-        if (row.kind != OptionRow::Kind::toggle) out += " " + row.get(drawn.options);
+    for (const OptionRow* row : unusual(drawn.options)) {
+        out += " --" + row->name;
+        if (row->kind != OptionRow::Kind::toggle) out += " " + row->get(drawn.options);
     }
     return out;
 }

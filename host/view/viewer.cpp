@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <deque>
-#include <glm/gtc/constants.hpp>
+#include <exception>
 #include <utility>
 
 #include "lab/preview.hpp"
@@ -32,13 +32,17 @@ std::filesystem::path unused(const std::filesystem::path& wanted) {
 }
 
 void save(const Subject& subject, const Drawn& drawn, const std::filesystem::path& wanted) {
-    const std::filesystem::path file = unused(wanted);
-    io::Image picture = drawn.picture;
-    const std::string command = command_of(subject, drawn);
-    picture.attributes["clgi:command"] = command;
-    io::save_exr(picture, file, io::PixelType::half);
-    fmt::print("{}: {} -o {}\n", file.string(), command, file.string());
-    std::fflush(stdout);
+    try {
+        const std::filesystem::path file = unused(wanted);
+        io::Image picture = drawn.picture;
+        const std::string command = command_of(subject, drawn);
+        picture.attributes["clgi:command"] = command;
+        io::save_exr(picture, file, io::PixelType::half);
+        fmt::print("{}: {} -o {}\n", file.string(), command, quoted(file.string()));
+        std::fflush(stdout);
+    } catch (const std::exception& failed) {  // a full disk closes no window
+        fmt::print(stderr, "clgi: warning: {}\n", failed.what());
+    }
 }
 
 // How many pictures came in the last second.
@@ -57,76 +61,75 @@ private:
 class Viewer {
 public:
     Viewer(Window& window, Painter& painter, const ViewerOptions& options)
-        : window_(window), painter_(painter), options_(options) {
-        shown_.viewpoint = options.viewpoint;
-        shown_.method = options.method;
-        shown_.seconds = options.seconds;
+        : window_(window), painter_(painter), options_(options), shown_(options.first) {
+        controls_.box = bounds(painter.subject().scene);
         controls_.automatic = !options.exposure;
         controls_.stops = options.exposure.value_or(0.0f);
-        if (options.turntable) controls_.panel = false;
+        controls_.panel = !options.turntable;
     }
 
     Viewed run() {
-        painter_.show(shown_);
         while (window_.begin(0.1)) {
-            const std::uint64_t before = shown_.version();
-            const std::shared_ptr<const Drawn> drawn = painter_.drawn();
-            if (drawn && !began_) began_ = Clock::now();
-            follow_input(window_, painter_.subject(), shown_, controls_);
-            draw_panel(painter_.subject(), drawn.get(), painter_.status(), rate_.a_second(), shown_,
-                       controls_);
-            play(drawn.get());
-            turn();
-            if (shown_.version() != before) painter_.show(shown_);
-            present(drawn);
+            if (const auto drawn = painter_.drawn()) frame(drawn);
             window_.end();
-            if (controls_.save && drawn && !drawn->preview &&
-                drawn->shown.version() == shown_.version()) {
-                save(painter_.subject(), *drawn, options_.output);
-                controls_.save = false;
-            }
         }
         return {frames_, began_ ? seconds_since(*began_) : 0.0};
     }
 
 private:
-    // A clip goes on by the time that a picture takes.
-    void play(const Drawn* drawn) {
+    void frame(const std::shared_ptr<const Drawn>& drawn) {
+        const Subject& subject = painter_.subject();
+        const std::uint64_t before = shown_.version();
+        if (!began_) began_ = Clock::now();
+        follow_input(window_, subject, *drawn, shown_, controls_);
+        draw_panel(subject, *drawn, painter_.status(), rate_.a_second(), shown_, controls_);
+        play();
+        turn(*drawn);
+        if (shown_.version() != before) painter_.show(shown_);
+        present(drawn);
+        if (!controls_.save || drawn->preview || drawn->shown.version() != shown_.version()) return;
+        save(subject, *drawn, options_.output);
+        controls_.save = false;
+    }
+
+    // The clip again and again.
+    void play() {
         const double now = seconds_since(start_), step = now - last_;
         last_ = now;
-        if (!controls_.playing || !painter_.subject().scene.animation || !drawn) return;
-        shown_.seconds = shown_.seconds.value_or(0.0) + step;
+        const Subject& subject = painter_.subject();
+        if (!controls_.playing || !subject.scene.animation) return;
+        const double duration = subject.scene.animation->clips[subject.clip].duration;
+        if (!(duration > 0.0)) return;
+        shown_.seconds = std::fmod(shown_.seconds.value_or(0.0) + step, duration);
         ++shown_.posed;
     }
 
-    void turn() {
-        if (!options_.turntable || !began_) return;
+    void turn(const Drawn& drawn) {
+        if (!options_.turntable) return;
         const double now = seconds_since(*began_);
         if (now >= *options_.turntable) return window_.close();
-        const Subject& subject = painter_.subject();
-        if (!shown_.viewpoint)
-            shown_.viewpoint = viewpoint_of(camera_of(subject, shown_), bounds(subject.scene));
+        if (!shown_.viewpoint) shown_.viewpoint = viewpoint_of(drawn.camera, controls_.box);
         orbit(*shown_.viewpoint, 0.5 * (now - turned_), 0.0);
         turned_ = now;
         ++shown_.moved;
     }
 
     void present(const std::shared_ptr<const Drawn>& drawn) {
-        const bool fresh = drawn && drawn != presented_;
-        const bool exposes = controls_.automatic || controls_.stops != stops_;
-        if (!drawn || (!fresh && !exposes)) return;
+        const bool fresh = drawn != presented_;
         if (fresh) {
             rate_.add();
             ++frames_;
+            // Pictures of what moves follow slowly, so that they do not flicker.
+            const float found = lab::preview_exposure(drawn->picture);
+            const float share = drawn->preview && automatic_ > 0.0f ? 0.1f : 1.0f;
+            automatic_ =
+                automatic_ > 0.0f ? automatic_ * std::pow(found / automatic_, share) : found;
         }
-        // Pictures of what moves keep the exposure, so that they do not flicker.
-        if (fresh && controls_.automatic && (!drawn->preview || exposure_ == 0.0f))
-            exposure_ = lab::preview_exposure(drawn->picture);
-        if (!controls_.automatic) exposure_ = std::exp2(controls_.stops);
-        stops_ = controls_.stops;
-        if (fresh || !controls_.automatic)
+        const float wanted = controls_.automatic ? automatic_ : std::exp2(controls_.stops);
+        if (fresh || wanted != exposure_)
             window_.set_picture(drawn->picture.width, drawn->picture.height,
-                                lab::preview(drawn->picture, exposure_));
+                                lab::preview(drawn->picture, wanted));
+        exposure_ = wanted;
         presented_ = drawn;
     }
 
@@ -137,7 +140,7 @@ private:
     Controls controls_;
     Rate rate_;
     std::shared_ptr<const Drawn> presented_;
-    float exposure_ = 0.0f, stops_ = 0.0f;
+    float automatic_ = 0.0f, exposure_ = 0.0f;  // factors
     std::size_t frames_ = 0;
     const Clock::time_point start_ = Clock::now();
     std::optional<Clock::time_point> began_;  // with the first picture
@@ -148,7 +151,7 @@ private:
 
 Viewed view(const Programs& programs, Subject subject, const ViewerOptions& options) {
     Window window(options.pictures.width, options.pictures.height);
-    Painter painter(programs, std::move(subject), options.pictures, Window::wake);
+    Painter painter(programs, std::move(subject), options.first, options.pictures, Window::wake);
     return Viewer(window, painter, options).run();
 }
 

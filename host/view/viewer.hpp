@@ -11,12 +11,10 @@ namespace clgi::view {
 
 struct ViewerOptions {
     PainterOptions pictures;
-    std::optional<Viewpoint> viewpoint;  // to begin with; none: the camera of the file
-    std::optional<Method> method;        // to begin with; none: a plan chooses
-    std::optional<double> seconds;       // of the clip, to begin with
-    std::optional<float> exposure;       // stops; none: from the picture
-    std::filesystem::path output;        // saved pictures: its name with a number
-    std::optional<double> turntable;     // seconds of turning around the target, then it closes
+    Shown first;                      // to begin with
+    std::optional<float> exposure;    // stops; none: from the picture
+    std::filesystem::path output;     // saved pictures: its name with a number
+    std::optional<double> turntable;  // seconds of turning around the target, then it closes
 };
 
 struct Viewed {

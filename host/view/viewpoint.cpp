@@ -10,6 +10,7 @@ namespace {
 
 glm::dvec3 turned(const glm::dvec3& way, double around, double up) {
     const double steepest = glm::radians(89.0), length = glm::length(way);
+    if (!(length > 0.0)) return way;
     const double azimuth = std::atan2(way.x, way.z) + around;
     const double elevation =
         std::clamp(std::asin(std::clamp(way.y / length, -1.0, 1.0)) + up, -steepest, steepest);
@@ -37,14 +38,19 @@ void look(Viewpoint& viewpoint, double right, double up) {
 
 void walk(Viewpoint& viewpoint, const glm::dvec3& by) {
     const glm::dvec3 forward = glm::normalize(viewpoint.target - viewpoint.eye);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));
+    const glm::dvec3 side = glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0));
+    const glm::dvec3 right =
+        glm::length(side) > 1e-9 ? glm::normalize(side) : glm::dvec3(1.0, 0.0, 0.0);
     const glm::dvec3 step = by.x * right + by.y * glm::dvec3(0.0, 1.0, 0.0) + by.z * forward;
     viewpoint.eye += step;
     viewpoint.target += step;
 }
 
-void approach(Viewpoint& viewpoint, double factor) {
-    viewpoint.eye = viewpoint.target + factor * (viewpoint.eye - viewpoint.target);
+void approach(Viewpoint& viewpoint, double factor, double radius) {
+    const glm::dvec3 way = viewpoint.eye - viewpoint.target;
+    const double length = glm::length(way);
+    const double wanted = std::clamp(factor * length, 1e-4 * radius, 1e4 * radius);
+    viewpoint.eye = viewpoint.target + (wanted / length) * way;
 }
 
 }  // namespace clgi::view

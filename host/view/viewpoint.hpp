@@ -24,7 +24,8 @@ void look(Viewpoint& viewpoint, double right, double up);
 // Both move, metres to the right, up and forward.
 void walk(Viewpoint& viewpoint, const glm::dvec3& by);
 
-// So many times as far from the target.
-void approach(Viewpoint& viewpoint, double factor);
+// So many times as far from the target, within a ten thousandth and ten thousand radii of the
+// scene.
+void approach(Viewpoint& viewpoint, double factor, double radius);
 
 }  // namespace clgi::view

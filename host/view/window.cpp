@@ -16,7 +16,9 @@ namespace {
 [[noreturn]] void refuse() {
     const char* why = nullptr;
     glfwGetError(&why);
-    throw DeviceError(std::string("view: no window can be opened: ") + (why ? why : "unknown"));
+    const std::string text = why ? why : "unknown";
+    glfwTerminate();
+    throw DeviceError("view: no window can be opened: " + text);
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <clgi/advanced/animation.hpp>
 #include <clgi/options.hpp>
+#include <clgi/plan.hpp>
 #include <clgi/procedural.hpp>
 #include <condition_variable>
 #include <functional>
@@ -28,8 +30,8 @@ constexpr int width = 64, height = 48;
 // Waits, a minute at most, for what a painter draws.
 class Watch {
 public:
-    explicit Watch(Subject subject)
-        : painter(test::programs(), std::move(subject), options(), [this] { came(); }) {}
+    Watch(Subject subject, const Shown& first)
+        : painter(test::programs(), std::move(subject), first, options(), [this] { came(); }) {}
 
     static view::PainterOptions options() {
         view::PainterOptions out;
@@ -94,7 +96,8 @@ RendererOptions small(Method method) {
 
 // The picture of a renderer that was made for what is shown.
 io::Image truth(const Subject& subject, const Drawn& drawn) {
-    const Scene scene = view::scene_of(subject, drawn.shown, width, height);
+    Scene scene = view::scene_of(subject, drawn.shown);
+    scene.focus = focus_of(scene, scene.cameras[subject.camera], width, height);
     DeviceScene device_scene = test::on_device(scene);
     Renderer renderer(test::programs(), test::device().queue, scene, device_scene, drawn.options);
     renderer.prepare();
@@ -120,7 +123,6 @@ Shown by_hand(Method method) {
     Shown out;
     out.method = method;
     out.by_hand = small(method);
-    out.set = 1;
     return out;
 }
 
@@ -128,8 +130,8 @@ class PainterOfMethods : public testing::TestWithParam<Method> {};
 
 TEST_P(PainterOfMethods, DrawsWhatARendererDraws) {
     const Subject subject = subject_of(cornell({LightSource::spot}));
-    Watch watch(subject);
     Shown shown = by_hand(GetParam());
+    Watch watch(subject, shown);
     const auto first = watch.finished(shown);
     ASSERT_TRUE(first);
     EXPECT_FALSE(first->preview);
@@ -177,8 +179,9 @@ Subject under_a_sky() {
 TEST(Painter, TurnsTheSky) {
     for (const Method method : {Method::second_order, Method::antiradiance}) {
         const Subject subject = under_a_sky();
-        Watch watch(subject);
         Shown shown = by_hand(method);
+        shown.turn = 60.0;
+        Watch watch(subject, shown);
         const auto first = watch.finished(shown);
         shown.turn = 100.0;
         ++shown.lit;
@@ -193,10 +196,10 @@ TEST(Painter, TurnsTheSky) {
 // Cameras that move meanwhile get pictures at once, and do not end what serves all of them.
 TEST(Painter, DrawsWhileItBakes) {
     const Subject subject = subject_of(cornell());
-    Watch watch(subject);
     Shown shown = by_hand(Method::light_atlas);
     set_option(*shown.by_hand, "vpls", "3000");
     shown.viewpoint = view::viewpoint_of(subject.scene.cameras[0], bounds(subject.scene));
+    Watch watch(subject, shown);
     std::size_t previews = 0, moves = 0;
     for (bool baked = false; !baked; ++moves) {
         view::orbit(*shown.viewpoint, 0.002, 0.0);
@@ -208,25 +211,78 @@ TEST(Painter, DrawsWhileItBakes) {
         previews += drawn->preview;
         baked = drawn->options.method == Method::light_atlas;
     }
-    EXPECT_GE(previews, 3u);
+    EXPECT_GE(previews, 1u);
     const auto still = watch.finished(shown);
     ASSERT_TRUE(still);
     expect_same(still->picture, truth(subject, *still), 0.0);
 }
 
 TEST(Painter, SaysWhyAMethodDrawsNothing) {
-    Watch watch(subject_of(cornell()));
     Shown shown = by_hand(Method::antiradiance);
     shown.by_hand->antiradiance.bins = 34;
-    watch.painter.show(shown);
+    Watch watch(subject_of(cornell()), shown);
     watch.wait([&](const auto&) { return !watch.painter.status().trouble.empty(); });
     EXPECT_NE(watch.painter.status().trouble.find("bins"), std::string::npos)
         << watch.painter.status().trouble;
     // Another method is drawn all the same.
     shown = by_hand(Method::direct);
-    shown.set = 2;
+    shown.set = 1;
     EXPECT_TRUE(watch.finished(shown));
     EXPECT_EQ(watch.painter.status().trouble, "");
+}
+
+// A box that moves, with a light and a camera that are carried.
+TEST(Painter, PosesWhatNodesCarry) {
+    Scene scene = cornell({LightSource::spot});
+    scene.lights[0].kind = Light::Kind::point;
+    Animation motion;
+    AnimatedNode node;
+    const glm::dvec3 starts[] = {scene.lights[0].position, scene.cameras[0].position};
+    motion.nodes = {node, node};
+    for (int n = 0; n < 2; ++n) motion.nodes[n].translation = starts[n];
+    motion.nodes[1].rotation = glm::dquat(0.0, 0.0, 1.0, 0.0);  // cameras look along -Z
+    AnimationClip clip;
+    clip.duration = 1.0;
+    clip.curves.resize(2);
+    for (std::uint32_t n = 0; n < 2; ++n) {
+        clip.curves[n].times = {0.0f, 1.0f};
+        clip.curves[n].components = 3;
+        const glm::vec3 from(starts[n]),
+            to = from + glm::vec3(n == 0 ? -0.1f : 0.05f, 0.0f, n == 0 ? 0.1f : -0.1f);
+        clip.curves[n].values = {from.x, from.y, from.z, to.x, to.y, to.z};
+        clip.channels.push_back({ChannelTarget::translation, n, n});
+    }
+    motion.clips = {clip};
+    motion.lights = {{0, 0}};
+    motion.cameras = {{0, 1}};
+    scene.animation = motion;
+    const Subject subject = subject_of(std::move(scene));
+
+    Shown shown = by_hand(Method::direct);
+    Watch watch(subject, shown);
+    const auto rest = watch.finished(shown);
+    shown.seconds = 1.0;
+    ++shown.posed;
+    const auto posed = watch.finished(shown);
+    ASSERT_TRUE(rest && posed);
+    EXPECT_NEAR(posed->camera.position.z - rest->camera.position.z, -0.1, 1e-6);
+    EXPECT_NEAR(posed->lights[0].position.x - rest->lights[0].position.x, -0.1, 1e-6);
+    expect_same(posed->picture, truth(subject, *posed), 0.0);
+
+    // The preview shows the same pose, and a light that was moved by hand stays.
+    Light light = posed->lights[0];
+    light.intensity *= 0.5f;
+    shown.lights[0] = light;
+    ++shown.lit;
+    shown.seconds = 0.5;
+    ++shown.posed;
+    watch.painter.show(shown);
+    const auto preview =
+        watch.wait([&](const auto& drawn) { return drawn->shown.version() == shown.version(); });
+    ASSERT_TRUE(preview);
+    EXPECT_EQ(preview->lights[0].position, light.position);
+    EXPECT_EQ(preview->lights[0].intensity, light.intensity);
+    EXPECT_NEAR(preview->camera.position.z - rest->camera.position.z, -0.05, 1e-6);
 }
 
 }  // namespace

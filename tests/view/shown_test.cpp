@@ -53,6 +53,27 @@ TEST(CommandOfAPicture, SaysWhatWasChanged) {
     EXPECT_EQ(view::command_of(subject, drawn).find("direction"), std::string::npos);
 }
 
+TEST(CommandOfAPicture, QuotesWords) {
+    EXPECT_EQ(view::quoted("a/b-1.glb"), "a/b-1.glb");
+    EXPECT_EQ(view::quoted(""), "''");
+    EXPECT_EQ(view::quoted("a b"), "'a b'");
+    EXPECT_EQ(view::quoted("it's `x`"), "'it'\\''s `x`'");
+}
+
+TEST(CommandOfAPicture, SaysLowResolutionOff) {
+    RendererOptions options;
+    set_option(options, "low-res", "off");
+    const RendererOptions kept = view::as_flags(options);
+    EXPECT_EQ(kept.second_order.low_resolution_step, 1);
+    Drawn drawn;
+    drawn.options = kept;
+    Subject subject;
+    subject.scene = cornell();
+    const std::string command = view::command_of(subject, drawn);
+    EXPECT_NE(command.find(" --low-res off"), std::string::npos);
+    EXPECT_EQ(command.find("low-res-step"), std::string::npos);
+}
+
 // Options of a plan that no flag has, such as those of bakes, are left out of a window's pictures.
 TEST(CommandOfAPicture, KeepsWhatFlagsSayAlone) {
     RendererOptions options;

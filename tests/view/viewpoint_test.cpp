@@ -66,9 +66,22 @@ TEST(Viewpoint, WalksAlongItsAxes) {
                             1.5 * glm::dvec3(camera.forward);
     expect_places(moved.eye, slanted().eye + step, 1e-6);  // axes of a camera are floats
     expect_places(moved.target, slanted().target + step, 1e-6);
-    view::approach(moved, 0.5);
+    view::approach(moved, 0.5, 1.0);
     EXPECT_NEAR(glm::length(moved.eye - moved.target),
                 0.5 * glm::length(slanted().eye - slanted().target), near);
+}
+
+TEST(Viewpoint, StaysOneWhateverIsDone) {
+    Viewpoint down{{1.0, 5.0, 2.0}, {1.0, 0.0, 2.0}};
+    view::walk(down, {0.5, 0.0, 1.0});
+    expect_places(down.eye, {1.5, 4.0, 2.0});
+    view::orbit(down, 0.1, 0.1);
+    EXPECT_TRUE(std::isfinite(glm::length(down.eye)));
+    for (int i = 0; i < 1000; ++i) view::approach(down, 0.5, 3.0);
+    EXPECT_NEAR(glm::length(down.eye - down.target), 3e-4, 1e-9);
+    for (int i = 0; i < 1000; ++i) view::approach(down, 2.0, 3.0);
+    EXPECT_NEAR(glm::length(down.eye - down.target), 3e4, 1e-3);
+    EXPECT_NO_THROW(look_at({}, down.eye, down.target));
 }
 
 TEST(Viewpoint, OfACameraLooksAtTheMiddle) {
