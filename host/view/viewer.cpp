@@ -114,16 +114,21 @@ private:
         ++shown_.moved;
     }
 
+    // What moves is followed slowly, so that it does not flicker, and seldom, as that takes long.
+    void expose(const Drawn& drawn) {
+        const bool first = automatic_ == 0.0f;
+        if (drawn.preview && !first && seconds_since(exposed_at_) < 0.5) return;
+        exposed_at_ = Clock::now();
+        const float found = lab::preview_exposure(drawn.picture);
+        automatic_ = drawn.preview && !first ? std::sqrt(automatic_ * found) : found;
+    }
+
     void present(const std::shared_ptr<const Drawn>& drawn) {
         const bool fresh = drawn != presented_;
         if (fresh) {
             rate_.add();
             ++frames_;
-            // Pictures of what moves follow slowly, so that they do not flicker.
-            const float found = lab::preview_exposure(drawn->picture);
-            const float share = drawn->preview && automatic_ > 0.0f ? 0.1f : 1.0f;
-            automatic_ =
-                automatic_ > 0.0f ? automatic_ * std::pow(found / automatic_, share) : found;
+            expose(*drawn);
         }
         const float wanted = controls_.automatic ? automatic_ : std::exp2(controls_.stops);
         if (fresh || wanted != exposure_)
@@ -144,6 +149,7 @@ private:
     std::size_t frames_ = 0;
     const Clock::time_point start_ = Clock::now();
     std::optional<Clock::time_point> began_;  // with the first picture
+    Clock::time_point exposed_at_;
     double last_ = 0.0, turned_ = 0.0;
 };
 
