@@ -25,7 +25,6 @@ constexpr std::size_t rung_count = std::size(rungs);
 constexpr std::uint32_t most_samples = 64;
 constexpr double fine = 2e-3;                   // error of samples
 constexpr std::chrono::milliseconds rest{150};  // without a change, before a picture stays
-constexpr double check_seconds = 1.0;
 
 }  // namespace
 
@@ -312,7 +311,7 @@ struct Painter::State {
         const reference::PathTracer tracer(scene_of(subject, now));
         reference::VerifyOptions wanted;
         wanted.samples = 1 << 20;  // time is the limit
-        wanted.seconds = check_seconds;
+        wanted.seconds = options.check_seconds;
         wanted.filter =
             last->options.samples > 1 ? reference::Filter::box : reference::Filter::center;
         const reference::Verification found = tracer.verify(

@@ -14,6 +14,7 @@ namespace clgi::view {
 struct PainterOptions {
     int width = 640, height = 480;
     BuildOptions build;
+    double check_seconds = 1.0;  // of a picture that is finished
 };
 
 class Painter {

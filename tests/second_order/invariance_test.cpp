@@ -198,8 +198,7 @@ TEST(Picture, IsTheSameForEveryWorkGroupAndPacket) {
     const Frame& usual = usual_frame(Light::Kind::spot);
     for (const BuildOptions& build : {BuildOptions{.packet_width = 1},
                                       {.packet_width = 4, .local_size = 7},
-                                      {.packet_width = 8},
-                                      {.local_size = 1},
+                                      {.packet_width = 8, .local_size = 1},
                                       {.local_size = 256, .atomics64 = false}}) {
         SecondOrderOptions options = small_frame();
         options.build = build;

@@ -122,17 +122,16 @@ TEST_P(TransferOpen, IsTheSameInPacketsAndGroupsOfAnySize) {
     for (const std::uint32_t count : {0u, 1u, 33u}) {
         Lit lit(count, 5, 8);
         const std::vector<float> wanted = lit.run({.math = GetParam(), .packet_width = 1});
-        for (const int width : {4, 8, 16})
-            for (const std::size_t local : {std::size_t{1}, std::size_t{7}, std::size_t{64}}) {
-                const std::vector<float> found =
-                    lit.run({.math = GetParam(), .packet_width = width, .local_size = local});
-                // Fast math divides and takes roots otherwise in packets of another width.
-                for (int c = 0; c < 3; ++c)
-                    for (std::uint32_t i = 0; i < count; ++i)
-                        EXPECT_NEAR(found[std::size_t{lit.stride} * c + i],
-                                    wanted[std::size_t{lit.stride} * c + i],
-                                    GetParam() == Math::strict ? 0.0f : 2e-5f);
-            }
+        for (const auto& [width, local] : {std::pair(4, 7u), {8, 1u}, {16, 64u}}) {
+            const std::vector<float> found =
+                lit.run({.math = GetParam(), .packet_width = width, .local_size = local});
+            // Fast math divides and takes roots otherwise in packets of another width.
+            for (int c = 0; c < 3; ++c)
+                for (std::uint32_t i = 0; i < count; ++i)
+                    EXPECT_NEAR(found[std::size_t{lit.stride} * c + i],
+                                wanted[std::size_t{lit.stride} * c + i],
+                                GetParam() == Math::strict ? 0.0f : 2e-5f);
+        }
         for (int c = 0; c < 3; ++c)
             for (std::uint32_t i = 0; i < count; ++i)
                 EXPECT_NEAR(double{wanted[std::size_t{lit.stride} * c + i]},

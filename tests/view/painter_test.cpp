@@ -37,6 +37,7 @@ public:
         view::PainterOptions out;
         out.width = width;
         out.height = height;
+        out.check_seconds = 0.1;
         return out;
     }
 
@@ -91,6 +92,8 @@ RendererOptions small(Method method) {
     out.light_atlas.hemicube_size = 64;
     out.second_order.emitters.vpls = 50;
     out.antiradiance.elements.requested = 300;
+    out.cache.seen = 60;
+    out.cache.met = out.cache.refined = 40;
     return view::as_flags(out);
 }
 
