@@ -30,13 +30,13 @@ void choose_method_of_list(Shown& shown) {
 }
 
 void tell(const Drawn& drawn, double frames_a_second) {
-    text(fmt::format("{}, {:.1f} ms a frame, {:.0f} a second", name_of(drawn.options.method),
-                     drawn.frame_ms, frames_a_second));
-    if (drawn.preview)
-        text("a preview");
+    const char* method = name_of(drawn.options.method);
+    if (drawn.preview || drawn.options.samples < 2)
+        text(fmt::format("{}{}: {:.0f} ms, {:.0f} pictures a second", method,
+                         drawn.preview ? ", coarse" : "", drawn.frame_ms, frames_a_second));
     else
-        text(fmt::format("{} samples, prepared in {:.2g} s", drawn.options.samples,
-                         1e-3 * drawn.prepared_ms));
+        text(fmt::format("{}: {} samples, the first in {:.2f} s", method, drawn.options.samples,
+                         1e-3 * (drawn.prepared_ms + drawn.frame_ms)));
     if (drawn.check)
         text(fmt::format("measured error {:.1f} % ({:.1f} to {:.1f}), energy {:.3f}",
                          100.0 * drawn.check->error.value, 100.0 * drawn.check->error.low,
