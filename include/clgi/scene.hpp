@@ -103,8 +103,8 @@ struct Camera {
     float near = 0.0f;          // metres; 0: derived from the scene's size
     // Where pixels are looked through: pixels to the right and down from their centres.
     glm::vec2 offset = glm::vec2(0.0f);
-    // Share of a pixel's area that textures are looked up over, above 0 to 1: less for a picture that
-    // is one of many samples.
+    // Share of a pixel's area that textures are looked up over, above 0 to 1: less for a picture
+    // that is one of many samples.
     float footprint = 1.0f;
 };
 
@@ -180,8 +180,8 @@ CLGI_API void validate(const Scene& scene);
 CLGI_API Camera default_camera(const Scene& scene);
 
 // The camera moved to `eye`, its axis through `target` and +Y upwards in the picture; what else it
-// is stays. Throws Error for places that are the same or not finite; along +Y its right stays as near
-// as may be to what it was.
+// is stays. Throws Error for places that are the same or not finite; along +Y its right stays as
+// near as may be to what it was.
 CLGI_API Camera look_at(const Camera& camera, const glm::dvec3& eye, const glm::dvec3& target);
 
 // A light for scenes without light, emissive surface and environment: directional, pi lux.

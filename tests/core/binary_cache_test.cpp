@@ -137,9 +137,9 @@ TEST_F(BinaryCaches, KeepNothingWithoutAFolder) {
 TEST_F(BinaryCaches, AreSharedByThreads) {
     const cl::Program program = built(source(7));
     std::vector<std::thread> threads;
-    for (int i = 0; i < 8; ++i)
+    for (int i = 0; i < 4; ++i)
         threads.emplace_back([&] {
-            for (int k = 0; k < 5; ++k) {
+            for (int k = 0; k < 2; ++k) {
                 keep(program, source(7));
                 const auto found = find(source(7));
                 EXPECT_TRUE(found);

@@ -217,7 +217,7 @@ TEST_P(IrradianceCachePictures, ErrLessWithRefinedRecords) {
     truth.height = cache_height;
     truth.samples = 512;
     truth.effects.emission = truth.effects.direct = false;
-    const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
+    static const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
     IrradianceCacheOptions options = cache_options(30, 300);
     options.picture.direct = false;
     const auto squared_error = [&](int refined) {
