@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "device.hpp"
+#include "record_cubes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -35,36 +36,15 @@ TEST(CachePasses, PickWhereRaysMeetWalls) {
     const DeviceScene scene = test::on_device(box);
     const cl::CommandQueue& queue = test::device().queue;
     const CachePasses passes(test::programs(), test::usual_build());
-    const GBufferPasses gbuffer(test::programs(), test::usual_build());
-    constexpr std::uint32_t size = 64, picks = 2000, stride = 2000, plane = 16;
+    constexpr std::uint32_t size = 64, picks = 2000, stride = 2000;
     const double scale = scene.frame().scale;
-    const glm::dvec3 local = scale * (eye - scene.frame().origin);
     int backs = 0, walls[6] = {};
     for (const glm::dvec3& up : {glm::dvec3(0.5, 0.8, -0.7), glm::dvec3(-0.6, -0.7, 0.9)}) {
         const glm::dvec3 normal = glm::normalize(up);
-        std::vector<float> planes(RECORD_PLANES * plane, 0.0f);
-        for (std::uint32_t c = 0; c < 3; ++c) {
-            planes[c * plane] = static_cast<float>(local[static_cast<int>(c)]);
-            for (const std::uint32_t first : {RECORD_NORMAL, RECORD_GEOMETRIC})
-                planes[(first + c) * plane] = static_cast<float>(normal[static_cast<int>(c)]);
-        }
-        CacheBuffers b;
-        b.planes = test::upload(planes);
-        b.views = test::empty<View>(5);
-        b.visibility = test::empty<std::uint64_t>(3 * size * size);
-        CubeParams cube{};
-        cube.point_count = 1;
-        cube.faces = 5;
-        cube.size = size;
-        cube.stride = plane;
-        cube.near = 1e-5f;
-        cube.turned = 1;
-        gbuffer.cubes(queue, cube, b.planes, test::upload(std::vector<std::uint32_t>{0}), b.views);
-        gbuffer.raster_views(queue, {0, 5, size, size, 3 * size * size}, b.views, scene,
-                             b.visibility, Pixels::visibility);
+        const CacheBuffers b = test::record_cubes(scene, {{eye, normal}}, size);
         CacheParams params{};
         params.count = 1;
-        params.stride = plane;
+        params.stride = test::record_stride;
         params.size = size;
         params.picks = picks;
         params.pick_stride = stride;

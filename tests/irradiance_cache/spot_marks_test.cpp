@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "device.hpp"
+#include "record_cubes.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -26,37 +27,15 @@ TEST(CachePasses, MarkWhatTheFacesOfARecordShow) {
     const DeviceScene scene = test::on_device(room);
     const cl::CommandQueue& queue = test::device().queue;
     const CachePasses passes(test::programs(), test::usual_build());
-    const GBufferPasses gbuffer(test::programs(), test::usual_build());
-    constexpr std::uint32_t size = 32, plane = 16;
-    std::vector<float> planes(RECORD_PLANES * plane, 0.0f);
-    const glm::dvec3 eyes[2] = {{-0.9, 0.2, 0.1}, {0.1, -0.1, 0.05}},
-                     normals[2] = {{1.0, 0.0, 0.0}, glm::normalize(glm::dvec3(0.4, 1.0, -0.3))};
-    for (std::uint32_t r = 0; r < 2; ++r) {
-        const glm::dvec3 local = scene.frame().scale * (eyes[r] - scene.frame().origin);
-        for (std::uint32_t c = 0; c < 3; ++c) {
-            const int axis = static_cast<int>(c);
-            planes[c * plane + r] = static_cast<float>(local[axis]);
-            for (const std::uint32_t first : {RECORD_NORMAL, RECORD_GEOMETRIC})
-                planes[(first + c) * plane + r] = static_cast<float>(normals[r][axis]);
-        }
-    }
-    CacheBuffers b;
-    b.planes = test::upload(planes);
-    b.views = test::empty<View>(10);
-    b.visibility = test::empty<std::uint64_t>(6 * size * size);
-    CubeParams cube{};
-    cube.point_count = 2;
-    cube.faces = 5;
-    cube.size = size;
-    cube.stride = plane;
-    cube.near = 1e-5f;
-    cube.turned = 1;
-    gbuffer.cubes(queue, cube, b.planes, test::upload(std::vector<std::uint32_t>{0, 1}), b.views);
-    gbuffer.raster_views(queue, {0, 10, size, size, 6 * size * size}, b.views, scene, b.visibility,
-                         Pixels::visibility);
+    constexpr std::uint32_t size = 32;
+    const glm::dvec3 eye(0.1, -0.1, 0.05);
+    const CacheBuffers b = test::record_cubes(
+        scene,
+        {{{-0.9, 0.2, 0.1}, {1.0, 0.0, 0.0}}, {eye, glm::normalize(glm::dvec3(0.4, 1.0, -0.3))}},
+        size);
     CacheParams params{};
     params.first = params.count = 1;
-    params.stride = plane;
+    params.stride = test::record_stride;
     params.size = size;
     SpotBuffers spots;
     const std::uint32_t vertices = scene.info().vertex_count;
@@ -78,7 +57,7 @@ TEST(CachePasses, MarkWhatTheFacesOfARecordShow) {
         for (int k = 0; k < 3; ++k)
             corners[k] = room.positions[scene.vertex_order()[triangles[triangle][k]]];
         const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const bool back = glm::dot(normal, eyes[1] - corners[0]) < 0.0;
+        const bool back = glm::dot(normal, eye - corners[0]) < 0.0;
         for (int k = 0; k < 3; ++k) wanted.insert({triangles[triangle][k], back});
     }
     std::set<Side> found;
