@@ -23,10 +23,10 @@
 typedef struct {
     float3 toward;     // the mirrored directions, weighted by what arrives
     float3 reflected;  // rgb, times albedo and colour
-} Reflected;
+} LobeLight;
 
 // Adds it to the bins of a row, around the mean direction.
-CLGI_INLINE void spread(Reflected light, float3 intensity, float3 normal, float exponent,
+CLGI_INLINE void spread(LobeLight light, float3 intensity, float3 normal, float exponent,
                         global const float* bins, global float* row) {
     float3 toward = light.toward / sqrt(dot(light.toward, light.toward));
     float share[ROW_BINS];
@@ -97,7 +97,7 @@ kernel void antiradiance_gloss_sources(
     ShadowMaps maps = {visibility, (int)params.depth_words};
     for (uint e = 0; e < params.emitter_count; ++e) {
         global const Emitter* emitter = emitters + e;
-        Reflected light[CLGI_WIDTH];
+        LobeLight light[CLGI_WIDTH];
         for (uint t = 0; t < together; ++t)
             light[t].toward = light[t].reflected = (float3)(0.0f);
         for (uint first = 0; first < points; first += CLGI_WIDTH) {

@@ -38,15 +38,6 @@ kernel void antiradiance_local(
         reflect_diffuse(leaf, params.step, arrived, sources, reflectances, radiances);
     next_powers[element] = leaf.normal.w * radiance;
     if (leaf.sends == ELEMENT_NONE) return;
-    ulong first = (ulong)leaf.sends * CLGI_FOURS;
-    global const float* toward = (global const float*)directions;
-    int goes_through = (params.step & LOCAL_GO_THROUGH) != 0;
-    Bins4 normal = in_all_bins((float4)(leaf.normal.xyz, 0.0f)), none = (Bins4)(0.0f);
-    Bins4 sent = in_all_bins(radiance),
-          area = (Bins4)(leaf.normal.w * power_of_two(-leaf.row_exponent));
-    for (uint four = 0; four < CLGI_FOURS; ++four) {
-        Bins4 cosine = cosines(vload16(four, toward), normal), scale = cosine * area;
-        Bins4 behind = goes_through ? scale * row[four] : load_intensities(exitant, first + four);
-        store_intensities(select(behind, scale * sent, cosine > none), next, first + four);
-    }
+    for (uint four = 0; four < CLGI_FOURS; ++four)
+        send_bins(leaf, params.step, four, row[four], radiance, directions, exitant, next);
 }

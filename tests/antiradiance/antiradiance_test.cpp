@@ -229,14 +229,18 @@ TEST_P(Antiradiance, GrowsBetweenPlatesAsTheTableSays) {
 TEST_P(Antiradiance, CountsLeavesThatAreNotFinite) {
     HandElements scene = stack(3);
     scene.sources[0].y = std::numeric_limits<float>::quiet_NaN();
-    test::LightOnDevice found(scene, GetParam());
-    found.step(LOCAL_REFLECT);
-    EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 0u);
-    found.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
-    EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 2u);
-    const auto e = test::download<glm::vec4>(found.light.irradiances, 3);
-    EXPECT_TRUE(std::isnan(e[2].y));
-    EXPECT_EQ(e[2].x, 1.0f);
+    for (const Form form : {Form::packets, Form::groups}) {
+        BuildOptions build = GetParam();
+        build.form = form;
+        test::LightOnDevice found(scene, build);
+        found.step(LOCAL_REFLECT);
+        EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 0u);
+        found.step(LOCAL_RECEIVE | LOCAL_GO_THROUGH);
+        EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 2u);
+        const auto e = test::download<glm::vec4>(found.light.irradiances, 3);
+        EXPECT_TRUE(std::isnan(e[2].y));
+        EXPECT_EQ(e[2].x, 1.0f);
+    }
 }
 
 // What meets the back of a leaf does not count for it, not even where it is no number.
@@ -294,6 +298,31 @@ TEST(AntiradiancePasses, RefuseWhatDoesNotFit) {
           &leaves.irradiances, &leaves.changes, &leaves.non_finite})
         refuse(*buffer, {local});
     EXPECT_NO_THROW(local());
+}
+
+// With groups that the links of an element do and do not fill, and that divide bins or do not.
+TEST(AntiradianceGroups, GiveTheBitsOfPackets) {
+    const HandElements scene = random_elements(5, 32);
+    const std::size_t leaves = scene.sources.size();
+    for (const Storage storage : {Storage::full, Storage::half}) {
+        test::LightOnDevice wanted(scene, {.storage = storage, .form = Form::packets});
+        std::vector<test::LightOnDevice> found;
+        for (const std::size_t lanes : {0, 1, 7, 100})
+            found.emplace_back(
+                scene, BuildOptions{.storage = storage, .form = Form::groups, .local_size = lanes});
+        for (const std::uint32_t step : {std::uint32_t{LOCAL_REFLECT | LOCAL_GO_THROUGH}, all_of_it,
+                                         std::uint32_t{LOCAL_RECEIVE | LOCAL_REFLECT}, all_of_it,
+                                         std::uint32_t{LOCAL_RECEIVE | LOCAL_GO_THROUGH}}) {
+            wanted.step(step);
+            for (test::LightOnDevice& of : found) {
+                of.step(step);
+                EXPECT_EQ(of.exitant(), wanted.exitant());
+                for (const auto rows : {&LeafBuffers::radiances, &LeafBuffers::irradiances})
+                    EXPECT_EQ(test::download<glm::vec4>(of.light.*rows, leaves),
+                              test::download<glm::vec4>(wanted.light.*rows, leaves));
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -12,6 +12,9 @@
 namespace clgi {
 namespace {
 
+// A group keeps 20 bytes a bin, and 1.6 KB of links, in local memory; OpenCL 1.2 promises 32 KB.
+constexpr int most_local_bins = 1024;
+
 void need_list(const PassKernel& pass, const ElementParams& params, const cl::Buffer& list,
                const LinkBuffers& links) {
     need(pass, "list", list, (std::size_t{params.first} + params.count) * word);
@@ -39,9 +42,15 @@ AntiradiancePasses::AntiradiancePasses(const Programs& programs, int bins,
         return in_small_groups(programs.kernel("antiradiance", pass, one, defines),
                                programs.device(), options);
     };
-    global_ = kernel("global");
-    local_ = kernel("local");
-    items_ = in_groups(programs.device(), options) ? static_cast<std::size_t>(bins) / 4 : 1;
+    const bool groups = in_groups(programs.device(), options);
+    rows_in_groups_ = groups && bins <= most_local_bins;
+    const auto with_rows = [&](const char* pass) {
+        return rows_in_groups_ ? group_form(programs, "antiradiance", pass, one, defines, 32, 64)
+                               : kernel(pass);
+    };
+    global_ = with_rows("global");
+    local_ = with_rows("local");
+    items_ = groups ? static_cast<std::size_t>(bins) / 4 : 1;
     pull_ = in_small_groups(programs.kernel("antiradiance", "pull", one,
                                             defines + (items_ > 1 ? " -DCLGI_GROUPS" : "")),
                             programs.device(), options);
@@ -68,8 +77,8 @@ cl::Event AntiradiancePasses::global(const cl::CommandQueue& queue, const Elemen
     need_list(global_, params, list, links);
     need_linked(global_, bins_, links, rows);
     need(global_, "exitant", rows.exitant, intensity_bytes(links.row_count));
-    return launch(global_, queue, params.count, wait, params, list, Linked{links, rows},
-                  rows.incident);
+    return launch(global_, queue, params.count * items_each(global_, rows_in_groups_), wait, params,
+                  list, Linked{links, rows}, rows.incident);
 }
 
 cl::Event AntiradiancePasses::local(const cl::CommandQueue& queue, const ElementParams& params,
@@ -79,8 +88,9 @@ cl::Event AntiradiancePasses::local(const cl::CommandQueue& queue, const Element
     need_list(local_, params, list, links);
     need_linked(local_, bins_, links, rows);
     need_leaves(local_, bins_, links, rows, directions, leaves);
-    return launch(local_, queue, params.count, wait, params, list, Linked{links, rows},
-                  rows.incident, directions, Lit{leaves}, rows.next_powers, rows.next);
+    return launch(local_, queue, params.count * items_each(local_, rows_in_groups_), wait, params,
+                  list, Linked{links, rows}, rows.incident, directions, Lit{leaves},
+                  rows.next_powers, rows.next);
 }
 
 cl::Event AntiradiancePasses::pull(const cl::CommandQueue& queue, const ElementParams& params,

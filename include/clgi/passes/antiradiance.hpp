@@ -112,7 +112,8 @@ public:
 
 private:
     int bins_;
-    std::size_t items_;  // work-items of an element in pull
+    bool rows_in_groups_;  // a group an element in global and local, with its row in local memory
+    std::size_t items_;    // work-items of an element in pull
     PassKernel global_, local_, pull_, turn_, sources_, vertices_, show_;
 };
 
