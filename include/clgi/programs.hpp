@@ -49,9 +49,31 @@ private:
 };
 
 // Builds these kernels now, those of a folder with the same options as one program, and several
-// programs at a time; kernels that are built already cost nothing. A solver calls it when it is
-// made, so that its first picture does not wait for the compiler.
+// programs at a time, or on PoCL, which builds one after the other, those of all folders; kernels
+// that are built already cost nothing. A solver calls it when it is made, so that its first picture
+// does not wait for the compiler.
 // Throws DeviceError with the compiler's log when one does not build.
 CLGI_API void build(const std::vector<PassKernel>& kernels);
+
+// While one lives, build() on its thread takes note of kernels and builds none. finish() builds all
+// of them, or leaves that to the one around it, so that fewer programs are compiled. Whoever makes
+// several solvers may have one around them; a pass that is enqueued before finish() builds its own
+// kernel.
+class CLGI_API BuildTogether {
+public:
+    BuildTogether();
+    ~BuildTogether();
+    BuildTogether(const BuildTogether&) = delete;
+    BuildTogether& operator=(const BuildTogether&) = delete;
+
+    // Throws DeviceError as build() does.
+    void finish();
+
+private:
+    friend CLGI_API void build(const std::vector<PassKernel>& kernels);
+
+    BuildTogether* outer_;
+    std::vector<PassKernel> kernels_;
+};
 
 }  // namespace clgi

@@ -40,7 +40,7 @@ kernel void atlas_gather(
     if (at >= params.texel_count) return;
     uint stride = params.stride;
     global const float* from = texels + at;
-    Receiver to;
+    PointReceiver to;
     packet_load3(from, stride, &to.x, &to.y, &to.z);
     from += GBUFFER_NORMAL * stride;
     packet_load3(from, stride, &to.nx, &to.ny, &to.nz);

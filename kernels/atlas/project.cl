@@ -55,7 +55,7 @@ kernel void atlas_project(
     uint chart = (uint)places[PLACE_CHART * stride + texel];
     float u = (float)places[PLACE_COLUMN * stride + texel] + 0.5f;
     float v = (float)places[PLACE_ROW * stride + texel] + 0.5f;
-    Receiver to;
+    PointReceiver to;
     to.x = packet_splat(p.x), to.y = packet_splat(p.y), to.z = packet_splat(p.z);
     to.nx = packet_splat(n.x), to.ny = packet_splat(n.y), to.nz = packet_splat(n.z);
     Exchanged sum = {packet_zero, packet_zero, packet_zero, packet_zero};
@@ -80,7 +80,7 @@ kernel void atlas_project(
         if (u < box.x || v < box.y || u > box.z || v > box.w) continue;
         float w = shadow_w(depth, from, at);
         if (!(w > 0.0f) || w < depth.w) continue;
-        float lit = shadow_lit(view, visibility, mesh.reach, depth, from, at);
+        float lit = shadow_reaches(view, visibility, mesh.reach, depth, from, at);
         if (!(lit > 0.0f)) continue;
 
         uint site = chosen[params.first_shooter + s];

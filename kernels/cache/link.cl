@@ -16,7 +16,7 @@
 // SPDX-License-Identifier: MIT
 #include "cache/link.clh"
 
-kernel void cache_link(LINK_ARGUMENTS) {
+kernel void cache_link(RECORD_LINK_ARGUMENTS) {
     uint item = (uint)get_global_id(0);
     if (item >= params.count) return;
     LinkWorld world = LINK_WORLD;

@@ -11,7 +11,7 @@
 #define MOST_LANES 64
 #define SUMS 10  // of form factors, and in three channels of B, R and the sky
 
-kernel void cache_link_group(LINK_ARGUMENTS) {
+kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
     local float brings[SUMS][MOST_LANES];
     local float reflects[3][MOST_LANES];
     local uint count[MOST_LANES], records[CACHE_FEW][MOST_LANES];

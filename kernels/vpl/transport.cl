@@ -54,7 +54,7 @@ CLGI_INLINE void transport_sum(const TransportParams* params, const Shooter* sho
 #endif
         if (!packet_any(seen)) continue;
         packet_load3(at + SITE_POINT_NORMAL * stride, stride, &nx, &ny, &nz);
-        Receiver to = {px, py, pz, nx, ny, nz};
+        PointReceiver to = {px, py, pz, nx, ny, nz};
         floatp factor = exchange_kernel(shooter, samples, params->sample_stride, &to, seen);
         float lane[CLGI_WIDTH];
         packet_store(packet_select(packet_zero, factor, seen), lane);

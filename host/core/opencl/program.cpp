@@ -6,10 +6,8 @@
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <cstdlib>
-#include <future>
 #include <map>
 #include <mutex>
-#include <tuple>
 #include <utility>
 
 #include "core/opencl/embedded.hpp"
@@ -36,7 +34,8 @@ bool builds_from_threads(const cl::Device& device) {
 }  // namespace
 
 std::string compiler_options(const cl::Device& device, const BuildOptions& options) {
-    std::string text = "-cl-std=CL1.2 -DCLGI_WIDTH=" + std::to_string(width_of(device, options));
+    // -w: drivers print how many warnings there were, and not which.
+    std::string text = "-cl-std=CL1.2 -w -DCLGI_WIDTH=" + std::to_string(width_of(device, options));
     if (uses_atomics64(device, options)) text += " -DCLGI_ATOMIC64";
     if (!options.textures) text += " -DCLGI_NO_TEXTURES";
     if (options.storage == Storage::half) text += " -DCLGI_HALF";
@@ -129,53 +128,6 @@ std::vector<std::string> Programs::built_kernels() const {
     for (const auto& [name, slot] : store_->slots)
         if (slot->built()) out.push_back(name);
     return out;
-}
-
-void build(const std::vector<PassKernel>& kernels) {
-    struct Program {
-        std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file
-        bool parallel = true;
-    };
-    // By context, device, folder and options, and by a number: what several Programs have of the
-    // same kernel goes into programs of its own.
-    std::map<std::tuple<cl_context, cl_device_id, std::string, int>, Program> programs;
-    for (const PassKernel& kernel : kernels) {
-        if (!kernel.slot || kernel.slot->built()) continue;
-        const KernelSlot& slot = *kernel.slot;
-        const std::string alike = slot.file().substr(0, slot.file().find('/')) + slot.options();
-        for (int number = 0;; ++number) {
-            Program& program = programs[{slot.context()(), slot.device()(), alike, number}];
-            std::shared_ptr<KernelSlot>& held = program.slots[slot.file()];
-            if (held && held != kernel.slot) continue;
-            held = kernel.slot;
-            program.parallel = program.parallel && kernel.parallel;
-            break;
-        }
-    }
-    std::vector<std::future<void>> builds;
-    for (const auto& [key, program] : programs) {
-        std::vector<std::shared_ptr<KernelSlot>> slots;
-        for (const auto& [file, slot] : program.slots) slots.push_back(slot);
-        builds.push_back(
-            std::async(program.parallel ? std::launch::async : std::launch::deferred,
-                       [slots = std::move(slots)] { KernelSlot::build_together(slots); }));
-    }
-    for (auto& build : builds) build.wait();
-    for (auto& build : builds) build.get();
-}
-
-void build_named(const std::vector<PassKernel>& kernels,
-                 std::initializer_list<const char*> passes) {
-    std::vector<PassKernel> wanted;
-    for (const char* pass : passes) {
-        const auto found = std::find_if(kernels.begin(), kernels.end(), [&](const PassKernel& k) {
-            return k.name.substr(k.name.find('.') + 1) == pass;
-        });
-        if (found == kernels.end())
-            throw Error(std::string("build: there is no pass ") + pass + " here");
-        wanted.push_back(*found);
-    }
-    build(wanted);
 }
 
 }  // namespace clgi

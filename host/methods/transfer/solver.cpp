@@ -46,6 +46,7 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
 }
 
 void DynamicTransferSolver::State::build() const {
+    BuildTogether kernels;
     masks.build({"receivers"});
     projection.build({"project_rows", "project_columns", "project_environment"});
     if (!vertices.fronts.empty()) sides.build({"other_sides"});
@@ -53,7 +54,7 @@ void DynamicTransferSolver::State::build() const {
     if (!occludes(options.occlusion)) {
         projection.build({"open"});
         if (glossy) masks.build({"integrate_open_gloss"});
-        return;
+        return kernels.finish();
     }
     masks.build({"blockers", "mask", "integrate"});
     if (!levels.near.empty()) masks.build({"mask_near"});
@@ -61,6 +62,7 @@ void DynamicTransferSolver::State::build() const {
     if (glossy) masks.build({"integrate_gloss"});
     if (options.interreflections > 0)
         masks.build({"exitance", levels.near.empty() ? "bounce" : "bounce_near"});
+    kernels.finish();
 }
 
 void DynamicTransferSolver::State::write(const Scene& file) {

@@ -122,7 +122,8 @@ Estimate estimate(const cl::Device& device, const Scene& scene, const DeviceScen
     // In pairs of a point and a light, as measured on a CPU with packets of 16: a triangle that a
     // mask looks at is worth 10 of them, as most are culled with their cluster; a term of a cell 2.
     const double masks = 10.0 * static_cast<double>(buffers.listed_triangles);
-    const double integrals = (occludes(options.occlusion) ? 1.0 : 0.0) + (buffers.glossy ? 1.0 : 0.0);
+    const double integrals =
+        (occludes(options.occlusion) ? 1.0 : 0.0) + (buffers.glossy ? 1.0 : 0.0);
     const double cells =
         static_cast<double>(mask_cells(options.masks)) * sh::terms(options.masks.bands) * integrals;
     const double pairs =
