@@ -16,12 +16,17 @@ function(run)
     endif()
 endfunction()
 
-# configure(folder build components): a user's project on the installed clgi.
+# configure(folder build components): a user's project on the installed clgi. What is tried is whether
+# it builds and runs, not its speed: -O0 compiles in half the time.
 function(configure folder build wanted)
     string(TOUPPER "${CONFIG}" upper)
+    set(flags "")
+    if(NOT WIN32 AND NOT CONFIG STREQUAL "Debug")
+        set(flags "-DCMAKE_CXX_FLAGS_${upper}=-O0 -DNDEBUG")
+    endif()
     run("${CMAKE_COMMAND}" -S "${folder}" -B "${build}" -G "${GENERATOR}"
         "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}"
-        "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" "-DCMAKE_BUILD_TYPE=${CONFIG}"
+        "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" "-DCMAKE_BUILD_TYPE=${CONFIG}" ${flags}
         "-DCONSUMER_COMPONENTS=${wanted}" "-DCMAKE_RUNTIME_OUTPUT_DIRECTORY=${build}/bin"
         "-DCMAKE_RUNTIME_OUTPUT_DIRECTORY_${upper}=${build}/bin")
 endfunction()
