@@ -51,7 +51,8 @@ TEST_F(Program, UsesATimeByWhatItsFirstPictureTook) {
     const auto& budget = stats.at("time_budget");
     EXPECT_EQ(budget.at("seconds"), 2.0);
     const auto& attempts = budget.at("attempts");
-    ASSERT_GE(attempts.size(), 2u);
+    // On a GPU the first one has the finest settings already.
+    ASSERT_GE(attempts.size(), run("devices").out.find("    CPU, ") != std::string::npos ? 2u : 1u);
     double sum = 1e-3 * (stats.at("plan").at("ms").get<double>() +
                          stats.at("samples").at("refine_ms").get<double>());
     for (std::size_t i = 0; i < attempts.size(); ++i) {
