@@ -29,7 +29,7 @@ GRANULE = {"sm_90": 8, "gfx1100": 24, "gfx90a": 8}  # of registers
 DEFINES = {"antiradiance/pull": ["-DCLGI_GROUPS"]}
 NO_PTXAS, NO_SAMPLERS = "no ptxas", "libclc has no samplers"
 GROUP = {"gbuffer/raster_large_group": 32, "gbuffer/raster_views_group": 128,
-         "cache/link_group": 32}
+         "cache/link_group": 32, "antiradiance/global_group": 32, "antiradiance/local_group": 32}
 
 
 def run(command):

@@ -20,9 +20,13 @@ public:
     Programs(const cl::Context& context, const cl::Device& device);
 
     // kernels/<room>/<pass>.cl built with these options. defines: more compiler options, for a
-    // variant of the pass. Builds nothing yet. Throws Error when there is no such kernel.
+    // variant of the pass. together: passes of the room, this one among them, that are always one
+    // program with it on drivers that build one after the other (PoCL): a compiler takes longer to
+    // read the built-in functions of OpenCL C than most kernels. Builds nothing yet. Throws Error
+    // when there is no such kernel.
     PassKernel kernel(const std::string& room, const std::string& pass,
-                      const BuildOptions& options = {}, const std::string& defines = "") const;
+                      const BuildOptions& options = {}, const std::string& defines = "",
+                      const std::vector<std::string>& together = {}) const;
 
     // Programs that are built from now on are kept in this folder as the driver's binaries, and
     // taken from there by the next process: for runtimes that keep none themselves. Empty: none are
@@ -49,31 +53,9 @@ private:
 };
 
 // Builds these kernels now, those of a folder with the same options as one program, and several
-// programs at a time, or on PoCL, which builds one after the other, those of all folders; kernels
-// that are built already cost nothing. A solver calls it when it is made, so that its first picture
-// does not wait for the compiler.
+// programs at a time; kernels that are built already cost nothing. A solver calls it when it is
+// made, so that its first picture does not wait for the compiler.
 // Throws DeviceError with the compiler's log when one does not build.
 CLGI_API void build(const std::vector<PassKernel>& kernels);
-
-// While one lives, build() on its thread takes note of kernels and builds none. finish() builds all
-// of them, or leaves that to the one around it, so that fewer programs are compiled. Whoever makes
-// several solvers may have one around them; a pass that is enqueued before finish() builds its own
-// kernel.
-class CLGI_API BuildTogether {
-public:
-    BuildTogether();
-    ~BuildTogether();
-    BuildTogether(const BuildTogether&) = delete;
-    BuildTogether& operator=(const BuildTogether&) = delete;
-
-    // Throws DeviceError as build() does.
-    void finish();
-
-private:
-    friend CLGI_API void build(const std::vector<PassKernel>& kernels);
-
-    BuildTogether* outer_;
-    std::vector<PassKernel> kernels_;
-};
 
 }  // namespace clgi

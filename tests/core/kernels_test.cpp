@@ -66,9 +66,8 @@ void expect_content(const std::map<std::string, std::string>& sources, const std
     for (auto& [name, build] : builds) EXPECT_EQ(build.get(), "") << name << " with " << options;
 }
 
-// Kernels that name a macro, as one program, as the library builds them on PoCL: names of one do
-// not meet those of another. The folder "transfer" holds two families that draw into targets of
-// their own.
+// Kernels that name a macro, as one program: names of one do not meet those of another. The folder
+// "transfer" holds two families that draw into targets of their own.
 std::map<std::string, std::string> all_with(const std::string& macro) {
     std::map<std::string, std::vector<std::string>> names;
     for (const std::string& name : kernel_names()) {

@@ -37,13 +37,14 @@ std::string options_for(const std::string& source, const std::string& options) {
 }
 
 KernelSlot::KernelSlot(const cl::Context& context, const cl::Device& device, std::string file,
-                       std::string function, std::string options,
+                       std::string function, std::shared_ptr<KernelUnit> unit, std::string options,
                        std::shared_ptr<const BinaryCache> cache)
     : context_(context),
       device_(device),
       file_(std::move(file)),
       function_(std::move(function)),
       options_(std::move(options)),
+      unit_(std::move(unit)),
       cache_(std::move(cache)) {}
 
 cl::Program KernelSlot::compiled(const std::vector<std::string>& files) const {
@@ -61,9 +62,20 @@ cl::Program KernelSlot::compiled(const std::vector<std::string>& files) const {
     return program;
 }
 
+cl::Program KernelSlot::own_program() const {
+    if (!unit_) return compiled({file_});
+    const std::lock_guard lock(unit_->mutex);
+    if (!unit_->program()) unit_->program = compiled(unit_->files);
+    return unit_->program;
+}
+
+std::string KernelSlot::family() const {
+    return unit_ ? unit_->files.front() : file_.substr(0, file_.find('/'));
+}
+
 void KernelSlot::take(const cl::Program& program) {
     std::call_once(once_, [&] {
-        kernel_ = cl::Kernel(program() ? program : compiled({file_}), function_.c_str());
+        kernel_ = cl::Kernel(program() ? program : own_program(), function_.c_str());
         most_items_ = kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_);
         built_ = true;
     });
@@ -83,7 +95,7 @@ void KernelSlot::build_together(const std::vector<std::shared_ptr<KernelSlot>>& 
     for (const auto& slot : slots) files.push_back(slot->file_);
     cl::Program program;
     try {
-        if (files.size() > 1) program = slots.front()->compiled(files);
+        if (files.size() > 1 && !slots.front()->unit_) program = slots.front()->compiled(files);
         for (const auto& slot : slots) slot->take(program);
     } catch (const std::exception&) {
         for (const auto& slot : slots) slot->build();

@@ -15,18 +15,31 @@
 
 namespace clgi {
 
+// Kernels of a room with the same options that are one program, whichever of them is built first.
+// So a driver that keeps what it built has each kernel once, whoever asks for which of them.
+struct KernelUnit {
+    KernelUnit(const std::string& room, const std::vector<std::string>& passes) {
+        for (const std::string& pass : passes) files.push_back(room + "/" + pass);
+    }
+    std::vector<std::string> files;
+    std::mutex mutex;
+    cl::Program program;  // once it is built
+};
+
 class KernelSlot {
 public:
-    // file: "folder/pass" of the embedded kernel. function: its entry point. cache: not null.
+    // file: "folder/pass" of the embedded kernel. function: its entry point. unit: that it belongs
+    // to, or null. cache: not null.
     KernelSlot(const cl::Context& context, const cl::Device& device, std::string file,
-               std::string function, std::string options, std::shared_ptr<const BinaryCache> cache);
+               std::string function, std::shared_ptr<KernelUnit> unit, std::string options,
+               std::shared_ptr<const BinaryCache> cache);
 
     // Builds once. Throws DeviceError with the compiler's log.
     void build();
 
-    // Builds kernels of one context and device, with equal options and different files, as one
-    // program: a compiler takes longer to read the built-in functions of OpenCL C than most
-    // kernels. What does not build with others is built alone.
+    // Builds kernels of one context and device, with equal options, the same family and different
+    // files, as one program: a compiler takes longer to read the built-in functions of OpenCL C
+    // than most kernels. What does not build with others is built alone.
     static void build_together(const std::vector<std::shared_ptr<KernelSlot>>& slots);
 
     // calls use(kernel) while no other thread sets arguments of it or enqueues it.
@@ -45,15 +58,19 @@ public:
     const cl::Context& context() const { return context_; }
     const cl::Device& device() const { return device_; }
     const std::string& file() const { return file_; }
+    // What kernels that may be one program have alike: their unit, else their folder.
+    std::string family() const;
     const std::string& options() const { return options_; }
 
 private:
     cl::Program compiled(const std::vector<std::string>& files) const;
+    cl::Program own_program() const;
     void take(const cl::Program& program);
 
     cl::Context context_;
     cl::Device device_;
     std::string file_, function_, options_;
+    std::shared_ptr<KernelUnit> unit_;
     std::shared_ptr<const BinaryCache> cache_;
     std::once_flag once_;
     std::atomic<bool> built_ = false;

@@ -6,8 +6,10 @@
 #include <clgi/device.hpp>
 #include <clgi/error.hpp>
 #include <cstdlib>
+#include <future>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <utility>
 
 #include "core/opencl/embedded.hpp"
@@ -80,10 +82,16 @@ std::size_t items_each(const PassKernel& pass, bool grouped) {
     return grouped ? group_size(pass) : 1;
 }
 
+bool builds_in_turn(const cl::Device& device) {
+    const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+    return platform.getInfo<CL_PLATFORM_NAME>() == "Portable Computing Language";
+}
+
 struct Programs::Store {
     std::mutex mutex;
     std::map<std::string, std::string> sources;                // by file
     std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file and options
+    std::map<std::string, std::shared_ptr<KernelUnit>> units;  // by room, first pass and options
     const std::shared_ptr<BinaryCache> cache = std::make_shared<BinaryCache>();
 };
 
@@ -91,7 +99,8 @@ Programs::Programs(const cl::Context& context, const cl::Device& device)
     : context_(context), device_(device), store_(std::make_shared<Store>()) {}
 
 PassKernel Programs::kernel(const std::string& room, const std::string& pass,
-                            const BuildOptions& options, const std::string& defines) const {
+                            const BuildOptions& options, const std::string& defines,
+                            const std::vector<std::string>& together) const {
     const std::string file = room + "/" + pass;
     PassKernel out;
     out.name = room + "." + pass;
@@ -104,9 +113,16 @@ PassKernel Programs::kernel(const std::string& room, const std::string& pass,
     if (source.empty()) source = kernel_source(file);
     const std::string asked = compiler_options(device_, options) + " " + defines;
     std::shared_ptr<KernelSlot>& slot = store_->slots[file + " " + options_for(source, asked)];
-    if (!slot)
-        slot = std::make_shared<KernelSlot>(context_, device_, file, room + "_" + pass, asked,
+    if (!slot) {
+        std::shared_ptr<KernelUnit> unit;
+        if (!together.empty() && builds_in_turn(device_)) {
+            std::shared_ptr<KernelUnit>& held = store_->units[room + together.front() + asked];
+            if (!held) held = std::make_shared<KernelUnit>(room, together);
+            unit = held;
+        }
+        slot = std::make_shared<KernelSlot>(context_, device_, file, room + "_" + pass, unit, asked,
                                             store_->cache);
+    }
     out.slot = slot;
     return out;
 }
@@ -128,6 +144,53 @@ std::vector<std::string> Programs::built_kernels() const {
     for (const auto& [name, slot] : store_->slots)
         if (slot->built()) out.push_back(name);
     return out;
+}
+
+void build(const std::vector<PassKernel>& kernels) {
+    struct Program {
+        std::map<std::string, std::shared_ptr<KernelSlot>> slots;  // by file
+        bool parallel = true;
+    };
+    // By context, device, unit or folder, and options, and by a number: what several Programs have
+    // of the same kernel goes into programs of its own.
+    std::map<std::tuple<cl_context, cl_device_id, std::string, int>, Program> programs;
+    for (const PassKernel& kernel : kernels) {
+        if (!kernel.slot || kernel.slot->built()) continue;
+        const KernelSlot& slot = *kernel.slot;
+        const std::string alike = slot.family() + slot.options();
+        for (int number = 0;; ++number) {
+            Program& program = programs[{slot.context()(), slot.device()(), alike, number}];
+            std::shared_ptr<KernelSlot>& held = program.slots[slot.file()];
+            if (held && held != kernel.slot) continue;
+            held = kernel.slot;
+            program.parallel = program.parallel && kernel.parallel;
+            break;
+        }
+    }
+    std::vector<std::future<void>> builds;
+    for (const auto& [key, program] : programs) {
+        std::vector<std::shared_ptr<KernelSlot>> slots;
+        for (const auto& [file, slot] : program.slots) slots.push_back(slot);
+        builds.push_back(
+            std::async(program.parallel ? std::launch::async : std::launch::deferred,
+                       [slots = std::move(slots)] { KernelSlot::build_together(slots); }));
+    }
+    for (auto& build : builds) build.wait();
+    for (auto& build : builds) build.get();
+}
+
+void build_named(const std::vector<PassKernel>& kernels,
+                 std::initializer_list<const char*> passes) {
+    std::vector<PassKernel> wanted;
+    for (const char* pass : passes) {
+        const auto found = std::find_if(kernels.begin(), kernels.end(), [&](const PassKernel& k) {
+            return k.name.substr(k.name.find('.') + 1) == pass;
+        });
+        if (found == kernels.end())
+            throw Error(std::string("build: there is no pass ") + pass + " here");
+        wanted.push_back(*found);
+    }
+    build(wanted);
 }
 
 }  // namespace clgi

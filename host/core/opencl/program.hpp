@@ -14,6 +14,9 @@ namespace clgi {
 // chose one: on a CPU a group is what one core takes at a time. In groups it stays as it is.
 PassKernel in_small_groups(PassKernel pass, const cl::Device& device, const BuildOptions& options);
 
+// Whether the driver builds one program after the other, whatever threads ask for them: PoCL.
+bool builds_in_turn(const cl::Device& device);
+
 // Whether kernels that have a form for groups are built in it.
 bool in_groups(const cl::Device& device, const BuildOptions& options);
 

@@ -39,8 +39,9 @@ AntiradiancePasses::AntiradiancePasses(const Programs& programs, int bins,
     one.packet_width = 1;
     const std::string defines = "-DCLGI_BINS=" + std::to_string(bins);
     const auto kernel = [&](const char* pass) {
-        return in_small_groups(programs.kernel("antiradiance", pass, one, defines),
-                               programs.device(), options);
+        return in_small_groups(
+            programs.kernel("antiradiance", pass, one, defines, {"global", "local", "pull"}),
+            programs.device(), options);
     };
     const bool groups = in_groups(programs.device(), options);
     rows_in_groups_ = groups && bins <= most_local_bins;
@@ -51,9 +52,8 @@ AntiradiancePasses::AntiradiancePasses(const Programs& programs, int bins,
     global_ = with_rows("global");
     local_ = with_rows("local");
     items_ = groups ? static_cast<std::size_t>(bins) / 4 : 1;
-    pull_ = in_small_groups(programs.kernel("antiradiance", "pull", one,
-                                            defines + (items_ > 1 ? " -DCLGI_GROUPS" : "")),
-                            programs.device(), options);
+    pull_ = groups ? programs.kernel("antiradiance", "pull", one, defines + " -DCLGI_GROUPS")
+                   : kernel("pull");
     const auto plain = [&](const char* pass, const BuildOptions& how) {
         return programs.kernel("antiradiance", pass, how);
     };

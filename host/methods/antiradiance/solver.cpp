@@ -56,7 +56,6 @@ AntiradianceSolver::State::State(const Programs& all, const cl::CommandQueue& on
 }
 
 void AntiradianceSolver::State::build() const {
-    BuildTogether kernels;
     passes.build({"global", "local", "pull", "sources", "vertices"});
     if (made.first_back < made.leaves.size()) passes.build({"turn"});
     if (gloss_passes) gloss_passes->build({"lobes", "gloss_sources", "gloss", "gloss_vertices"});
@@ -65,7 +64,6 @@ void AntiradianceSolver::State::build() const {
     parallel.build({"sum_tiles", "sum_merge"});
     if (motion) motion->build();
     emitters.build(gbuffer);
-    kernels.finish();
 }
 
 void AntiradianceSolver::State::write(const Scene& file, const DeviceLinks& between) {

@@ -13,14 +13,11 @@ struct AntiradianceView::State {
           solver(from),
           picture(programs, queue, of, without_sky(options), "antiradiance-view"),
           passes(programs, from.options().bins, picture.options().build) {
-        BuildTogether kernels;
         picture.allocate(picture.table(), solver.bytes());
         passes.build({"show"});
-        if (solver.gloss().count > 0) {
-            gloss_passes.emplace(programs, from.options().bins, picture.options().build);
-            gloss_passes->build({"show_gloss"});
-        }
-        kernels.finish();
+        if (solver.gloss().count == 0) return;
+        gloss_passes.emplace(programs, from.options().bins, picture.options().build);
+        gloss_passes->build({"show_gloss"});
     }
 
     cl::Event render(const Camera& camera, const WaitList& wait) {

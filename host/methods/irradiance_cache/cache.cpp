@@ -80,7 +80,6 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     sky = coarse_sky(scene.environment());
     BufferTable all = picture.table();
     add_to(all);
-    BuildTogether kernels;
     picture.allocate(all);
     std::vector<std::uint32_t> order(std::max<std::size_t>(capacity, most_chosen));
     std::iota(order.begin(), order.end(), 0u);
@@ -89,7 +88,6 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     if (options.met > 0) passes.build({"pick", "weigh"});
     if (casts_spots()) passes.build({"mark", "tally", "spots", "shine"});
     cubes.build({"cubes", "raster_views"});
-    kernels.finish();
 }
 
 void IrradianceCache::State::add_to(BufferTable& table) {

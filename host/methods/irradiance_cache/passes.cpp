@@ -53,21 +53,24 @@ void need_spots(const PassKernel& pass, const SpotParams& params, std::uint32_t 
 
 CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) {
     const BuildOptions whole = full(options);
-    const auto few = [&](const char* pass) {
-        return in_small_groups(programs.kernel("cache", pass, whole), programs.device(), options);
+    const std::vector<std::string> records = {"pick", "link", "bounce", "weigh"},
+                                   spots = {"mark", "tally", "spots", "shine"};
+    const auto few = [&](const char* pass, const std::vector<std::string>& together) {
+        return in_small_groups(programs.kernel("cache", pass, whole, "", together),
+                               programs.device(), options);
     };
-    pick_ = few("pick");
+    pick_ = few("pick", records);
     groups_ = in_groups(programs.device(), options);
     // A lane a pixel.
-    link_ =
-        groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32, 64) : few("link");
-    bounce_ = few("bounce");
-    weigh_ = few("weigh");
+    link_ = groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32, 64)
+                    : few("link", records);
+    bounce_ = few("bounce", records);
+    weigh_ = few("weigh", records);
     show_ = programs.kernel("cache", "show", options);
-    mark_ = few("mark");
-    tally_ = few("tally");
-    spots_ = few("spots");
-    shine_ = few("shine");
+    mark_ = few("mark", spots);
+    tally_ = few("tally", spots);
+    spots_ = few("spots", spots);
+    shine_ = few("shine", spots);
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {

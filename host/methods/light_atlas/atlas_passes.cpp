@@ -79,18 +79,21 @@ std::size_t hemicube_bytes(const MeshParams& params) {
 
 AtlasPasses::AtlasPasses(const Programs& programs, const BuildOptions& options)
     : storage_(options.storage) {
+    const std::vector<std::string> gathered = {"see_listed", "see_blocks", "gather", "nearest",
+                                               "complete"},
+                                   projected = {"geometry", "replicate", "project"};
     see_ = programs.kernel("atlas", "see", full(options));
     flat_ = programs.kernel("atlas", "flat", scalar(options));
-    see_listed_ = programs.kernel("atlas", "see_listed", full(options));
-    see_blocks_ = programs.kernel("atlas", "see_blocks", full(options));
-    gather_ = programs.kernel("atlas", "gather", full(options));
+    see_listed_ = programs.kernel("atlas", "see_listed", full(options), "", gathered);
+    see_blocks_ = programs.kernel("atlas", "see_blocks", full(options), "", gathered);
+    gather_ = programs.kernel("atlas", "gather", full(options), "", gathered);
     gather_open_ = programs.kernel("atlas", "gather", full(options), "-DCLGI_OPEN");
     gather_open_.name = "atlas.gather_open";
-    geometry_ = programs.kernel("atlas", "geometry", scalar(options));
-    replicate_ = programs.kernel("atlas", "replicate", scalar(options));
-    project_ = programs.kernel("atlas", "project", scalar(options));
-    nearest_ = programs.kernel("atlas", "nearest", full(options));
-    complete_ = programs.kernel("atlas", "complete", full(options));
+    geometry_ = programs.kernel("atlas", "geometry", scalar(options), "", projected);
+    replicate_ = programs.kernel("atlas", "replicate", scalar(options), "", projected);
+    project_ = programs.kernel("atlas", "project", scalar(options), "", projected);
+    nearest_ = programs.kernel("atlas", "nearest", full(options), "", gathered);
+    complete_ = programs.kernel("atlas", "complete", full(options), "", gathered);
     show_ = programs.kernel("atlas", "show", options);
     volume_ = programs.kernel("atlas", "volume", options);
 }

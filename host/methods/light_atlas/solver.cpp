@@ -89,7 +89,6 @@ LightAtlasSolver::State::State(const Programs& programs, const cl::CommandQueue&
 
 // The kernels that these options need.
 void LightAtlasSolver::State::build() {
-    BuildTogether kernels;
     gbuffer.build({"surface"});
     lights.build({"direct"});
     emitters.build(gbuffer);
@@ -99,7 +98,7 @@ void LightAtlasSolver::State::build() {
     if (!occludes(options.occlusion)) {
         vpl.build({"transport_open", "reach_open"});
         atlas.build({"gather_open"});
-        return kernels.finish();
+        return;
     }
     gbuffer.build({"cubes"});
     gbuffer.build({"raster_views"}, Pixels::depth);
@@ -113,7 +112,6 @@ void LightAtlasSolver::State::build() {
         if (b.block_count > 0) atlas.build({"flat", "see_listed", "see_blocks"});
         if (b.block_count == 0 || !bake_points.empty()) atlas.build({"see"});
     }
-    kernels.finish();
 }
 
 void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout& texels,

@@ -57,11 +57,9 @@ struct LightAtlasView::State {
         BufferTable all = picture.table();
         add_to(all, layout);
         if (volume) add_to(all, *volume);
-        BuildTogether kernels;
         picture.allocate(all);
         atlas.build({"show"});
         if (volume) atlas.build({"volume"});
-        kernels.finish();
         upload(layout);
     }
 

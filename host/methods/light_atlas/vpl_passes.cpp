@@ -73,27 +73,29 @@ TransportParams with_points(TransportParams params, const SiteBuffers& b) {
 }  // namespace
 
 VplPasses::VplPasses(const Programs& programs, const BuildOptions& options) {
-    const auto kernel = [&](const char* pass, const BuildOptions& how) {
-        return programs.kernel("vpl", pass, how);
+    const std::vector<std::string> single = {"place", "points", "receive", "reach", "emit", "send"},
+                                   packets = {"transport", "balance_receivers", "balance_shooters",
+                                              "shoot"};
+    const auto few = [&](const char* pass, const BuildOptions& how,
+                         const std::vector<std::string>& together) {
+        return in_small_groups(programs.kernel("vpl", pass, how, "", together), programs.device(),
+                               options);
     };
-    const auto few = [&](const char* pass, const BuildOptions& how) {
-        return in_small_groups(kernel(pass, how), programs.device(), options);
-    };
-    place_ = few("place", scalar(options));
-    points_ = kernel("points", scalar(options));
-    receive_ = few("receive", scalar(options));
-    transport_ = few("transport", full(options));
+    place_ = few("place", scalar(options), single);
+    points_ = programs.kernel("vpl", "points", scalar(options), "", single);
+    receive_ = few("receive", scalar(options), single);
+    transport_ = few("transport", full(options), packets);
     transport_open_ =
         in_small_groups(programs.kernel("vpl", "transport", full(options), "-DCLGI_OPEN"),
                         programs.device(), options);
     transport_open_.name = "vpl.transport_open";
-    reach_open_ = few("reach_open", full(options));
-    reach_ = few("reach", scalar(options));
-    balance_receivers_ = few("balance_receivers", full(options));
-    balance_shooters_ = few("balance_shooters", full(options));
-    emit_ = few("emit", scalar(options));
-    shoot_ = few("shoot", full(options));
-    send_ = few("send", scalar(options));
+    reach_open_ = few("reach_open", full(options), {});
+    reach_ = few("reach", scalar(options), single);
+    balance_receivers_ = few("balance_receivers", full(options), packets);
+    balance_shooters_ = few("balance_shooters", full(options), packets);
+    emit_ = few("emit", scalar(options), single);
+    shoot_ = few("shoot", full(options), packets);
+    send_ = few("send", scalar(options), single);
 }
 
 void VplPasses::build(std::initializer_list<const char*> passes) const {

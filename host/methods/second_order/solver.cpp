@@ -45,7 +45,6 @@ SecondOrderSolver::State::State(const Programs& programs, const cl::CommandQueue
         helpers.push_back({helper, ImagePasses(own, options.build)});
         helpers.back().image.build({"gather"});
     }
-    BuildTogether kernels;
     build_draw_gbuffer(gbuffer, scene);
     image.build({"combine"});
     if (options.direct && scene.environment()) image.build({"environment"});
@@ -65,7 +64,6 @@ SecondOrderSolver::State::State(const Programs& programs, const cl::CommandQueue
         }
     }
     allocate(options);
-    kernels.finish();
 }
 
 // What is refused leaves everything as it was.

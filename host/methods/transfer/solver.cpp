@@ -46,7 +46,6 @@ DynamicTransferSolver::State::State(const Programs& programs, const cl::CommandQ
 }
 
 void DynamicTransferSolver::State::build() const {
-    BuildTogether kernels;
     masks.build({"receivers"});
     projection.build({"project_rows", "project_columns", "project_environment"});
     if (!vertices.fronts.empty()) sides.build({"other_sides"});
@@ -54,7 +53,7 @@ void DynamicTransferSolver::State::build() const {
     if (!occludes(options.occlusion)) {
         projection.build({"open"});
         if (glossy) masks.build({"integrate_open_gloss"});
-        return kernels.finish();
+        return;
     }
     masks.build({"blockers", "mask", "integrate"});
     if (!levels.near.empty()) masks.build({"mask_near"});
@@ -62,7 +61,6 @@ void DynamicTransferSolver::State::build() const {
     if (glossy) masks.build({"integrate_gloss"});
     if (options.interreflections > 0)
         masks.build({"exitance", levels.near.empty() ? "bounce" : "bounce_near"});
-    kernels.finish();
 }
 
 void DynamicTransferSolver::State::write(const Scene& file) {

@@ -57,7 +57,6 @@ struct DynamicTransferView::State {
         probe(static_cast<std::uint32_t>(options.probe_step));
         BufferTable all = picture.table();
         add_to(all);
-        BuildTogether kernels;
         picture.allocate(all, solver.bytes());
         if (shadowed() || solver.glossy()) passes.build({"show"});
         if (!shadowed()) open_pixels.build({"open"});
@@ -65,7 +64,6 @@ struct DynamicTransferView::State {
         if (!shadowed() && some_pixels() && !all_pixels()) open_receivers.build({"open"});
         if (some_pixels()) passes.build({"pixels", "place", "compare_probes", "undersampled"});
         if (some_pixels() && solver.glossy()) passes.build({"compare_gloss"});
-        kernels.finish();
         write();
     }
 

@@ -90,7 +90,12 @@ GBufferPasses::GBufferPasses(const Programs& programs, const BuildOptions& optio
       groups_(in_groups(programs.device(), options)),
       cores_(programs.device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()) {
     const auto kernel = [&](const char* pass, const char* defines = "") {
-        return programs.kernel("gbuffer", pass, options, defines);
+        static const std::vector<std::string> picture = {"clear", "put_view", "raster",
+                                                         "raster_large", "resolve"};
+        const bool in_pictures =
+            *defines == '\0' && std::find(picture.begin(), picture.end(), pass) != picture.end();
+        return programs.kernel("gbuffer", pass, options, defines,
+                               in_pictures ? picture : std::vector<std::string>{});
     };
     for (Drawing* kind : {&visibility_, &depth_}) {
         const char* defines = kind == &depth_ ? "-DCLGI_DEPTH_ONLY" : "";

@@ -34,14 +34,18 @@ std::size_t plane_bytes(std::size_t planes, std::size_t stride) {
 
 ImagePasses::ImagePasses(const Programs& programs, const BuildOptions& options) {
     const auto kernel = [&](const char* pass) { return programs.kernel("image", pass, options); };
-    const auto few = [&](const char* pass) {
-        return in_small_groups(kernel(pass), programs.device(), options);
+    const auto refining = [&](const char* pass) {
+        return programs.kernel("image", pass, options, "",
+                               {"gather", "count", "compact", "upsample", "place"});
     };
-    gather_ = kernel("gather");
+    const auto few = [&](const char* pass) {
+        return in_small_groups(refining(pass), programs.device(), options);
+    };
+    gather_ = refining("gather");
     count_ = few("count");
     compact_ = few("compact");
-    upsample_ = kernel("upsample");
-    place_ = kernel("place");
+    upsample_ = refining("upsample");
+    place_ = refining("place");
     combine_ = kernel("combine");
     accumulate_ = kernel("accumulate");
     tonemap_ = kernel("tonemap");

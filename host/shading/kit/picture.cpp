@@ -66,12 +66,10 @@ void Picture::allocate(const BufferTable& table, std::size_t taken) {
                 scene_.bytes() + taken);
     table.allocate(record_);
     bytes_ = table.bytes();
-    BuildTogether kernels;
     build_draw_gbuffer(gbuffer_, scene_);
     emitters_.build(gbuffer_);
     image_.build({"combine"});
     if (options_.direct && scene_.environment()) image_.build({"environment"});
-    kernels.finish();
     emitters_.write(record_);
     record_.fill(seen_.planes, 0);  // emission is written where there is some
 }

@@ -15,14 +15,14 @@ LightPasses::LightPasses(const Programs& programs, const BuildOptions& options)
     // A work-item is a light here, not a packet: one lane serves, and compiles in half the time.
     BuildOptions scalar = options;
     scalar.packet_width = 1;
-    const auto kernel = [&](const char* pass) { return programs.kernel("lights", pass, scalar); };
-    const auto few = [&](const char* pass) {
-        return in_small_groups(kernel(pass), programs.device(), options);
+    const auto few = [&](const char* pass, const std::vector<std::string>& together = {}) {
+        return in_small_groups(programs.kernel("lights", pass, scalar, "", together),
+                               programs.device(), options);
     };
     accept_mask_ = few("accept_mask");
-    accept_list_ = kernel("accept_list");
-    fetch_ = few("fetch");
-    negative_ = few("negative");
+    accept_list_ = programs.kernel("lights", "accept_list", scalar);
+    fetch_ = few("fetch", {"fetch", "negative"});
+    negative_ = few("negative", {"fetch", "negative"});
     direct_ = programs.kernel("lights", "direct", options);
 }
 
