@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # From a fresh clone to tested: installs packages, builds, runs the tests.
 #
-#   tests/run.sh [--all] [cmake options]     for example -DCLGI_WERROR=ON
+#   tests/run.sh [--all|--slow] [cmake options]     for example -DCLGI_WERROR=ON
 #
 # Without --all those are left out that take longest (label "slow", tests/CMakeLists.txt): users of
 # an installed clgi, kernels in an interpreter, every kernel in every form, the longest sweeps and
-# references. Continuous integration runs all. The entries of the stability suite are left out in
-# both cases: they repeat cases of the shards.
+# references. --slow runs these alone; continuous integration does so in a job of its own. The
+# entries of the stability suite are always left out: they repeat cases of the shards.
 #
 # Ends with ctest's summary and its exit code. A run without a test on an OpenCL device fails.
 # SPDX-License-Identifier: MIT
@@ -15,13 +15,12 @@ set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/../cmake/setup.sh"
 
 left_out=(--exclude-regex '_stability$')
-all=0
-if [[ ${1:-} == --all ]]; then
-    all=1
-    shift
-else
-    left_out+=(--label-exclude '^slow$')
-fi
+part=default
+case ${1:-} in
+    --all | --slow) part=${1#--} && shift ;;
+esac
+[[ $part == default ]] && left_out+=(--label-exclude '^slow$')
+[[ $part == slow ]] && left_out+=(--label-regex '^slow$')
 
 build=$clgi_root/build
 clgi_packages+=("${clgi_plot_packages[@]}")
@@ -37,8 +36,8 @@ log=$build/ctest.log
 ctest --output-on-failure --no-tests=error --parallel 2 "${left_out[@]}" 2>&1 | tee "$log"
 
 grep -A1 ': Skipped$' Testing/Temporary/LastTest.log || echo "tests: no case was skipped"
-if ((!all)); then
-    echo "tests: $(ctest -N --label-regex '^slow$' | sed -n 's/^Total Tests: //p') slow ones are left to --all"
+if [[ $part == default ]]; then
+    echo "tests: $(ctest -N --label-regex '^slow$' | sed -n 's/^Total Tests: //p') slow ones are left to --slow or --all"
 fi
 for test in $on_device; do
     grep -Eq "Test +#[0-9]+: $test \.+ +Passed" "$log" && exit 0
