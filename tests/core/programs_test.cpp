@@ -95,6 +95,11 @@ TEST(Programs, BuildAloneWhatDoesNotBuildTogether) {
     build({mask, bounce});
     EXPECT_EQ(programs.built(), 2u);
     EXPECT_NE(program_of(mask), program_of(bounce));
+    const Programs units(test::device().context, test::device().device);
+    const std::vector<std::string> unit = {"mask", "bounce"};
+    build({units.kernel("transfer", "mask", {}, "", unit),
+           units.kernel("transfer", "bounce", {}, "", unit)});
+    EXPECT_EQ(units.built(), 2u);
 }
 
 TEST(Programs, ShareKernelsThatAnOptionDoesNotChange) {

@@ -65,8 +65,12 @@ cl::Program KernelSlot::compiled(const std::vector<std::string>& files) const {
 cl::Program KernelSlot::own_program() const {
     if (!unit_) return compiled({file_});
     const std::lock_guard lock(unit_->mutex);
-    if (!unit_->program()) unit_->program = compiled(unit_->files);
-    return unit_->program;
+    try {
+        if (!unit_->program()) unit_->program = compiled(unit_->files);
+        return unit_->program;
+    } catch (const DeviceError&) {  // of another of its kernels, perhaps
+        return compiled({file_});
+    }
 }
 
 std::string KernelSlot::family() const {
