@@ -101,7 +101,7 @@ public:
           renderer_(programs, setup.queue, scene, device_, options_of(setup, row, scene)) {
         renderer_.build();
         if (solver().moving_elements() == 0) return;
-        animator_.emplace(setup.queue, scene, device_, setup.build);
+        animator_.emplace(programs, setup.queue, scene, device_, setup.build);
         duration_ = scene.animation->clips.at(0).duration;
     }
 

@@ -145,7 +145,7 @@ public:
              std::size_t paper_coarse, const KautzSettings& settings)
         : queue_(setup.queue),
           device_(setup.context(), setup.device(), scene),
-          animator_(setup.queue, scene, device_, setup.build),
+          animator_(programs, setup.queue, scene, device_, setup.build),
           solver_(programs, setup.queue, scene, device_,
                   options_of(setup, scene, paper_coarse, settings)) {
         if (!settings.sets) return;

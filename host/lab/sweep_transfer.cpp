@@ -194,7 +194,7 @@ private:
         solver.look().wait();  // builds the kernel
         solver.sets();
         std::optional<SceneMover> mover;
-        if (motion_.animated) mover.emplace(setup_.queue, device, options.build);
+        if (motion_.animated) mover.emplace(programs_, setup_.queue, device, options.build);
         TransferLooks out;
         for (int frame = 0; frame < frames; ++frame) {
             if (!part(0.0)) throw_cancelled();

@@ -50,8 +50,8 @@ void prepare_motion(const RenderFlags& flags, Scene& scene) {
     scene.moving_bounds = motion_bounds(scene, clip);
 }
 
-Motion::Motion(const RenderFlags& flags, const Scene& scene, DeviceScene& device,
-               const cl::CommandQueue& queue)
+Motion::Motion(const RenderFlags& flags, const Programs& programs, const cl::CommandQueue& queue,
+               const Scene& scene, DeviceScene& device)
     : flags_(flags),
       device_(device),
       lights_(scene.lights),
@@ -60,7 +60,8 @@ Motion::Motion(const RenderFlags& flags, const Scene& scene, DeviceScene& device
     centre_ = 0.5 * (box.low + box.high);
     if (!flags.fps) return;
     clip_ = clip_of("render", scene, flags.scene.animation);
-    animator_ = std::make_unique<SceneAnimator>(queue, scene, device, build_of(flags.device));
+    animator_ =
+        std::make_unique<SceneAnimator>(programs, queue, scene, device, build_of(flags.device));
 }
 
 void Motion::spin_lights(double angle) {

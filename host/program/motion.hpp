@@ -17,8 +17,8 @@ void prepare_motion(const RenderFlags& flags, Scene& scene);
 class Motion {
 public:
     // scene: what `device` was made from.
-    Motion(const RenderFlags& flags, const Scene& scene, DeviceScene& device,
-           const cl::CommandQueue& queue);
+    Motion(const RenderFlags& flags, const Programs& programs, const cl::CommandQueue& queue,
+           const Scene& scene, DeviceScene& device);
 
     // What a frame is to be drawn with; its pose is enqueued on the queue, which is in order.
     struct Step {

@@ -48,7 +48,7 @@ RenderAttempt::RenderAttempt(const RenderFlags& flags, const Session& session,
       scene_(std::move(scene)),
       device_scene_(session.context, session.device, scene_),
       renderer_(programs, session.queue, scene_, device_scene_, options_),
-      motion_(flags, scene_, device_scene_, session.queue),
+      motion_(flags, programs, session.queue, scene_, device_scene_),
       camera_(camera_of(flags.scene, scene_)),
       last_camera_(camera_),
       moves_(flags.fps && moves(scene_)) {

@@ -71,8 +71,9 @@ struct Renderer::State {
         check(options);
     }
 
-    State(const cl::CommandQueue& on, const Scene& file, const RendererOptions& wanted)
-        : programs(on.getInfo<CL_QUEUE_CONTEXT>(), on.getInfo<CL_QUEUE_DEVICE>()),
+    State(const Programs& all, const cl::CommandQueue& on, const Scene& file,
+          const RendererOptions& wanted)
+        : programs(all),
           queue(on),
           own_scene(file),
           own_device(std::in_place, programs.context(), programs.device(), file),
@@ -183,7 +184,12 @@ struct Renderer::State {
 
 Renderer::Renderer(const cl::CommandQueue& queue, const Scene& scene,
                    const RendererOptions& options)
-    : state_(std::make_unique<State>(queue, scene, options)) {}
+    : Renderer(Programs(queue.getInfo<CL_QUEUE_CONTEXT>(), queue.getInfo<CL_QUEUE_DEVICE>()), queue,
+               scene, options) {}
+
+Renderer::Renderer(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+                   const RendererOptions& options)
+    : state_(std::make_unique<State>(programs, queue, scene, options)) {}
 
 Renderer::Renderer(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
                    DeviceScene& device_scene, const RendererOptions& options)

@@ -56,12 +56,12 @@ struct SceneAnimator::State {
         cl::Event written;
     };
 
-    State(const cl::CommandQueue& q, const Scene& scene, DeviceScene& target,
-          const BuildOptions& options)
+    State(const Programs& programs, const cl::CommandQueue& q, const Scene& scene,
+          DeviceScene& target, const BuildOptions& options)
         : queue(q),
           device(target),
-          mover(q, target, options),
-          passes(q.getInfo<CL_QUEUE_CONTEXT>(), q.getInfo<CL_QUEUE_DEVICE>(), options),
+          mover(programs, q, target, options),
+          passes(programs, options),
           data(upload_poses(q, scene, target.frame().origin)),
           animation(small_parts(*scene.animation)),
           lights(scene.lights),
@@ -150,7 +150,13 @@ cl::Event SceneAnimator::State::move(const Pose& pose, const WaitList& wait) {
 
 SceneAnimator::SceneAnimator(const cl::CommandQueue& queue, const Scene& scene, DeviceScene& device,
                              const BuildOptions& options)
-    : state_(std::make_unique<State>(queue, with_animation(scene, device), device, options)) {}
+    : SceneAnimator(Programs(queue.getInfo<CL_QUEUE_CONTEXT>(), queue.getInfo<CL_QUEUE_DEVICE>()),
+                    queue, scene, device, options) {}
+
+SceneAnimator::SceneAnimator(const Programs& programs, const cl::CommandQueue& queue,
+                             const Scene& scene, DeviceScene& device, const BuildOptions& options)
+    : state_(std::make_unique<State>(programs, queue, with_animation(scene, device), device,
+                                     options)) {}
 
 // The driver may still read what was staged.
 SceneAnimator::~SceneAnimator() {

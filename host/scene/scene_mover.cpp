@@ -49,9 +49,13 @@ bool is_box(const Bounds& box) {
 
 SceneMover::SceneMover(const cl::CommandQueue& queue, DeviceScene& scene,
                        const BuildOptions& options)
+    : SceneMover(Programs(context_of(queue), device_of(queue)), queue, scene, options) {}
+
+SceneMover::SceneMover(const Programs& programs, const cl::CommandQueue& queue, DeviceScene& scene,
+                       const BuildOptions& options)
     : queue_(queue),
       scene_(scene),
-      passes_(context_of(queue), device_of(queue), options),
+      passes_(programs, options),
       vertex_order_(upload(queue, scene.vertex_order())),
       status_(upload(queue, std::vector<std::uint32_t>(MOVE_STATUS_WORDS))) {}
 

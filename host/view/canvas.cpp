@@ -44,7 +44,7 @@ Canvas::Canvas(const Programs& programs, const cl::CommandQueue& queue, const Su
       device_scene_(programs.context(), programs.device(), scene_),
       renderer_(programs, queue_, scene_, device_scene_, options) {
     if (moves && scene_.animation) {
-        animator_ = std::make_unique<SceneAnimator>(queue_, scene_, device_scene_);
+        animator_ = std::make_unique<SceneAnimator>(programs, queue_, scene_, device_scene_);
         if (shown.seconds) pose(shown);
     }
     renderer_.build();

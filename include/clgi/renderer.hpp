@@ -89,7 +89,11 @@ public:
     Renderer(const cl::CommandQueue& queue, const Scene& scene,
              const RendererOptions& options = {});
 
-    // With kernels that others share, and a scene that is on the device: what `scene` was uploaded
+    // The same with kernels that others share.
+    Renderer(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+             const RendererOptions& options = {});
+
+    // And with a scene that is on the device: what `scene` was uploaded
     // to, moved and lit by the caller. Both must outlive this object.
     Renderer(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
              DeviceScene& device_scene, const RendererOptions& options = {});

@@ -26,6 +26,10 @@ public:
     // Throws Error for a scene without animation, DeviceError if the device has no room.
     SceneAnimator(const cl::CommandQueue& queue, const Scene& scene, DeviceScene& device,
                   const BuildOptions& options = {});
+
+    // With kernels that others share.
+    SceneAnimator(const Programs& programs, const cl::CommandQueue& queue, const Scene& scene,
+                  DeviceScene& device, const BuildOptions& options = {});
     ~SceneAnimator();
 
     SceneAnimator(const SceneAnimator&) = delete;

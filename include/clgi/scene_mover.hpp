@@ -38,6 +38,10 @@ class CLGI_API SceneMover {
 public:
     SceneMover(const cl::CommandQueue& queue, DeviceScene& scene, const BuildOptions& options = {});
 
+    // With kernels that others share.
+    SceneMover(const Programs& programs, const cl::CommandQueue& queue, DeviceScene& scene,
+               const BuildOptions& options = {});
+
     SceneMover(const SceneMover&) = delete;
     SceneMover& operator=(const SceneMover&) = delete;
 

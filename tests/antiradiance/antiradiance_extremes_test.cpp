@@ -89,7 +89,7 @@ TEST(AntiradianceHalf, KeepsTheLightOfWhatMoves) {
         DeviceScene scene = test::on_device(room.scene);
         AntiradianceSolver solver(test::programs(), test::device().queue, room.scene, scene,
                                   options);
-        SceneMover mover(test::device().queue, scene);
+        SceneMover mover(test::programs(), test::device().queue, scene);
         room.move(mover, 0.4);
         solver.geometry_changed();
         ASSERT_TRUE(solver.run());

@@ -44,7 +44,7 @@ TEST_P(RelinkNear, BoundsWhatComesNearerThanInAllPoses) {
     options.poses = {at({0, 0, 0}), at({0.1, 0, 0}), at({0.2, 0, 0})};
     DeviceScene device = test::on_device(scene);
     AntiradianceSolver solver(test::programs(), test::device().queue, scene, device, options);
-    SceneMover mover(test::device().queue, device);
+    SceneMover mover(test::programs(), test::device().queue, device);
     mover.move(0, at({0, -19.99, 0}), scene.normals).wait();
     solver.geometry_changed();
     ASSERT_TRUE(solver.run());

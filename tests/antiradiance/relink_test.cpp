@@ -271,7 +271,7 @@ TEST(RelinkBits, AreTheSameAtEveryScale) {
         file.lights[0].position *= scale;
         DeviceScene scene = test::on_device(file);
         AntiradianceSolver solver(test::programs(), test::device().queue, file, scene, options);
-        SceneMover mover(test::device().queue, scene);
+        SceneMover mover(test::programs(), test::device().queue, scene);
         mover.move(0, there.positions, there.normals).wait();
         solver.geometry_changed();
         solver.run();
@@ -303,7 +303,7 @@ TEST_P(Relink, StaysFiniteWhereSurfacesMeet) {
                      at({-2, 0, 0}, 0.0)};
     DeviceScene device = test::on_device(scene);
     AntiradianceSolver solver(test::programs(), test::device().queue, scene, device, options);
-    SceneMover mover(test::device().queue, device);
+    SceneMover mover(test::programs(), test::device().queue, device);
     std::vector<std::vector<glm::dvec3>> places = {
         at({-1, 0, 0}, 1.0),                                // one within the other, bit by bit
         at({-1, 0.5, 0}, 1.0),                              // upon it

@@ -42,7 +42,7 @@ TEST(Embedding, AFrameBeginsAfterWhatItWaitsFor) {
     const DeviceScene scene = test::on_device(room());
     for (const cl_command_queue_properties kind : kinds) {
         const cl::CommandQueue queue(test::device().context, test::device().device, kind);
-        SecondOrderSolver solver(queue, scene, small());
+        SecondOrderSolver solver(test::programs(), queue, scene, small());
         for (int frame = 0; frame < 2; ++frame) {
             cl::UserEvent gate(test::device().context);
             calls.clear();
@@ -81,7 +81,7 @@ TEST(Embedding, TheIntervalCoversEveryPassOfTheFrame) {
     const DeviceScene scene = test::on_device(room());
     for (const cl_command_queue_properties kind : kinds) {
         const cl::CommandQueue queue(test::device().context, test::device().device, kind);
-        SecondOrderSolver solver(queue, scene, small());
+        SecondOrderSolver solver(test::programs(), queue, scene, small());
         const cl::Event done = solver.render(room().cameras[0]);
         done.wait();
         const Interval whole = solver.interval();
@@ -102,7 +102,7 @@ TEST(Embedding, TheIntervalCoversEveryPassOfTheFrame) {
 TEST(Embedding, WithoutProfilingThereIsNoInterval) {
     const DeviceScene scene = test::on_device(room());
     const cl::CommandQueue queue(test::device().context, test::device().device);
-    SecondOrderSolver solver(queue, scene, small());
+    SecondOrderSolver solver(test::programs(), queue, scene, small());
     solver.render(room().cameras[0]).wait();
     EXPECT_THROW(solver.interval(), Error);
 }
@@ -124,7 +124,7 @@ TEST(Embedding, TheEstimateIsWhatIsAllocated) {
 
 std::string refusal(const DeviceScene& scene, const SecondOrderOptions& options) {
     try {
-        SecondOrderSolver solver(test::device().queue, scene, options);
+        SecondOrderSolver solver(test::programs(), test::device().queue, scene, options);
     } catch (const DeviceError& error) {
         return error.what();
     }
@@ -154,7 +154,7 @@ TEST(Embedding, ARefusedChangeLeavesTheSolverAsItWas) {
     const Scene world = room();
     const DeviceScene scene = test::on_device(world);
     const cl::CommandQueue& queue = test::device().queue;
-    SecondOrderSolver solver(queue, scene, small());
+    SecondOrderSolver solver(test::programs(), queue, scene, small());
     const auto picture = [&] {
         solver.render(world.cameras[0]).wait();
         return test::read_frame(queue, scene, solver).radiance;
@@ -220,7 +220,7 @@ TEST(Dispatches, OfManyLightsChangeNoBit) {
     options.emitters.shadow_size = 64;
     options.negative_vpls = 3;
     options.emitters.face_size = 16;
-    SecondOrderSolver solver(test::device().queue, scene, options);
+    SecondOrderSolver solver(test::programs(), test::device().queue, scene, options);
     std::vector<double> seen;
     ASSERT_TRUE(solver.run(room().cameras[0], [&](double done) {
         seen.push_back(done);

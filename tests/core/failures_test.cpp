@@ -210,7 +210,7 @@ TEST_F(Failures, OfWhatAFrameWaitsForEndThatFrameOnly) {
          {cl_command_queue_properties{0},
           cl_command_queue_properties{CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE}}) {
         const cl::CommandQueue queue(test::device().context, test::device().device, order);
-        SecondOrderSolver solver(queue, scene, failing_frame());
+        SecondOrderSolver solver(test::programs(), queue, scene, failing_frame());
         solver.render(failing_room().cameras[0]).wait();
         const auto whole = test::read_frame(queue, scene, solver).radiance;
         cl::UserEvent gate(test::device().context);

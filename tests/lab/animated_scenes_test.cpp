@@ -80,7 +80,7 @@ TEST(AnimatedScenes, AreWhereTheFormulasSay) {
             framed.moving_bounds = motion_bounds(scene, clip);
             ASSERT_TRUE(framed.moving_bounds) << file;
             DeviceScene device = test::on_device(framed);
-            SceneAnimator animator(test::device().queue, framed, device);
+            SceneAnimator animator(test::programs(), test::device().queue, framed, device);
             const double radius = device.frame().radius / device.frame().scale;
             EXPECT_DOUBLE_EQ(scene.animation->clips[clip].duration, truth.duration(clip)) << file;
             for (const double time : times(truth.duration(clip))) {

@@ -29,7 +29,7 @@ test::Radiances by_atlas(const Scene& scene, const Camera& camera, double second
     DeviceScene uploaded = test::on_device(planned);
     const cl::CommandQueue& queue = test::device().queue;
     Renderer renderer(test::programs(), queue, planned, uploaded, plan);
-    SceneAnimator animator(queue, planned, uploaded);
+    SceneAnimator animator(test::programs(), queue, planned, uploaded);
     EXPECT_TRUE(renderer.prepare());
     const Animated step = animator.animate(0, seconds);
     renderer.render(camera, {step.done}).wait();

@@ -88,7 +88,7 @@ Radiances at_time(const Scene& scene, const Camera& camera, const Plan& plan, do
     DeviceScene uploaded = test::on_device(left);
     const cl::CommandQueue& queue = test::device().queue;
     Renderer renderer(test::programs(), queue, left, uploaded, plan);
-    SceneAnimator animator(queue, left, uploaded);
+    SceneAnimator animator(test::programs(), queue, left, uploaded);
     EXPECT_TRUE(renderer.prepare());
     renderer.render(camera).wait();
     const Animated step = animator.animate(0, seconds);

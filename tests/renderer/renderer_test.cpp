@@ -68,7 +68,7 @@ Radiances picture_of(Renderer& renderer, const Camera& camera = eye()) {
 }
 
 Radiances fresh(const Scene& scene, Method method) {
-    Renderer renderer(test::device().queue, scene, quick(method));
+    Renderer renderer(test::programs(), test::device().queue, scene, quick(method));
     return picture_of(renderer);
 }
 
@@ -144,7 +144,7 @@ TEST(Renderer, FollowsLights) {
     changed.lights[0].intensity = {0.5f, 2.0f, 3.0f};
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
-        Renderer renderer(test::device().queue, scene, quick(method));
+        Renderer renderer(test::programs(), test::device().queue, scene, quick(method));
         const Radiances before = picture_of(renderer);
         renderer.scene().set_light(0, changed.lights[0]);
         renderer.lights_changed();
@@ -169,13 +169,13 @@ TEST(Renderer, FollowsLightsThatOutgrowTheirBuffers) {
         RendererOptions options = quick(method);
         options.picture.emitters.shadow_size = 32;  // fewer pixels than a cube
         options.light_atlas.emitters.shadow_size = 32;
-        Renderer renderer(test::device().queue, scene, options);
+        Renderer renderer(test::programs(), test::device().queue, scene, options);
         picture_of(renderer);
         const std::size_t before = renderer.bytes();
         for (std::size_t i = 0; i < 2; ++i) renderer.scene().set_light(i, changed.lights[i]);
         renderer.lights_changed();
         const Radiances after = picture_of(renderer);
-        Renderer wanted(test::device().queue, changed, options);
+        Renderer wanted(test::programs(), test::device().queue, changed, options);
         EXPECT_LT(change(after, picture_of(wanted)), 1e-4);
         EXPECT_GT(renderer.bytes(), before);
         EXPECT_EQ(renderer.status().non_finite, 0u);
@@ -188,7 +188,7 @@ TEST(Renderer, FollowsATurnedSky) {
     turned.environment->rotation = 1.3f;
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
-        Renderer renderer(test::device().queue, scene, quick(method));
+        Renderer renderer(test::programs(), test::device().queue, scene, quick(method));
         const Radiances before = picture_of(renderer);
         renderer.scene().turn_environment(1.3);
         renderer.environment_changed();
@@ -204,7 +204,7 @@ TEST(Renderer, FollowsATurnedSky) {
 
 TEST(Renderer, RefusesSkiesThatAreNotThere) {
     Scene scene = test::slanted_room();
-    Renderer renderer(test::device().queue, scene, quick(Method::direct));
+    Renderer renderer(test::programs(), test::device().queue, scene, quick(Method::direct));
     EXPECT_THROW(renderer.scene().turn_environment(1.0), Error);
     scene.environment = test::even_sky({1.0f, 2.0f, 3.0f});
     Renderer under_a_sky(test::device().queue, scene, quick(Method::direct));
@@ -223,7 +223,7 @@ TEST(Renderer, FollowsGeometry) {
         RendererOptions options = quick(method);
         options.animated = true;
         Renderer renderer(test::programs(), queue, scene, device, options);
-        SceneAnimator animator(queue, scene, device);
+        SceneAnimator animator(test::programs(), queue, scene, device);
         const auto at = [&](double time) {
             const Animated step = animator.animate(0, time);
             if (step.lights) renderer.lights_changed();
@@ -239,7 +239,7 @@ TEST(Renderer, FollowsGeometry) {
 
 TEST(Renderer, BakesWhatStandsStillAlone) {
     const Scene scene = test::slanted_room();
-    Renderer renderer(test::device().queue, scene, quick(Method::light_atlas));
+    Renderer renderer(test::programs(), test::device().queue, scene, quick(Method::light_atlas));
     renderer.build();
     EXPECT_THROW(renderer.geometry_changed(), Error);
 }
@@ -251,7 +251,7 @@ TEST(Renderer, SaysThatAnIterationWasGivenUp) {
     options.antiradiance.bins = 128;
     options.antiradiance.elements.requested = 4000;
     options.antiradiance.links.spread = Spread::none;
-    Renderer renderer(test::device().queue, scene, options);
+    Renderer renderer(test::programs(), test::device().queue, scene, options);
     EXPECT_FALSE(renderer.prepare());
     EXPECT_TRUE(renderer.status().given_up);
     EXPECT_FALSE(renderer.status().converged);
@@ -265,7 +265,7 @@ TEST(Renderer, PreparesWhereThatWasForgotten) {
     const Scene scene = open_scene();
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
-        Renderer prepared(test::device().queue, scene, quick(method));
+        Renderer prepared(test::programs(), test::device().queue, scene, quick(method));
         EXPECT_TRUE(prepared.prepare([](double) { return true; }));
         EXPECT_EQ(picture_of(prepared), fresh(scene, method));
     }
@@ -275,7 +275,7 @@ TEST(Renderer, EndsWhereItIsCancelled) {
     const Scene scene = open_scene();
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
-        Renderer renderer(test::device().queue, scene, quick(method));
+        Renderer renderer(test::programs(), test::device().queue, scene, quick(method));
         EXPECT_FALSE(renderer.prepare([](double) { return false; }));
         EXPECT_FALSE(renderer.run(eye(), [](double) { return false; }));
         EXPECT_EQ(picture_of(renderer), fresh(scene, method));
@@ -286,7 +286,7 @@ TEST(Renderer, HasTheTimesOfWhatWasDoneForThePicture) {
     const Scene scene = open_scene();
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
-        Renderer renderer(test::device().queue, scene, quick(method));
+        Renderer renderer(test::programs(), test::device().queue, scene, quick(method));
         picture_of(renderer);
         const std::size_t first = renderer.times().size();
         picture_of(renderer);
@@ -305,7 +305,7 @@ TEST(Renderer, EstimatesBeforeItAllocates) {
     const Scene scene = open_scene();
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
-        Renderer renderer(test::device().queue, scene, quick(method));
+        Renderer renderer(test::programs(), test::device().queue, scene, quick(method));
         const Estimate estimate = renderer.estimate();
         EXPECT_GT(estimate.milliseconds, 0.0);
         EXPECT_THROW(renderer.bytes(), Error);
@@ -323,7 +323,7 @@ TEST(Renderer, LightsAGivenGBufferBySecondOrderAlone) {
     const Scene scene = open_scene();
     for (const Method method : all_methods) {
         SCOPED_TRACE(name_of(method));
-        Renderer renderer(test::device().queue, scene, quick(method));
+        Renderer renderer(test::programs(), test::device().queue, scene, quick(method));
         const Radiances drawn = picture_of(renderer);
         if (SecondOrderSolver* solver = renderer.second_order()) {
             renderer.render(eye(), solver->gbuffer());
@@ -340,10 +340,10 @@ TEST(Renderer, LightsAGivenGBufferBySecondOrderAlone) {
 TEST(Renderer, RefusesOptionsOutOfRange) {
     RendererOptions options = quick(Method::light_atlas);
     options.least_change = -1.0;
-    EXPECT_THROW(Renderer(test::device().queue, open_scene(), options), Error);
+    EXPECT_THROW(Renderer(test::programs(), test::device().queue, open_scene(), options), Error);
     options = quick(Method::light_atlas);
     options.vpls.count = 1u << 31;
-    Renderer renderer(test::device().queue, open_scene(), options);
+    Renderer renderer(test::programs(), test::device().queue, open_scene(), options);
     EXPECT_THROW(renderer.estimate(), DeviceError);
     EXPECT_THROW(renderer.build(), DeviceError);
 }

@@ -97,7 +97,7 @@ TEST(Samples, OffsetsMoveThePicture) {
     });
     RendererOptions options = options_of(Method::direct);
     options.picture.emitters.shadows = false;  // directions of the sky are the same either way
-    Renderer renderer(test::device().queue, scene, options);
+    Renderer renderer(test::programs(), test::device().queue, scene, options);
     for (Camera camera : {viewpoint(), parallel}) {
         const Radiance before = draw(renderer, camera);
         camera.offset = {3.0f, -2.0f};  // to the right and up
@@ -121,7 +121,7 @@ TEST(Samples, AreTheMeanOfShiftedViews) {
     scene.materials[1].emission = glm::vec3(0.0f);
     for (const Method method : {Method::direct, Method::light_atlas, Method::antiradiance}) {
         RendererOptions options = options_of(method);
-        Renderer one(test::device().queue, scene, options);
+        Renderer one(test::programs(), test::device().queue, scene, options);
         std::vector<glm::dvec3> mean(std::size_t{width} * height, glm::dvec3(0.0));
         constexpr int samples = 5;
         for (std::uint32_t k = 0; k < samples; ++k) {
@@ -135,7 +135,7 @@ TEST(Samples, AreTheMeanOfShiftedViews) {
                 mean[i] += glm::dvec3(view[i]) / double{samples};
         }
         options.samples = samples;
-        Renderer all(test::device().queue, scene, options);
+        Renderer all(test::programs(), test::device().queue, scene, options);
         const Radiance found = draw(all, viewpoint());
         EXPECT_EQ(all.samples(), 5u);
         double largest = 0.0;
@@ -158,7 +158,7 @@ TEST(Samples, LeaveASinglePictureAsItIs) {
     for (const Method method :
          {Method::direct, Method::second_order, Method::light_atlas, Method::antiradiance,
           Method::dynamic_transfer, Method::irradiance_cache}) {
-        Renderer renderer(test::device().queue, scene, options_of(method));
+        Renderer renderer(test::programs(), test::device().queue, scene, options_of(method));
         const Radiance before = draw(renderer, viewpoint());
         EXPECT_EQ(renderer.samples(), 1u);
         renderer.refine();
@@ -177,7 +177,7 @@ TEST(Samples, SmoothEdgesToTheirArea) {
     const std::vector<glm::dvec2> polygon = {{5.3, 4.1}, {37.7, 7.9}, {33.2, 24.6}, {11.9, 21.3}};
     const Scene scene = test::glowing_quad(polygon, {1.0f, 2.0f, 4.0f});
     const std::vector<double> exact = test::coverage(polygon, width, height);
-    Renderer renderer(test::device().queue, scene, options_of(Method::direct));
+    Renderer renderer(test::programs(), test::device().queue, scene, options_of(Method::direct));
     double first = 0.0;
     for (const int samples : {1, 4, 16, 64}) {
         if (samples == 1) renderer.render(test::pixel_camera(width, height));
@@ -223,7 +223,7 @@ TEST(Samples, SmoothShadows) {
     const test::Twice traced = test::render_twice(scene, viewpoint(), truth);
     // Without an environment transfer has direct light alone, by a Picture.
     for (const Method method : {Method::direct, Method::dynamic_transfer}) {
-        Renderer renderer(test::device().queue, scene, options_of(method));
+        Renderer renderer(test::programs(), test::device().queue, scene, options_of(method));
         const test::Apart one = test::apart(draw(renderer, viewpoint()), traced);
         for (int k = 1; k < 32; ++k) renderer.refine();
         const test::Apart many = test::apart(read(renderer), traced);
@@ -256,7 +256,7 @@ TEST(Samples, LookTexturesUpMoreClosely) {
     truth.samples = 1024;
     truth.filter = reference::Filter::box;
     const test::Twice traced = test::render_twice(scene, scene.cameras[0], truth);
-    Renderer renderer(test::device().queue, scene, options_of(Method::direct));
+    Renderer renderer(test::programs(), test::device().queue, scene, options_of(Method::direct));
     const test::Apart one = test::apart(draw(renderer, scene.cameras[0]), traced);
     for (int k = 1; k < 64; ++k) renderer.refine();
     const test::Apart many = test::apart(read(renderer), traced);
@@ -271,9 +271,9 @@ TEST(Samples, SayWhatIsWrong) {
     const Scene scene = lit_scene();
     RendererOptions options = options_of(Method::direct);
     options.samples = 0;
-    EXPECT_THROW(Renderer(test::device().queue, scene, options), Error);
+    EXPECT_THROW(Renderer(test::programs(), test::device().queue, scene, options), Error);
     options.samples = 2;
-    Renderer renderer(test::device().queue, scene, options);
+    Renderer renderer(test::programs(), test::device().queue, scene, options);
     EXPECT_THROW(renderer.refine(), Error);
     renderer.render(viewpoint());
     EXPECT_NO_THROW(renderer.refine());
@@ -291,7 +291,7 @@ TEST(Samples, SayWhatIsWrong) {
     Scene wrong = scene;
     wrong.cameras = {viewpoint()};
     wrong.cameras[0].offset.x = std::nanf("");
-    EXPECT_THROW(Renderer(test::device().queue, wrong, options), InputError);
+    EXPECT_THROW(Renderer(test::programs(), test::device().queue, wrong, options), InputError);
 }
 
 }  // namespace

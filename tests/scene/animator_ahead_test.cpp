@@ -31,7 +31,7 @@ TEST(MotionBounds, HoldEveryKey) {
         EXPECT_LE(found.high.x, 101.0 * 17 / 16) << keys;
         scene.moving_bounds = found;
         DeviceScene device = test::on_device(scene);
-        SceneAnimator animator(test::device().queue, scene, device);
+        SceneAnimator animator(test::programs(), test::device().queue, scene, device);
         animator.animate(0, scene.animation->clips[0].duration).done.wait();
         EXPECT_TRUE(animator.status().fits) << keys;
     }
@@ -53,10 +53,10 @@ TEST(MotionBounds, HoldWhatLiesBetweenKeys) {
 TEST(SceneAnimator, MayBeManyStepsAheadOfTheDevice) {
     const Scene scene = test::bent_strip();
     DeviceScene device = test::on_device(scene), other = test::on_device(scene);
-    SceneAnimator at_once(test::device().queue, scene, other);
+    SceneAnimator at_once(test::programs(), test::device().queue, scene, other);
     at_once.animate(0, 0.9).done.wait();
     cl::CommandQueue queue(test::device().context, test::device().device);
-    SceneAnimator held(queue, scene, device);
+    SceneAnimator held(test::programs(), queue, scene, device);
     cl::UserEvent gate(test::device().context);
     Animated step;
     for (int i = 0; i < 40; ++i) step = held.animate(0, i == 39 ? 0.9 : 0.02 * i, {gate});

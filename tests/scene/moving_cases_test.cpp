@@ -60,7 +60,7 @@ TEST(MovingEmission, GivesTheBitsOfAFreshLoad) {
     DeviceScene scene = test::on_device(lantern().scene);
     ASSERT_EQ(scene.emissive().size(), 14u);
     SecondOrderSolver solver(test::programs(), test::device().queue, scene, tiny_frame());
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     for (const glm::dvec3& shift : {glm::dvec3(0.3, -0.5, 0.2), glm::dvec3(-0.31, 0.1, -0.44)}) {
         Lantern moved = lantern(shift);
         mover.move(test::buffers_of(
@@ -80,7 +80,7 @@ TEST(MovingEmission, GivesTheBitsOfAFreshLoad) {
 TEST(MovingEmission, MayVanishAndComeBack) {
     const Lantern rest = lantern();
     DeviceScene scene = test::on_device(rest.scene);
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     Scene flat = rest.scene;
     const std::size_t last = flat.positions.size();
     flat.positions[last - 1] = flat.positions[last - 2];
@@ -96,7 +96,7 @@ TEST(MovingGeometry, TakesTheFrameOfAFreshLoadWhenRefitted) {
     for (const bool from_host : {true, false}) {
         DeviceScene scene = test::on_device(turning.rest);
         SecondOrderSolver solver(test::programs(), test::device().queue, scene, tiny_frame());
-        SceneMover mover(test::device().queue, scene);
+        SceneMover mover(test::programs(), test::device().queue, scene);
         for (const double size : {3.7, 0.02}) {
             Scene world = turning.turned(size);
             for (glm::dvec3& p : world.positions) p = p * size + glm::dvec3(5, -3, 11);
@@ -132,8 +132,8 @@ TEST(MovingGeometry, WaitsForWhatItIsToldOnAQueueOutOfOrder) {
     const cl::CommandQueue queue(on.context, on.device, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
-    SecondOrderSolver solver(queue, scene, tiny_frame());
-    SceneMover mover(queue, scene);
+    SecondOrderSolver solver(test::programs(), queue, scene, tiny_frame());
+    SceneMover mover(test::programs(), queue, scene);
     cl::UserEvent start(on.context);
     WaitList wait = {start};
     std::vector<Scene> scenes;
@@ -178,7 +178,7 @@ TEST(MovingGeometry, RefusesWhatDoesNotFitAndStaysAsItWas) {
     const Lantern rest = lantern();
     DeviceScene scene = test::on_device(rest.scene);
     const auto before = test::vertex_bits(scene);
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     const auto all = static_cast<std::uint32_t>(rest.scene.positions.size());
     const cl::Buffer plenty = test::empty<glm::vec4>(all);
     const cl::Buffer short_by_one = test::empty<char>(16 * std::size_t{all} - 1);
@@ -236,7 +236,7 @@ TEST(MovingGeometry, KeepsTheSignOfZero) {
     for (const bool from_host : {true, false}) {
         DeviceScene scene = test::on_device(world);
         const auto loaded = test::vertex_bits(scene);
-        SceneMover mover(test::device().queue, scene);
+        SceneMover mover(test::programs(), test::device().queue, scene);
         if (from_host)
             mover.move(0, world.positions, world.normals);
         else
@@ -253,14 +253,14 @@ TEST(MovingGeometry, LeavesVerticesWithoutTrianglesAlone) {
     DeviceScene scene = test::on_device(world);
     EXPECT_EQ(scene.file_vertex_count(), 11u);
     EXPECT_EQ(scene.info().vertex_count, 4u);
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     for (glm::dvec3& position : world.positions) position.x *= 0.5;
     mover.move(test::buffers_of(world, 0, 11)).wait();
     const MoveStatus status = mover.status();
     EXPECT_TRUE(status.fits);
     EXPECT_NEAR(status.farthest, std::sqrt(1.25), 1e-6);
     DeviceScene none = test::on_device(Scene());
-    SceneMover idle(test::device().queue, none);
+    SceneMover idle(test::programs(), test::device().queue, none);
     idle.move(0, {}, {}, true).wait();
     EXPECT_EQ(idle.status().farthest, 0.0);
 }

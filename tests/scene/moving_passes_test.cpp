@@ -32,7 +32,7 @@ TEST(RelinkRules, LetNoLightGoBackAlongItsBin) {
     options.steps = 1;
     DeviceScene device = test::on_device(scene);
     AntiradianceSolver solver(test::programs(), test::device().queue, scene, device, options);
-    SceneMover mover(test::device().queue, device);
+    SceneMover mover(test::programs(), test::device().queue, device);
     std::vector<ElementTree> poses;
     for (const auto& pose : options.poses)
         poses.push_back(posed_elements(solver.elements(), scene, pose));

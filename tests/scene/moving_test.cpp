@@ -50,7 +50,7 @@ TEST(MovingGeometry, OfTheHostGivesTheBitsOfAFreshLoad) {
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
     SecondOrderSolver solver(test::programs(), test::device().queue, scene, moving_frame());
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     const auto at_rest = fresh_radiance(turning.rest);
     for (int frame = 1; frame <= 6; ++frame) {
         const Scene turned = turning.turned(0.37 * frame);
@@ -70,7 +70,7 @@ TEST(MovingGeometry, OfTheCallersBuffersGivesTheBitsOfAFreshLoad) {
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
     SecondOrderSolver solver(test::programs(), test::device().queue, scene, moving_frame());
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     for (int frame = 1; frame <= 6; ++frame) {
         Scene turned = turning.turned(0.41 * frame);
         mover.move(test::buffers_of(turned, turning.first, turning.count));
@@ -82,7 +82,7 @@ TEST(MovingGeometry, FarFromTheWorldsOriginIsAsExact) {
     const test::Turning turning = test::bunny({1e6, -3e5, 7654321.123});
     DeviceScene scene = test::on_device(turning.rest);
     SecondOrderSolver solver(test::programs(), test::device().queue, scene, moving_frame());
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     for (const glm::dvec3& origin :
          {glm::dvec3(1e6, -3e5, 7654321.123), glm::dvec3(1000001.1, -3e5, 7654320.7)}) {
         Scene turned = turning.turned(origin.x > 1e6 ? 1.0 : 2.0);
@@ -95,7 +95,8 @@ TEST(MovingGeometry, FarFromTheWorldsOriginIsAsExact) {
 TEST(MovingGeometry, IsPlacedAlikeByFastMath) {
     const test::Turning turning = test::bunny({1e6, 0, 0});
     DeviceScene scene = test::on_device(turning.rest);
-    SceneMover mover(test::device().queue, scene, {.math = Math::fast, .local_size = 7});
+    SceneMover mover(test::programs(), test::device().queue, scene,
+                     {.math = Math::fast, .local_size = 7});
     Scene turned = turning.turned(0.5);
     mover.move(test::buffers_of(turned, turning.first, turning.count, {999999.3, 0, 0.1}));
     EXPECT_TRUE(
@@ -106,7 +107,7 @@ TEST(MovingGeometry, IsPlacedAlikeByFastMath) {
 TEST(MovingGeometry, MayBeAPartOfTheVertices) {
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     const Scene whole = turning.turned(0.8);
     Scene half = turning.rest;
     const std::uint32_t first = turning.first + 1001, count = turning.count / 2;
@@ -139,7 +140,7 @@ TEST(MovingGeometry, MayBeAPartOfTheVertices) {
 TEST(MovingGeometry, MovesTheBoxesOfClusters) {
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     Scene turned = turning.turned(1.3);
     mover.move(test::buffers_of(turned, turning.first, turning.count));
     const auto triangles =
@@ -165,7 +166,7 @@ TEST(MovingGeometry, KeepsVerticesThatAreNotFinite) {
     const test::Turning turning = test::bunny();
     for (const Math math : {Math::strict, Math::fast}) {
         DeviceScene scene = test::on_device(turning.rest);
-        SceneMover mover(test::device().queue, scene, {.math = math});
+        SceneMover mover(test::programs(), test::device().queue, scene, {.math = math});
         Scene turned = turning.turned(0.3);
         MovedVertices moved = test::buffers_of(turned, turning.first, turning.count);
         const auto spoil = [&](const cl::Buffer& buffer, std::uint32_t v, int axis, float value) {
@@ -203,7 +204,7 @@ TEST(MovingGeometry, KeepsVerticesThatAreNotFinite) {
 TEST(MovingGeometry, SaysWhenItLeavesTheFrame) {
     const test::Turning turning = test::bunny();
     DeviceScene scene = test::on_device(turning.rest);
-    SceneMover mover(test::device().queue, scene);
+    SceneMover mover(test::programs(), test::device().queue, scene);
     // Corners of the frame's own box fit to the last bit.
     mover.move(0, turning.rest.positions, turning.rest.normals);
     MoveStatus status = mover.status();

@@ -21,7 +21,7 @@ using test::posed_at;
 
 SceneAnimator animator_of(const Scene& scene, DeviceScene& device,
                           const BuildOptions& options = {}) {
-    return SceneAnimator(test::device().queue, scene, device, options);
+    return SceneAnimator(test::programs(), test::device().queue, scene, device, options);
 }
 
 // The device has the host's pose. A dozen roundings of numbers as large as the scene; normals are
@@ -31,7 +31,7 @@ void expect_as_on_the_host(const Scene& source, double time, const std::string& 
     Scene scene = source;
     scene.moving_bounds = motion_bounds(scene, 0);
     DeviceScene device = test::on_device(scene);
-    SceneAnimator animator(test::device().queue, scene, device, options);
+    SceneAnimator animator(test::programs(), test::device().queue, scene, device, options);
     animator.animate(0, time).done.wait();
     const Scene found = test::read_back(scene, device), wanted = posed_at(scene, time);
     const double radius = device.frame().radius / device.frame().scale;
@@ -264,7 +264,7 @@ TEST(SceneAnimator, DoesNotDependOnGroupsQueuesOrWhatWasBefore) {
     const Scene scene = stage();
     const auto bits = [&](const BuildOptions& options, const cl::CommandQueue& queue, bool others) {
         DeviceScene device = test::on_device(scene);
-        SceneAnimator animator(queue, scene, device, options);
+        SceneAnimator animator(test::programs(), queue, scene, device, options);
         for (int i = 0; i < 20 && others; ++i) animator.animate(0, 0.05 * i);
         animator.animate(0, 0.6).done.wait();
         return test::vertex_bits(device);

@@ -36,7 +36,7 @@ TEST_P(CornerShadows, LeaveAClosedRoomDark) {
         const glm::dvec3 way =
             far_wall ? glm::dvec3(side, down, graze) : glm::dvec3(side * graze, down, 1.0);
         scene.lights = {test::directional_light(glm::vec3(way), 1e5f)};
-        Renderer renderer(test::device().queue, scene, options);
+        Renderer renderer(test::programs(), test::device().queue, scene, options);
         renderer.render(scene.cameras[0]);
         for (const std::vector<float>& channel : renderer.read_radiance())
             for (const float value : channel) lit += value > 0.0f ? 1 : 0;

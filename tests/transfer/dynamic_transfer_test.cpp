@@ -190,7 +190,7 @@ TEST_P(DynamicTransfer, FollowsAnAnimation) {
     test::light_by_gradient(scene, colour, {0.6, 0.8, 0});
     scene.moving_bounds = motion_bounds(scene, 0);
     Lit lit(scene, with(GetParam()));
-    SceneAnimator animator(test::device().queue, scene, lit.device);
+    SceneAnimator animator(test::programs(), test::device().queue, scene, lit.device);
     for (const double time : {0.3, 1.0, 0.0}) {
         const Animated moved = animator.animate(0, time);
         lit.solver.transfer({moved.done});
@@ -259,7 +259,7 @@ TEST_P(DynamicTransfer, WithVisibleSetsIsThatOfAllTriangles) {
     EXPECT_THROW(lit.solver.sets(), Error);
     lit.solver.look();
     // Another frame: one of the spheres is elsewhere.
-    SceneMover mover(test::device().queue, lit.device);
+    SceneMover mover(test::programs(), test::device().queue, lit.device);
     const std::vector<glm::dvec3> rest(scene.positions.begin() + 4, scene.positions.begin() + 646);
     std::vector<glm::dvec3> moved = rest;
     for (glm::dvec3& position : moved) position += glm::dvec3(0.5, 0.2, 0);
