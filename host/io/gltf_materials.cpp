@@ -237,11 +237,10 @@ Material read_material(const tinygltf::Material& source, const std::string& name
         material.emission[i] = static_cast<float>(unit(source.emissiveFactor[i]) * strength);
     }
     material.emission_texture = read_slot(source.emissiveTexture, warnings);
-    if (source.alphaMode != "OPAQUE") material.alpha_mode = AlphaMode::mask;
+    if (source.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
     if (source.alphaMode == "MASK") {
+        material.alpha_mode = AlphaMode::mask;
         material.alpha_cutoff = static_cast<float>(std::clamp(source.alphaCutoff, 0.0, 1e6));
-    } else if (source.alphaMode == "BLEND") {
-        warnings.add("a blended material is cut out where its alpha is below 0.5");
     }
     material.double_sided = source.doubleSided;
     if (extension(source.extensions, "KHR_materials_unlit")) {

@@ -120,6 +120,8 @@ private:
         if (material.alpha_mode == AlphaMode::mask) {
             written.alphaMode = "MASK";
             written.alphaCutoff = material.alpha_cutoff;
+        } else if (material.alpha_mode == AlphaMode::blend) {
+            written.alphaMode = "BLEND";
         }
         written.emissiveFactor = numbers(material.emission);
         written.emissiveTexture = info_of(material.emission_texture);

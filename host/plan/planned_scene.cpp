@@ -83,7 +83,7 @@ void drop_textures(Material& material, const Plan& plan, const MeanColours& colo
     }
     if (!dropped(material.base_texture)) return;
     const int texture = material.base_texture.texture;
-    if (material.alpha_mode == AlphaMode::mask) return;  // its alpha cuts the holes
+    if (material.alpha_mode != AlphaMode::opaque) return;  // its alpha cuts the holes
     const glm::vec3 colour = colours.of(texture);
     for (int c = 0; c < 3; ++c) material.base_color[c] *= colour[c];
     material.base_texture = TextureSlot();

@@ -7,6 +7,7 @@
 #include "plan/one_colour.hpp"
 #include "plan/parts.hpp"
 #include "scene/base_color.hpp"
+#include "scene/coverage.hpp"
 #include "scene/luminance.hpp"
 #include "scene/texture_pool.hpp"
 
@@ -51,7 +52,7 @@ bool has_textures(const Scene& scene, const Material& material) {
 }
 
 bool has_holes(const Scene& scene, const Material& material, const MaterialUse& use) {
-    if (material.alpha_mode != AlphaMode::mask) return false;
+    if (material.alpha_mode == AlphaMode::opaque) return false;
     double least = double{material.base_color.a} * use.least_alpha;
     if (material.base_texture.texture >= 0) {
         const auto& rgba =
@@ -60,7 +61,7 @@ bool has_holes(const Scene& scene, const Material& material, const MaterialUse& 
         for (std::size_t i = 3; i < rgba.size(); i += 4) lowest = std::min(lowest, rgba[i]);
         least *= double_of(lowest);
     }
-    return !(least >= double{material.alpha_cutoff});
+    return covered(material, least) < 1.0;
 }
 
 // [materials]

@@ -16,6 +16,8 @@ Geometry::Geometry(const Scene& scene)
     scale = radius > 0.0 ? 1.0 / radius : 1.0;
     positions.reserve(scene.positions.size());
     for (const glm::dvec3& position : scene.positions) positions.push_back(to_local(position));
+    for (const SceneTriangle& triangle : triangles)
+        blended = blended || materials[triangle.material].alpha_mode == AlphaMode::blend;
 }
 
 }  // namespace clgi::reference

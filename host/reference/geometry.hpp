@@ -27,6 +27,7 @@ struct Geometry {
     std::vector<SceneTriangle> triangles;
     std::vector<Material> materials;
     std::vector<Texture> textures;
+    bool blended = false;  // some triangle's material is
 };
 
 // A point of a triangle: corner weights 1 - b1 - b2, b1, b2.

@@ -77,7 +77,7 @@ std::optional<Arrival> Lights::from_surface(const glm::vec3& point, Random& rand
     const float root = std::sqrt(random());
     const float along = random();
     const Hit hit{areas_[place], root * (1.0f - along), root * along};
-    if (!opaque(geometry_, hit)) return std::nullopt;
+    if (!opaque(geometry_, hit, chance(geometry_, random))) return std::nullopt;
     const SceneTriangle& triangle = geometry_.triangles[hit.triangle];
     Arrival out;
     out.from = geometry_.positions[triangle.vertex[0]] * (1.0f - root) +

@@ -78,10 +78,13 @@ glm::vec4 base(const Geometry& geometry, const Hit& hit, const Hit& texture_at) 
 
 }  // namespace
 
-bool opaque(const Geometry& geometry, const Hit& hit) {
+bool opaque(const Geometry& geometry, const Hit& hit, std::uint64_t chance) {
     const Material& material = geometry.materials[geometry.triangles[hit.triangle].material];
-    return material.alpha_mode != AlphaMode::mask ||
-           base(geometry, hit, hit).w >= material.alpha_cutoff;
+    if (material.alpha_mode == AlphaMode::opaque) return true;
+    const float alpha = base(geometry, hit, hit).w;
+    if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff;
+    // Embree may ask twice about a hit: the answer is the same.
+    return Random(chance, hit.triangle, 0)() < alpha;
 }
 
 glm::vec3 geometric_normal(const Geometry& geometry, std::uint32_t index) {

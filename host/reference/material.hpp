@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "reference/geometry.hpp"
+#include "reference/random.hpp"
 
 namespace clgi::reference {
 
@@ -29,8 +30,14 @@ inline Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::v
     return surface_at(geometry, hit, direction, hit);
 }
 
-// Whether an alpha mask leaves this point of the triangle standing.
-bool opaque(const Geometry& geometry, const Hit& hit);
+// Whether this point of the triangle is there: an alpha mask leaves it, or it is blended and chance
+// decides so, which it does for a share alpha of all bits.
+bool opaque(const Geometry& geometry, const Hit& hit, std::uint64_t chance);
+
+// Bits that decide so for one ray; scenes that blend nothing draw none.
+inline std::uint64_t chance(const Geometry& geometry, Random& random) {
+    return geometry.blended ? random.bits() : 0;
+}
 
 glm::vec3 geometric_normal(const Geometry& geometry, std::uint32_t triangle);
 

@@ -45,9 +45,10 @@ bool Paths::glossy(int bounces) const {
 
 // What a surface reflects of light that nothing may stand in the way of.
 glm::vec3 Paths::sent_on(const std::optional<Arrival>& light, float share, const Surface& surface,
-                         const Bsdf& bsdf, bool glossy) const {
+                         const Bsdf& bsdf, bool glossy, Random& random) const {
     if (!light || !above(surface, light->direction)) return glm::vec3(0.0f);
-    if (tracer_.blocked(off_surface(surface.position, surface.geometric), light->from))
+    if (tracer_.blocked(off_surface(surface.position, surface.geometric), light->from,
+                        chance(geometry_, random)))
         return glm::vec3(0.0f);
     return share * reflected(bsdf, glossy, light->direction) * light->irradiance *
            glm::dot(surface.normal, light->direction);
@@ -70,12 +71,13 @@ glm::vec3 Paths::lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool
     const std::size_t lamps = lights_.lamp_count();
     if (lamps <= few_lamps) {
         for (std::size_t lamp = 0; lamp < lamps; ++lamp)
-            sum += sent_on(lights_.from_lamp(lamp, surface.position), 1.0f, surface, bsdf, glossy);
+            sum += sent_on(lights_.from_lamp(lamp, surface.position), 1.0f, surface, bsdf, glossy,
+                           random);
     } else {
         const auto lamp =
             std::min(static_cast<std::size_t>(random() * static_cast<float>(lamps)), lamps - 1);
         sum += sent_on(lights_.from_lamp(lamp, surface.position), static_cast<float>(lamps),
-                       surface, bsdf, glossy);
+                       surface, bsdf, glossy, random);
     }
     const bool lobe_drawn = effects_.direct_gloss || effects_.indirect_gloss;
     const auto add = [&](Sampling ways, const std::optional<Arrival>& light) {
@@ -83,7 +85,7 @@ glm::vec3 Paths::lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool
         const float share = also_met ? share_of(Sampling::lights, ways, light->density,
                                                 bsdf.density(light->direction, lobe_drawn))
                                      : 1.0f;
-        sum += sent_on(light, share, surface, bsdf, glossy);
+        sum += sent_on(light, share, surface, bsdf, glossy, random);
     };
     const auto drawn = [&](Sampling ways) { return !also_met || ways != Sampling::lobes; };
     if (lights_.has_surfaces() && drawn(sampling_))
@@ -108,8 +110,9 @@ glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& ra
         const float density = bsdf.density(onward, lobe_drawn);
         if (!above(surface, onward) || !(density > 0.0f)) break;
         const float cosine = glm::dot(surface.normal, onward);
-        const std::optional<Hit> hit =
-            tracer_.first({off_surface(surface.position, surface.geometric), onward});
+        Ray ray{off_surface(surface.position, surface.geometric), onward};
+        ray.chance = chance(geometry_, random);
+        const std::optional<Hit> hit = tracer_.first(ray);
         if (!hit) {
             if (counted && sky_.shines())
                 sum += weight * reflected(bsdf, glossy(k), onward) * sky_.radiance(onward) *
@@ -147,7 +150,9 @@ glm::vec3 Paths::unshadowed(const Surface& surface, const glm::vec3& direction,
     const float density = bsdf.density(onward, effects_.indirect_gloss);
     if (!above(surface, onward) || !(density > 0.0f)) return sum;
     thread_local std::vector<Hit> hits;
-    tracer_.all({off_surface(surface.position, surface.geometric), onward}, hits);
+    Ray ray{off_surface(surface.position, surface.geometric), onward};
+    ray.chance = chance(geometry_, random);
+    tracer_.all(ray, hits);
     // Embree finds them in any order, and sums depend on it.
     std::sort(hits.begin(), hits.end(),
               [](const Hit& a, const Hit& b) { return a.triangle < b.triangle; });

@@ -41,7 +41,7 @@ private:
     glm::vec3 lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool also_met,
                   Random& random) const;
     glm::vec3 sent_on(const std::optional<Arrival>& light, float share, const Surface& surface,
-                      const Bsdf& bsdf, bool glossy) const;
+                      const Bsdf& bsdf, bool glossy, Random& random) const;
     std::optional<Arrival> from_sky(const glm::vec3& point, Random& random) const;
 
     const Geometry& geometry_;

@@ -11,11 +11,13 @@ public:
     Random(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample)
         : state_(mixed(mixed(mixed(seed) ^ pixel) ^ sample)) {}
 
-    // [0,1), 24 bits.
-    float operator()() {
+    std::uint64_t bits() {
         state_ += golden;
-        return static_cast<float>(mixed(state_) >> 40) * 0x1p-24f;
+        return mixed(state_);
     }
+
+    // [0,1), 24 bits.
+    float operator()() { return static_cast<float>(bits() >> 40) * 0x1p-24f; }
 
 private:
     static constexpr std::uint64_t golden = 0x9e3779b97f4a7c15u;

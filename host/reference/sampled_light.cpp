@@ -16,7 +16,8 @@ Hit PixelLight::texture_place(float x, float y, const Hit& seen, Random& random)
     const std::uint32_t material = geometry_.triangles[seen.triangle].material;
     for (int k = 0; k < tries; ++k) {
         const float right = random(), down = random();
-        const Ray ray = rays_.through(x + right, y + down);
+        Ray ray = rays_.through(x + right, y + down);
+        ray.chance = chance(geometry_, random);
         const Hit beside = on_plane(geometry_, seen.triangle, ray);
         if (inside(beside)) return beside;
         const std::optional<Hit> other = tracer_.first(ray, true);
@@ -30,7 +31,8 @@ glm::vec3 PixelLight::operator()(std::size_t pixel, Random& random) const {
     const auto y = static_cast<float>(pixel / width_);
     const bool whole = filter_ == Filter::box;
     const float right = whole ? random() : 0.5f, down = whole ? random() : 0.5f;
-    const Ray ray = rays_.through(x + right, y + down);
+    Ray ray = rays_.through(x + right, y + down);
+    ray.chance = chance(geometry_, random);
     const std::optional<Hit> hit = tracer_.first(ray, true);
     const glm::vec3 direction = glm::normalize(ray.direction);
     if (!hit) return paths_.background(direction);

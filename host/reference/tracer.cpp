@@ -31,12 +31,14 @@ struct Query : Context {
 #endif
     }
     const Geometry& geometry;
+    std::uint64_t chance = 0;
     bool for_camera = false;
     std::vector<Hit>* all = nullptr;
 };
 
-// Refuses hits that are not there: holes of alpha masks, and for the camera backs of one-sided
-// surfaces. A query for all hits notes each and refuses it, so that the ray goes on.
+// Refuses hits that are not there: holes of alpha masks, blended surfaces by chance, and for the
+// camera backs of one-sided surfaces. A query for all hits notes each and refuses it, so that the
+// ray goes on.
 void filter(const RTCFilterFunctionNArguments* arguments) {
     const auto* query = static_cast<const Query*>(arguments->context);
     RTCRayN* ray = arguments->ray;
@@ -44,7 +46,7 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
     const Hit hit{RTCHitN_primID(rtc, 1, 0), RTCHitN_u(rtc, 1, 0), RTCHitN_v(rtc, 1, 0)};
     const Material& material =
         query->geometry.materials[query->geometry.triangles[hit.triangle].material];
-    bool there = opaque(query->geometry, hit);
+    bool there = opaque(query->geometry, hit, query->chance);
     if (query->for_camera && !material.double_sided) {
         const glm::vec3 direction(RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0),
                                   RTCRayN_dir_z(ray, 1, 0));
@@ -130,7 +132,7 @@ Tracer::Tracer(const Geometry& geometry) : scene_(std::make_unique<Scene>(geomet
         bool masked = false;
         for (const SceneTriangle& triangle : geometry.triangles) {
             for (const std::uint32_t vertex : triangle.vertex) *corners++ = vertex;
-            masked |= geometry.materials[triangle.material].alpha_mode == AlphaMode::mask;
+            masked |= geometry.materials[triangle.material].alpha_mode != AlphaMode::opaque;
         }
         rtcSetGeometryIntersectFilterFunction(mesh, filter);
         if (masked) rtcSetGeometryOccludedFilterFunction(mesh, filter);
@@ -146,6 +148,7 @@ Tracer::~Tracer() = default;
 
 std::optional<Hit> Tracer::first(const Ray& ray, bool for_camera) const {
     Query query(scene_->geometry);
+    query.chance = ray.chance;
     query.for_camera = for_camera;
     RTCRayHit found{};
     found.ray = rtc_ray(ray);
@@ -158,6 +161,7 @@ std::optional<Hit> Tracer::first(const Ray& ray, bool for_camera) const {
 void Tracer::all(const Ray& ray, std::vector<Hit>& hits) const {
     hits.clear();
     Query query(scene_->geometry);
+    query.chance = ray.chance;
     query.all = &hits;
     RTCRayHit found{};
     found.ray = rtc_ray(ray);
@@ -165,12 +169,13 @@ void Tracer::all(const Ray& ray, std::vector<Hit>& hits) const {
     intersect(scene_->scene, query, found);
 }
 
-bool Tracer::blocked(const glm::vec3& from, const glm::vec3& to) const {
-    return blocked({from, to - from, 0.0f, 1.0f});
+bool Tracer::blocked(const glm::vec3& from, const glm::vec3& to, std::uint64_t chance) const {
+    return blocked({from, to - from, 0.0f, 1.0f, chance});
 }
 
 bool Tracer::blocked(const Ray& ray) const {
     Query query(scene_->geometry);
+    query.chance = ray.chance;
     RTCRay cast = rtc_ray(ray);
     occlude(scene_->scene, query, cast);
     return cast.tfar < 0.0f;

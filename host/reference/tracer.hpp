@@ -15,6 +15,7 @@ struct Ray {
     glm::vec3 direction;  // of any length
     float nearest = 0.0f;
     float farthest = std::numeric_limits<float>::infinity();  // in lengths of direction
+    std::uint64_t chance = 0;  // rays with other bits pass other blended surfaces
 };
 
 class Tracer {
@@ -29,7 +30,7 @@ public:
     void all(const Ray& ray, std::vector<Hit>& hits) const;
 
     // Whether anything lies between two points, or on a ray.
-    bool blocked(const glm::vec3& from, const glm::vec3& to) const;
+    bool blocked(const glm::vec3& from, const glm::vec3& to, std::uint64_t chance) const;
     bool blocked(const Ray& ray) const;
 
 private:

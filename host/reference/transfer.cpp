@@ -53,7 +53,9 @@ std::vector<double> PathTracer::transfer(const std::vector<Place>& places, int b
                 const glm::dvec3 s = radius * std::cos(angle) * axes.across +
                                      radius * std::sin(angle) * axes.along +
                                      std::sqrt(1.0 - square) * axes.normal;
-                if (world_->tracer.blocked({origin, glm::vec3(s), at_surface})) continue;
+                Ray ray{origin, glm::vec3(s), at_surface};
+                ray.chance = chance(world_->geometry, random);
+                if (world_->tracer.blocked(ray)) continue;
                 sh::evaluate(s, bands, basis.data());
                 for (std::size_t i = 0; i < terms; ++i) sum[i] += basis[i];
             }

@@ -27,7 +27,9 @@ MaterialRecord record_of(const Material& material, double exposure) {
     MaterialRecord out{};
     const Reflectance shares = reflectance(material);
     out.base_color = material.base_color;
-    out.emission = glm::vec4(glm::dvec3(material.emission) / exposure, material.alpha_cutoff);
+    const bool blended = material.alpha_mode == AlphaMode::blend;
+    out.emission = glm::vec4(glm::dvec3(material.emission) / exposure,
+                             blended ? ALPHA_BLENDED : material.alpha_cutoff);
     out.reflectance = glm::vec4(shares.diffuse, shares.coat, shares.lobe, shares.exponent);
     out.surface = surface_of(material);
     out.base_texture = material.base_texture.texture;
@@ -146,7 +148,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         has_lobes_ = has_lobes_ || finished || shares.coat + shares.lobe > 1e-4f;
         if (finished || shares.diffuse != 1.0f) info_.flags |= SCENE_HAS_SHARES;
         if (finished || material.normal_texture.texture >= 0) info_.flags |= SCENE_HAS_DETAIL;
-        has_masks_ = has_masks_ || material.alpha_mode == AlphaMode::mask;
+        has_masks_ = has_masks_ || material.alpha_mode != AlphaMode::opaque;
     }
     const EmissionMeans emission(scene);
 
@@ -157,7 +159,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         const Material& material = scene.materials[triangle.material];
         std::uint32_t word = triangle.material;
         if (material.double_sided) word |= static_cast<std::uint32_t>(TRIANGLE_DOUBLE_SIDED);
-        if (material.alpha_mode == AlphaMode::mask) word |= TRIANGLE_MASKED;
+        if (material.alpha_mode != AlphaMode::opaque) word |= TRIANGLE_MASKED;
         std::uint32_t corner[3];
         for (int k = 0; k < 3; ++k) corner[k] = order.renumbered[triangle.vertex[k]];
         triangles.emplace_back(corner[0], corner[1], corner[2], word);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scene/coverage.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
@@ -24,7 +25,7 @@ EmissionMeans::EmissionMeans(const Scene& scene) : scene_(scene) {
     for (const Material& material : scene.materials) {
         if (!shines(material)) continue;
         note(material.emission_texture);
-        if (material.alpha_mode == AlphaMode::mask) note(material.base_texture);
+        if (material.alpha_mode != AlphaMode::opaque) note(material.base_texture);
     }
     for (std::size_t t = 0; t < read.size(); ++t)
         textures_.push_back(read[t] ? TextureMean(scene.textures[t]) : TextureMean());
@@ -57,9 +58,11 @@ glm::dvec3 EmissionMeans::masked(const SceneTriangle& triangle) const {
                 vertex_alpha += weight[k] * double{scene_.colors[triangle.vertex[k]].a};
             alpha *= vertex_alpha;
         }
-        if (!(alpha >= double{material.alpha_cutoff})) return;
-        sum += emission.texture >= 0 ? textures_[emission.texture].at(between(emission_uv, weight))
-                                     : glm::dvec3(1.0);
+        const double share = covered(material, alpha);
+        if (share == 0.0) return;
+        sum += share * (emission.texture >= 0
+                            ? textures_[emission.texture].at(between(emission_uv, weight))
+                            : glm::dvec3(1.0));
     });
     return sum / (double(side) * side);
 }
@@ -68,7 +71,7 @@ glm::dvec3 EmissionMeans::operator()(const SceneTriangle& triangle) const {
     const Material& material = scene_.materials[triangle.material];
     if (!shines(material)) return glm::dvec3(0.0);
     const glm::dvec3 factor(material.emission);
-    if (material.alpha_mode == AlphaMode::mask) return factor * masked(triangle);
+    if (material.alpha_mode != AlphaMode::opaque) return factor * masked(triangle);
     const TextureSlot& slot = material.emission_texture;
     if (slot.texture < 0) return factor;
     return factor * textures_[slot.texture].over(slot_uvs(scene_, triangle, slot));

@@ -95,7 +95,7 @@ CLGI_API Estimate estimate(const cl::Device& device, const Scene& scene,
 // arrays are no elements in any pose.
 //
 // Surfaces with lobes exchange gloss as well, in bins. What emissive surfaces send comes through
-// their sample points, as direct light. Surfaces with an alpha mask block as a whole.
+// their sample points, as direct light. Masked and blended surfaces block as a whole.
 class CLGI_API AntiradianceSolver {
 public:
     // Makes elements and links, builds kernels and allocates. scene: what `device` was made from;

@@ -65,7 +65,7 @@ CLGI_API Estimate estimate(const cl::Device& device, const Scene& scene,
 // outlive the solver. One thread at a time.
 //
 // Receivers 0 to vertex_count - 1 are the vertices of the device, in its order. Behind them are the
-// other sides of those on double-sided surfaces. Surfaces with an alpha mask block as a whole.
+// other sides of those on double-sided surfaces. Masked and blended surfaces block as a whole.
 class CLGI_API DynamicTransferSolver {
 public:
     // Builds kernels and allocates. scene: what `device` was made from; it is not needed

@@ -37,7 +37,10 @@ struct TextureSlot {
     glm::mat3 transform = glm::mat3(1.0f);  // uv' = transform * (u, v, 1)
 };
 
-enum class AlphaMode { opaque, mask };
+// What alpha does: nothing; cut out what is below the cutoff; or, blend, cover a share of what lies
+// behind. Each view shows a blended surface at a share alpha of the pixels, drawn anew for each
+// view, and so do shadow maps: the mean of many samples is the blend.
+enum class AlphaMode { opaque, mask, blend };
 
 // glTF metallic-roughness. docs/materials.md defines the reflectance.
 struct Material {

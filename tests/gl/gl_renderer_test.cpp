@@ -142,7 +142,7 @@ Scene patchwork() {
         material.base_texture.transform =
             glm::mat3(2.0f * std::cos(turn), std::sin(turn), 0.0f, -std::sin(turn),
                       1.5f * std::cos(turn), 0.0f, 0.2f * static_cast<float>(k), -0.7f, 1.0f);
-        if (k % 3 == 0) material.alpha_mode = AlphaMode::mask;
+        if (k % 3 == 0) material.alpha_mode = k % 2 ? AlphaMode::blend : AlphaMode::mask;
         material.alpha_cutoff = 0.45f;
         material.double_sided = k % 5 == 0;
         if (k % 4 == 2) {

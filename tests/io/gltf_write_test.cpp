@@ -37,6 +37,7 @@ Scene furnished() {
     scene.materials[0].alpha_mode = AlphaMode::mask;
     scene.materials[0].alpha_cutoff = 0.125f;
     scene.materials[1].double_sided = true;
+    scene.materials[1].alpha_mode = AlphaMode::blend;
     scene.materials[1].roughness = 0.3f;
     scene.materials[1].metallic = 0.6f;
     scene.materials[1].specular = 0.75f;
@@ -103,6 +104,7 @@ TEST(SaveGlb, KeepsMaterialsAndTextures) {
     EXPECT_EQ(red.base_color, before.materials[0].base_color);
     EXPECT_EQ(red.alpha_mode, AlphaMode::mask);
     EXPECT_EQ(red.alpha_cutoff, 0.125f);
+    EXPECT_EQ(after.materials[1].alpha_mode, AlphaMode::blend);
     EXPECT_EQ(red.base_texture.uv_set, 1);
     for (int column = 0; column < 3; ++column) {
         // Through an angle and back: a few units in the last place of 3.

@@ -172,6 +172,25 @@ TEST(AtlasRadiance, LeavesOutWhatAMaskCutsOut) {
         ASSERT_GT(value.r, 0.7 / std::numbers::pi);
 }
 
+// The mean of a blended texel is weighted by alpha: dark columns count a third as much.
+TEST(AtlasRadiance, WeighsBlendedColoursByAlpha) {
+    Scene scene = striped_quad(512);
+    std::vector<std::uint8_t>& rgba = scene.textures[0].rgba;
+    double weights = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        rgba[i + 3] = rgba[i] > 128 ? 180 : 60;
+        weights += rgba[i + 3];
+        sum += rgba[i + 3] * (rgba[i] / 255.0);
+    }
+    scene.textures[0].nearest = true;
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    const AtlasLayout atlas = make_atlas(scene, test::regions(scene, 2), test::made_charts(64));
+    const auto found = atlas_radiance(scene, atlas, Vectors(atlas.texels.size(), glm::vec3(1.0f)));
+    double mean = 0.0;
+    for (const glm::vec3& value : found) mean += value.r / static_cast<double>(found.size());
+    EXPECT_NEAR(mean * std::numbers::pi, sum / weights, 0.05 * sum / weights);
+}
+
 class LitScene : public ::testing::Test {
 protected:
     LitScene()
@@ -320,13 +339,13 @@ TEST_F(LitScene, KeepsLightsAndBaseColoursOnDemand) {
     EXPECT_EQ(greens, (std::set<float>{0.5f, 0.1f}));
 }
 
-// A mask stays what it was, from whichever set it is read, and the atlas has set 1.
+// What cuts or blends stays what it was, from whichever set it is read, and the atlas has set 1.
 TEST_F(LitScene, KeepsMasks) {
     for (const int set : {0, 1}) {
         scene = striped_quad(8);
         if (set == 1)
             for (glm::vec4& uv : scene.uvs) uv = {0.25f, 0.75f, uv.x, uv.y};
-        scene.materials[0].alpha_mode = AlphaMode::mask;
+        scene.materials[0].alpha_mode = set == 1 ? AlphaMode::blend : AlphaMode::mask;
         scene.materials[0].alpha_cutoff = 0.3f;
         scene.materials[0].base_texture.uv_set = set;
         scene.textures[0].rgba[3] = 17;
@@ -334,8 +353,8 @@ TEST_F(LitScene, KeepsMasks) {
         const Scene found = reloaded({});
         ASSERT_EQ(found.materials.size(), 1u);
         const Material& material = found.materials[0];
-        EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
-        EXPECT_EQ(material.alpha_cutoff, 0.3f);
+        EXPECT_EQ(material.alpha_mode, scene.materials[0].alpha_mode);
+        EXPECT_EQ(material.alpha_cutoff, set == 1 ? 0.5f : 0.3f);
         EXPECT_EQ(material.base_color, glm::vec4(0, 0, 0, 1));
         EXPECT_EQ(material.base_texture.uv_set, 0);
         EXPECT_EQ(found.textures[static_cast<std::size_t>(material.base_texture.texture)].rgba,

@@ -278,6 +278,11 @@ TEST(SurfaceAnalysis, ReadTextures) {
     scene.colors.clear();
     scene.materials[0].base_color.a = 0.5f;
     EXPECT_TRUE(scene_analysis(scene).surfaces.cutouts);
+    scene = textured({9, 8, 7, 255, 9, 8, 7, 255});
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    EXPECT_FALSE(scene_analysis(scene).surfaces.cutouts);
+    scene.materials[0].base_color.a = 0.9f;
+    EXPECT_TRUE(scene_analysis(scene).surfaces.cutouts);
 }
 
 // Where there are many triangles, each counts with the mean of its texture.

@@ -325,13 +325,15 @@ TEST(PlannedScene, HasMeansInPlaceOfTextures) {
     Material plain = planned_scene(scene, plan_without(Effect::gloss)).materials[0];
     EXPECT_EQ(plain.base_texture.texture, -1);
     EXPECT_NEAR(plain.base_color.r, 0.5 * 128.0 / 255.0, 1e-6);
-    scene.materials[0].alpha_mode = AlphaMode::mask;
-    plain = planned_scene(scene, plan_without(Effect::gloss)).materials[0];
-    EXPECT_EQ(plain.base_texture.texture, 0);  // the only one that is read
-    EXPECT_EQ(plain.alpha_mode, AlphaMode::mask);
-    plain = planned_scene(scene, plan_without(Effect::cutouts)).materials[0];
-    EXPECT_EQ(plain.base_texture.texture, -1);
-    EXPECT_EQ(plain.alpha_mode, AlphaMode::opaque);
+    for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend}) {
+        scene.materials[0].alpha_mode = mode;
+        plain = planned_scene(scene, plan_without(Effect::gloss)).materials[0];
+        EXPECT_EQ(plain.base_texture.texture, 0);  // the only one that is read
+        EXPECT_EQ(plain.alpha_mode, mode);
+        plain = planned_scene(scene, plan_without(Effect::cutouts)).materials[0];
+        EXPECT_EQ(plain.base_texture.texture, -1);
+        EXPECT_EQ(plain.alpha_mode, AlphaMode::opaque);
+    }
 }
 
 TEST(PlannedScene, CarriesOnTheLightsThatStay) {

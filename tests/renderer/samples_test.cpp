@@ -86,6 +86,68 @@ double difference(const Radiance& a, const Radiance& b) {
     return std::sqrt(squares / sum);
 }
 
+// A shining, leaning sheet before a wall that shines in other colours, blended by alpha in the mean
+// of samples, with an error that falls with their number; and the shadow that it casts.
+TEST(Samples, BlendByAlpha) {
+    constexpr double alpha = 0.3;
+    constexpr int samples = 64;
+    const glm::dvec3 near(1.0, 2.0, 4.0), far(3.0, 0.5, 0.2);
+    Scene scene = test::plain_scene(glm::vec3(0.0f));
+    scene.materials[0].emission = glm::vec3(far);
+    test::add_quad(scene, {{{-9, -9, -2}, {9, -9, -2}, {9, 9, -3}, {-9, 9, -3}}});
+    Material sheet;
+    sheet.base_color = {0.0f, 0.0f, 0.0f, static_cast<float>(alpha)};
+    sheet.emission = glm::vec3(near);
+    sheet.alpha_mode = AlphaMode::blend;
+    test::add_quad(scene, {{{-9, -9, 0.5}, {9, -9, 0}, {9, 9, -1}, {-9, 9, -0.5}}},
+                   test::add_material(scene, sheet));
+    RendererOptions options = options_of(Method::direct);
+    options.picture.emitters.area_samples = 0;
+    options.samples = samples;
+    Renderer renderer(test::programs(), test::device().queue, scene, options);
+    const Radiance mean = draw(renderer, test::camera_at({0, 0, 3}, {0, 0, 0}));
+    const double count = static_cast<double>(mean.size());
+    for (int c = 0; c < 3; ++c) {
+        const double wanted = alpha * near[c] + (1.0 - alpha) * far[c];
+        const double deviation = std::sqrt(alpha * (1.0 - alpha)) * std::abs(near[c] - far[c]);
+        double sum = 0.0, squares = 0.0;
+        for (const glm::vec3& pixel : mean) {
+            sum += pixel[c];
+            squares += (pixel[c] - wanted) * (pixel[c] - wanted);
+        }
+        EXPECT_NEAR(sum / count, wanted, 5.0 * deviation / std::sqrt(count * samples)) << c;
+        EXPECT_NEAR(std::sqrt(squares / count), deviation / std::sqrt(samples),
+                    0.15 * deviation / std::sqrt(samples))
+            << c;
+    }
+}
+
+TEST(Samples, ShadowsOfBlendedSurfacesAreAsDarkAsTheirAlpha) {
+    constexpr double alpha = 0.6;
+    Scene scene = test::plain_scene({0.9f, 0.6f, 0.3f});
+    test::add_floor(scene, 2.0);
+    Material sheet;
+    sheet.base_color = {1.0f, 1.0f, 1.0f, static_cast<float>(alpha)};
+    sheet.alpha_mode = AlphaMode::blend;
+    sheet.double_sided = true;
+    test::add_quad(scene, {{{-9, 2.0, -9}, {-9, 2.5, 9}, {9, 2.8, 9}, {9, 2.3, -9}}},
+                   test::add_material(scene, sheet));
+    scene.lights = {test::point_light({0.3, 5.0, -0.2}, 1.0f),
+                    test::directional_light({-0.2f, -1.0f, 0.1f}, 2.0f)};
+    scene.lights[0].intensity = {9.0f, 30.0f, 20.0f};
+    Scene open = scene;
+    open.materials.back().base_color.a = 0.0f;
+    RendererOptions options = options_of(Method::direct);
+    options.picture.emitters.shadow_size = options.picture.emitters.face_size = 2048;
+    const Camera camera = test::camera_at({0.0, 1.0, 0.3}, {0.0, 0.0, 0.0}, 0.6f);
+    glm::dvec3 sums[] = {glm::dvec3(0.0), glm::dvec3(0.0)};
+    for (int k = 0; k < 2; ++k) {
+        Renderer renderer(test::programs(), test::device().queue, k ? scene : open, options);
+        for (const glm::vec3& pixel : draw(renderer, camera)) sums[k] += glm::dvec3(pixel);
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sums[1][c] / sums[0][c], 1.0 - alpha, 0.02) << c;
+}
+
 // A camera that looks through other points of its pixels by whole pixels sees its picture moved.
 TEST(Samples, OffsetsMoveThePicture) {
     Camera parallel = test::pixel_camera(width, height);

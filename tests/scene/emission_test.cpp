@@ -276,6 +276,26 @@ TEST(Emission, EndsWhereAMaskCutsIt) {
     EXPECT_NEAR(sum(scene), 640.0, 1e-3);
 }
 
+// A blended surface shines as much as its alpha covers: factor, corners and texture together.
+TEST(Emission, OfBlendedSurfacesIsWeightedByAlpha) {
+    Scene scene = test::plain_scene(glm::vec3(0.0f));
+    Material& material = scene.materials[0];
+    material.alpha_mode = AlphaMode::blend;
+    material.base_color.a = 0.6f;
+    material.emission = {3.0f, 2.0f, 1.0f};
+    test::add_quad(scene, {{{0, 0, 0}, {2, 0, 1}, {2, 3, 1}, {0, 3, 0}}});
+    for (const glm::dvec3& position : scene.positions)
+        scene.colors.emplace_back(1.0f, 1.0f, 1.0f, 0.5 * position.x);
+    const DeviceScene placed = test::on_device(scene);
+    glm::dvec3 sum(0.0);
+    for (const EmissiveTriangle& t : placed.emissive())
+        sum += glm::dvec3(t.radiance) *
+               (double{t.area} / std::pow(placed.frame().scale, 2) * placed.frame().exposure);
+    const double area = 3.0 * std::sqrt(5.0);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(sum[c], area * 0.6 * 0.5 * material.emission[c], 1e-3 * area) << c;
+}
+
 // Irradiance above the floor, from its emissive triangles and from the path tracer, which looks the
 // texture up at every point.
 TEST(Emission, LightsPlacesAsTheReferenceSees) {

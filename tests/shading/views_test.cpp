@@ -105,6 +105,7 @@ TEST(Views, OfDepthAloneSayWhichSideIsSeen) {
     for (std::size_t m = 0; m < world.materials.size(); ++m) {
         world.materials[m].double_sided = m % 3 == 2;
         if (m % 2) world.materials[m].alpha_mode = AlphaMode::mask;
+        if (m % 4 == 3) world.materials[m].alpha_mode = AlphaMode::blend;
     }
     Scene fine = bumpy_mesh();
     for (std::size_t t = 0; t < fine.triangles.size(); t += 3)

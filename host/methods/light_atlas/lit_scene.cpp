@@ -71,7 +71,7 @@ Material lit(const Material& material, std::uint32_t page, bool named, int first
     out.metallic = out.roughness = out.specular = 1.0f;  // what readers take where nothing is said
     // Readers that take one UV set for all textures of a material (VTK) take that of the base
     // colour.
-    if (out.alpha_mode != AlphaMode::mask) out.base_texture = out.emission_texture;
+    if (out.alpha_mode == AlphaMode::opaque) out.base_texture = out.emission_texture;
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "methods/light_atlas/lookup.hpp"
+#include "scene/coverage.hpp"
 #include "scene/texture_mean.hpp"
 #include "scene/texture_pool.hpp"
 
@@ -88,20 +89,18 @@ public:
             out.reflectance *= color;
         }
         if (material.base_texture.texture >= 0) {
-            const bool masked = material.alpha_mode == AlphaMode::mask;
-            const double least = masked ? double{material.alpha_cutoff} : 0.0;
-            const double alpha = masked ? double{material.base_color.a} : 1.0;
-            out.reflectance *= mean(material.base_texture, texel, alpha, least);
+            const bool masked = material.alpha_mode != AlphaMode::opaque;
+            out.reflectance *= mean(material.base_texture, texel, masked ? &material : nullptr);
         }
         if (material.emission_texture.texture >= 0 && out.emission != glm::dvec3(0.0))
-            out.emission *= mean(material.emission_texture, texel, 1.0, 0.0);
+            out.emission *= mean(material.emission_texture, texel, nullptr);
         return out;
     }
 
 private:
-    // Over the texel's part of its triangle, less what a mask cuts out.
-    glm::dvec3 mean(const TextureSlot& slot, const AtlasTexel& texel, double alpha,
-                    double least) const {
+    // Over the texel's part of its triangle, less what the alpha of a masked material cuts out.
+    glm::dvec3 mean(const TextureSlot& slot, const AtlasTexel& texel,
+                    const Material* masked) const {
         const SceneTriangle& triangle = scene_.triangles[texel.triangle];
         const Levels& levels = textures_[static_cast<std::size_t>(slot.texture)];
         const UvTriangle uv = slot_uvs(scene_, triangle, slot);
@@ -117,21 +116,22 @@ private:
                             level.extent({place(0, 0), place(0, 1), place(1, 1)}));
         };
         const TextureMean& finest = levels.for_extent(0.0);
-        const TextureMean& texture = least > 0.0 ? finest : levels.for_extent(extent(finest));
-        const int side = static_cast<int>(std::clamp(
-            std::ceil(extent(texture)), 1.0, least > 0.0 ? most_masked_samples : most_samples));
+        const TextureMean& texture = masked ? finest : levels.for_extent(extent(finest));
+        const int side = static_cast<int>(std::clamp(std::ceil(extent(texture)), 1.0,
+                                                     masked ? most_masked_samples : most_samples));
         glm::dvec3 left(0.0), all(0.0);
-        int count = 0;
+        double shares = 0.0;
         for (int row = 0; row < side; ++row)
             for (int column = 0; column < side; ++column) {
                 const glm::dvec2 at = place((column + 0.5) / side, (row + 0.5) / side);
                 const glm::dvec3 color = texture.at(at);
                 all += color;
-                if (least > 0.0 && !(alpha * texture.alpha(at) >= least)) continue;
-                left += color;
-                ++count;
+                const double share =
+                    masked ? covered(*masked, masked->base_color.a * texture.alpha(at)) : 1.0;
+                left += share * color;
+                shares += share;
             }
-        return count > 0 ? left / double(count) : all / double(side * side);
+        return shares > 0.0 ? left / shares : all / double(side * side);
     }
 
     const Scene& scene_;

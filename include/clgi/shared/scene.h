@@ -15,10 +15,13 @@ enum {
     TRIANGLE_DOUBLE_SIDED = (int)0x80000000
 };
 
+// In place of a cutoff: a blended material, which covers a share alpha of the pixels.
+#define ALPHA_BLENDED (-1.0f)
+
 // One material, reduced to what light transport reads (docs/materials.md).
 typedef struct {
     float4 base_color;   // linear rgb, alpha; all in [0,1]
-    float4 emission;     // rgb radiance, exposed; w: alpha cutoff
+    float4 emission;     // rgb radiance, exposed; w: alpha cutoff, or ALPHA_BLENDED
     float4 reflectance;  // x: diffuse share of base, y: coat, z: lobe share of base, w: exponent
     int base_texture;    // index or -1
     int base_uv_set;
