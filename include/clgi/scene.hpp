@@ -38,8 +38,8 @@ struct TextureSlot {
 };
 
 // What alpha does: nothing; cut out what is below the cutoff; or, blend, cover a share of what lies
-// behind. Each view shows a blended surface at a share alpha of the pixels, drawn anew for each
-// view, and so do shadow maps: the mean of many samples is the blend.
+// behind. Each view shows a blended surface at a share alpha of the pixels, and so do shadow maps:
+// the mean of many samples is the blend (docs/materials.md, with limits).
 enum class AlphaMode { opaque, mask, blend };
 
 // glTF metallic-roughness. docs/materials.md defines the reflectance.
