@@ -2,22 +2,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <clgi/scene.hpp>
+#include <vector>
+
+#include "scene/texture_mean.hpp"
 
 namespace clgi {
 
-// In [0,1]; not a number counts as 0 where alpha matters.
-inline double covered(const Material& material, double alpha) {
-    switch (material.alpha_mode) {
-        case AlphaMode::mask:
-            return alpha >= double{material.alpha_cutoff} ? 1.0 : 0.0;
-        case AlphaMode::blend:
-            return alpha > 0.0 ? std::min(alpha, 1.0) : 0.0;
-        case AlphaMode::opaque:
-            break;
-    }
-    return 1.0;
-}
+// The share that a material covers where it has this alpha, in [0,1].
+double covered(const Material& material, double alpha);
+
+class Coverage {
+public:
+    // scene: must outlive it.
+    explicit Coverage(const Scene& scene);
+
+    // At a point of a triangle, by the weights of its corners. Textures at their finest level.
+    double operator()(const SceneTriangle& triangle, const glm::dvec3& weight) const;
+
+    // Texels of alpha along the longest side of the triangle; 0: no texture decides.
+    double texels(const SceneTriangle& triangle) const;
+
+private:
+    bool reads(const Material& material) const;
+
+    const Scene& scene_;
+    std::vector<TextureMean> textures_;  // empty ones where no alpha is read
+};
 
 }  // namespace clgi

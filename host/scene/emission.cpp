@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "scene/coverage.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
@@ -17,48 +16,30 @@ bool shines(const Material& material) { return luminance(material.emission) > 0.
 
 }  // namespace
 
-EmissionMeans::EmissionMeans(const Scene& scene) : scene_(scene) {
+EmissionMeans::EmissionMeans(const Scene& scene) : scene_(scene), coverage_(scene) {
     std::vector<bool> read(scene.textures.size());
-    const auto note = [&](const TextureSlot& slot) {
-        if (slot.texture >= 0) read[static_cast<std::size_t>(slot.texture)] = true;
-    };
-    for (const Material& material : scene.materials) {
-        if (!shines(material)) continue;
-        note(material.emission_texture);
-        if (material.alpha_mode != AlphaMode::opaque) note(material.base_texture);
-    }
+    for (const Material& material : scene.materials)
+        if (shines(material) && material.emission_texture.texture >= 0)
+            read[static_cast<std::size_t>(material.emission_texture.texture)] = true;
     for (std::size_t t = 0; t < read.size(); ++t)
         textures_.push_back(read[t] ? TextureMean(scene.textures[t]) : TextureMean());
 }
 
-// Which texels a mask leaves is decided point by point, in another texture than that of emission:
-// the sum over a lattice of both.
+// What alpha leaves is decided point by point, in another texture than that of emission: the sum
+// over a lattice of both.
 glm::dvec3 EmissionMeans::masked(const SceneTriangle& triangle) const {
-    const Material& material = scene_.materials[triangle.material];
-    const TextureSlot &emission = material.emission_texture, &base = material.base_texture;
-    UvTriangle emission_uv{}, base_uv{};
-    double texels = 0.0;
+    const TextureSlot& emission = scene_.materials[triangle.material].emission_texture;
+    UvTriangle emission_uv{};
+    double texels = coverage_.texels(triangle);
     if (emission.texture >= 0) {
         emission_uv = slot_uvs(scene_, triangle, emission);
-        texels = textures_[emission.texture].extent(emission_uv);
-    }
-    if (base.texture >= 0) {
-        base_uv = slot_uvs(scene_, triangle, base);
-        texels = std::max(texels, textures_[base.texture].extent(base_uv));
+        texels = std::max(texels, textures_[emission.texture].extent(emission_uv));
     }
     const int side = static_cast<int>(
         std::clamp(samples_per_texel * texels, double{fewest_samples}, double{most_samples}));
     glm::dvec3 sum(0.0);
     for_lattice(side, [&](const glm::dvec3& weight) {
-        double alpha = material.base_color.a;
-        if (base.texture >= 0) alpha *= textures_[base.texture].alpha(between(base_uv, weight));
-        if (!scene_.colors.empty()) {
-            double vertex_alpha = 0.0;
-            for (int k = 0; k < 3; ++k)
-                vertex_alpha += weight[k] * double{scene_.colors[triangle.vertex[k]].a};
-            alpha *= vertex_alpha;
-        }
-        const double share = covered(material, alpha);
+        const double share = coverage_(triangle, weight);
         if (share == 0.0) return;
         sum += share * (emission.texture >= 0
                             ? textures_[emission.texture].at(between(emission_uv, weight))

@@ -6,6 +6,7 @@
 #include <clgi/scene.hpp>
 #include <vector>
 
+#include "scene/coverage.hpp"
 #include "scene/texture_mean.hpp"
 
 namespace clgi {
@@ -14,14 +15,15 @@ class EmissionMeans {
 public:
     explicit EmissionMeans(const Scene& scene);
 
-    // Radiance, cd/m^2: what is cut out by an alpha mask does not shine.
+    // Radiance, cd/m^2: as much as alpha covers.
     glm::dvec3 operator()(const SceneTriangle& triangle) const;
 
 private:
     glm::dvec3 masked(const SceneTriangle& triangle) const;
 
     const Scene& scene_;
-    std::vector<TextureMean> textures_;  // empty ones where no emission or mask reads them
+    Coverage coverage_;
+    std::vector<TextureMean> textures_;  // empty ones where no emission reads them
 };
 
 }  // namespace clgi

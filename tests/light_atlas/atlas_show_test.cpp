@@ -21,12 +21,12 @@ using Shown = test::ShownAtlas;
 
 constexpr std::uint32_t none = test::no_triangle;
 
-double slanted(const glm::dvec3& p) { return 4.0 + 0.7 * p.x - 1.3 * p.y + 0.4 * p.z; }
+double slanted_light(const glm::dvec3& p) { return 4.0 + 0.7 * p.x - 1.3 * p.y + 0.4 * p.z; }
 
 TEST(AtlasShow, IsExactForALinearFunctionInsideAChart) {
     const Shown shown(tilted_quad(), 48);
     const std::vector<Point> points = random_points(shown.world, 1000);
-    const auto found = shown(points, shown.light(slanted));
+    const auto found = shown(points, shown.light(slanted_light));
     int inside = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto taps = shown.taps(points[i]);
@@ -36,7 +36,7 @@ TEST(AtlasShow, IsExactForALinearFunctionInsideAChart) {
         for (const auto& [texel, weight] : taps) centres &= shown.layout.texels[texel].centre;
         if (!centres) continue;
         ++inside;
-        const double wanted = slanted(place_of(shown.world, points[i]));
+        const double wanted = slanted_light(place_of(shown.world, points[i]));
         // Places are known to 2^-23 of the scene's radius of 1.1 m, of which a texel is a 40th.
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(found[i][c], wanted * (c == 2 ? -3.0 : c + 1.0), 2e-5) << i;
@@ -92,7 +92,7 @@ TEST(AtlasShow, HardlyJumpsAtTheEdgesOfACube) {
         return points;
     };
     const std::vector<Point> points = found_near(1e-4);
-    const auto found = shown(points, shown.light(slanted));
+    const auto found = shown(points, shown.light(slanted_light));
     const double texel = 1.0 / shown.layout.texels_per_metre;
     const double gradient = glm::length(glm::dvec3(0.7, -1.3, 0.4));
     int pairs = 0;
@@ -182,7 +182,7 @@ TEST(AtlasShow, TakesOtherChartsWhereItsOwnHasNoTexel) {
     strange.map.chart_of =
         test::upload(std::vector<std::uint32_t>(usual.layout.texels.size(), 1000u));
     const std::vector<Point> points = random_points(usual.world, 300);
-    const std::vector<float> light = usual.light(slanted);
+    const std::vector<float> light = usual.light(slanted_light);
     EXPECT_EQ(strange(points, light), usual(points, light));
 }
 
@@ -192,7 +192,7 @@ TEST(AtlasShow, StaysOnTheTriangle) {
     const std::vector<Point> beside = {
         {0, -0.2, 0.3}, {1, 0.4, -0.1}, {0, 0.7, 0.6}, {1, 1.3, 0.0}};
     const std::vector<Point> on = {{0, 0.0, 0.3}, {1, 0.4, 0.0}, {0, 0.7, 0.3}, {1, 1.0, 0.0}};
-    const std::vector<float> light = shown.light(slanted);
+    const std::vector<float> light = shown.light(slanted_light);
     const auto found = shown(beside, light), wanted = shown(on, light);
     for (std::size_t i = 0; i < on.size(); ++i)
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[i][c], wanted[i][c], 2e-5) << i;
@@ -238,7 +238,7 @@ TEST(AtlasShow, KeepsWhatIsNotFinite) {
 TEST(AtlasShow, WritesHalvesInHalfStorage) {
     const Shown shown(tilted_quad(), 32);
     const std::vector<Point> points = random_points(shown.world, 77);
-    const auto light = shown.light(slanted);
+    const auto light = shown.light(slanted_light);
     const auto full = shown(points, light), half = shown(points, light, Storage::half);
     for (std::size_t i = 0; i < points.size(); ++i)
         for (int c = 0; c < 3; ++c)  // 11 bits

@@ -133,9 +133,10 @@ void LightAtlasSolver::State::upload(const VplLayout& layout, const AtlasLayout&
     for (const VplSite& site : layout.vpls) {
         const auto area = static_cast<float>(site.area * scale * scale);
         list.push_back({device_triangle(device, site.triangle), site.b1, site.b2, area});
-        sites.push_back({site.first_sample, site.sample_count, area,
+        // To all others it is as large as what it covers of what lies behind.
+        sites.push_back({site.first_sample, site.sample_count, area * site.coverage,
                          site.back ? static_cast<std::uint32_t>(SITE_BACK) : 0});
-        row_scale += area;
+        row_scale += sites.back().area;
     }
     for (Site& site : sites)
         site.flags |= row_exponent(double{site.area}, double{row_scale}) << SITE_ROW_SHIFT;

@@ -15,6 +15,7 @@
 #include "methods/light_atlas/strips.hpp"
 #include "methods/light_atlas/vpl_count.hpp"
 #include "methods/light_atlas/walls.hpp"
+#include "scene/coverage.hpp"
 
 namespace clgi {
 namespace {
@@ -22,6 +23,7 @@ namespace {
 constexpr std::uint32_t most_samples_per_vpl = 4096;
 constexpr double most_samples = 1u << 28;
 constexpr double most_gap_density = 1000.0;
+constexpr double least_coverage = 1.0 / 1024.0;  // no VPL is without area
 
 // Shares of a cell. VPLs keep off each other and off borders; what they leave is in rows, so a
 // little remains. Samples count what is hidden behind straight edges, and rows may be parallel to
@@ -115,7 +117,7 @@ SamplePoint sample_of(std::uint32_t triangle, const glm::dvec2& b) {
 class Placement {
 public:
     Placement(const Scene& scene, const Patches& patches, VplLayout& out)
-        : scene_(scene), patches_(patches), out_(out), walls_(scene) {}
+        : scene_(scene), patches_(patches), out_(out), walls_(scene), coverage_(scene) {}
 
     // Metres along the axes of its frame.
     glm::dvec3 size_of(const Region& region, std::uint32_t number) const {
@@ -245,6 +247,11 @@ private:
                 glm::normalize(glm::cross(edge1, edge2))};
     }
 
+    double coverage_at(const SamplePoint& point) const {
+        const double b1 = point.b1, b2 = point.b2;
+        return coverage_(scene_.triangles[point.triangle], {1.0 - b1 - b2, b1, b2});
+    }
+
     void append(const Region& region, std::uint32_t number, const std::vector<SamplePoint>& sites,
                 const std::vector<SamplePoint>& samples, const std::vector<std::uint32_t>& owner) {
         std::vector<std::vector<std::uint32_t>> members(sites.size());
@@ -253,10 +260,14 @@ private:
             for (const bool back : {false, true}) {
                 if (back && !region.double_sided) continue;
                 const double share = double(members[s].size()) / double(samples.size());
+                double covers = 0.0;
+                for (const std::uint32_t i : members[s]) covers += coverage_at(samples[i]);
+                covers = std::max(covers / double(members[s].size()), least_coverage);
                 out_.vpls.push_back({sites[s].triangle, sites[s].b1, sites[s].b2,
                                      static_cast<std::uint32_t>(out_.samples.size()),
                                      static_cast<std::uint32_t>(members[s].size()), number,
-                                     static_cast<float>(share * region.area), back});
+                                     static_cast<float>(share * region.area), back,
+                                     static_cast<float>(covers)});
                 for (const std::uint32_t i : members[s]) out_.samples.push_back(samples[i]);
             }
     }
@@ -265,6 +276,7 @@ private:
     const Patches& patches_;
     VplLayout& out_;
     const Walls walls_;
+    const Coverage coverage_;
 };
 
 }  // namespace

@@ -36,6 +36,7 @@ struct VplSite {
                                  // regions, distances along them count up to ten times less
     float area;                  // m^2, A_j: its share of the region's area by samples
     bool back;                   // lies on the side that the triangle is not wound for
+    float coverage = 1.0f;       // (0,1] mean of what alpha covers at its samples
 };
 
 struct SamplePoint {

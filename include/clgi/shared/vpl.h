@@ -11,7 +11,7 @@ CLGI_SHARED_BEGIN
 typedef struct {
     uint first_sample;
     uint sample_count;  // at least 1
-    float area;         // local units squared
+    float area;         // local units squared, times what alpha covers of it
     uint flags;         // SITE_...
 } Site;
 
