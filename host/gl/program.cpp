@@ -42,7 +42,7 @@ std::string constants() {
     number("MATERIAL_BASE_UV", MATERIAL_BASE_UV);
     number("MATERIAL_EMISSION_UV", MATERIAL_EMISSION_UV);
     number("TEXTURE_LEVELS_SHIFT", TEXTURE_LEVELS_SHIFT);
-    text += "#define ALPHA_BLENDED (" + std::to_string(ALPHA_BLENDED) + ")\n";
+    number("ALPHA_BLENDED", static_cast<long>(ALPHA_BLENDED));
     word("TRIANGLE_MATERIAL", TRIANGLE_MATERIAL);
     word("TRIANGLE_MASKED", TRIANGLE_MASKED);
     word("TRIANGLE_DOUBLE_SIDED", TRIANGLE_DOUBLE_SIDED);

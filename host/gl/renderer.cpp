@@ -42,6 +42,7 @@ void set_view(const Object& program, const View& view) {
     set("window", view.window);
     glUniform2i(uniform(program, "size"), static_cast<GLint>(view.width),
                 static_cast<GLint>(view.height));
+    glUniform1ui(uniform(program, "dither"), view.flags >> VIEW_DITHER_SHIFT);
     glUniform1ui(uniform(program, "cull"), view.flags & VIEW_CULL_BACK_FACES ? 1 : 0);
 }
 

@@ -69,7 +69,8 @@ bool suits(Method method, const Plan& plan) {
             return true;
         case Method::light_atlas:  // has one light for both sides of a surface
             return plan.analysis.surfaces.double_sided_area <= few_backs;
-        case Method::antiradiance:  // masked surfaces block as a whole; all bounces come together
+        case Method::antiradiance:  // masked and blended surfaces block as a whole; all bounces
+                                    // come together
             return !plan.on(Effect::cutouts) &&
                    (!plan.on(Effect::first_bounce) || plan.on(Effect::further_bounces));
         case Method::dynamic_transfer:

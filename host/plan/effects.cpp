@@ -161,7 +161,8 @@ EffectChoices choose_effects(const SceneAnalysis& analysis, double tolerance,
     put(Effect::indirect_occlusion, indirect_occlusion(analysis, first));
     put(Effect::gloss, has(analysis.surfaces.glossy_area > 0.0, "glossy surfaces"));
     put(Effect::textures, has(analysis.surfaces.textures, "textures of more than one colour"));
-    put(Effect::cutouts, has(analysis.surfaces.cutouts, "alpha masks with holes"));
+    put(Effect::cutouts,
+        has(analysis.surfaces.cutouts, "alpha masks with holes, or blended surfaces"));
     put(Effect::moving_geometry, has(analysis.motion.geometry, "geometry that moves"));
     put(Effect::moving_lights, has(lights.moving, "lights that move"));
     return out;

@@ -4,7 +4,7 @@
 //             on those sides is convex and has triangles on its boundary alone
 //   before    no vertex lies strictly on the light's side of the lit triangle's plane
 //
-// Alpha masks are not read: a masked triangle counts as whole.
+// Alpha is not read: a masked or blended triangle counts as whole.
 // SPDX-License-Identifier: MIT
 #include "plan/proof.hpp"
 

@@ -148,6 +148,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         has_lobes_ = has_lobes_ || finished || shares.coat + shares.lobe > 1e-4f;
         if (finished || shares.diffuse != 1.0f) info_.flags |= SCENE_HAS_SHARES;
         if (finished || material.normal_texture.texture >= 0) info_.flags |= SCENE_HAS_DETAIL;
+        has_blended_ = has_blended_ || material.alpha_mode == AlphaMode::blend;
         has_masks_ = has_masks_ || material.alpha_mode != AlphaMode::opaque;
     }
     const EmissionMeans emission(scene);

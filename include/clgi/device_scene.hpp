@@ -55,9 +55,10 @@ public:
     // threads.
     std::vector<Light> environment_lights(int count) const;
     bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
-    bool needs_textures() const {                  // some surface has a texture or an alpha mask
+    bool needs_textures() const {  // some surface has a texture, a mask or is blended
         return has_masks_ || (info_.flags & SCENE_HAS_TEXTURES) != 0;
     }
+    bool has_blended() const { return has_blended_; }  // some material is AlphaMode::blend
     std::size_t bytes() const { return bytes_; }
 
     // Triangles lie on the device in an order that follows space. [triangle_count] the scene's
@@ -117,7 +118,8 @@ private:
     struct Cut;
     std::shared_ptr<Cut> cut_;
     bool has_lobes_ = false;
-    bool has_masks_ = false;
+    bool has_masks_ = false;  // or blended surfaces
+    bool has_blended_ = false;
     std::size_t bytes_ = 0;
     cl::Buffer triangles_, positions_, normals_, uvs_, colors_, materials_, textures_, texels_,
         decode_, environment_texels_, clusters_;

@@ -123,7 +123,7 @@ CLGI_API bool sees_little(const Plan& plan);
 CLGI_API std::optional<Focus> focus_of(const Scene& scene, const Camera& camera, int width,
                                        int height);
 
-// The scene without the lights, emission, environment, gloss, textures, alpha masks and animation
+// The scene without the lights, emission, environment, gloss, textures, alpha and animation
 // whose effects are off. A texture of one colour is replaced by this colour. Textures that are no
 // longer read are dropped, and the others are renumbered. Where the picture sees little of the
 // scene, the focus is what it reaches.

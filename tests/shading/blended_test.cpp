@@ -42,14 +42,17 @@ Scene sheets(const std::vector<float>& alphas, int cells = 1) {
 }
 
 // [pixels] the material that is seen, -1: none.
-std::vector<int> seen(const Scene& scene, const Camera& camera = test::pixel_camera(side, side)) {
-    const test::Drawing drawing = test::draw(scene, camera, side, side);
+std::vector<int> materials(const Scene& scene, const test::Drawing& drawing) {
     std::vector<int> out;
     for (std::size_t i = 0; i < drawing.pixels(); ++i) {
         const int triangle = drawing.triangle(i);
         out.push_back(triangle < 0 ? -1 : static_cast<int>(scene.triangles[triangle].material));
     }
     return out;
+}
+
+std::vector<int> seen(const Scene& scene, const Camera& camera = test::pixel_camera(side, side)) {
+    return materials(scene, test::draw(scene, camera, side, side));
 }
 
 double share(const std::vector<int>& of, int material) {
@@ -100,6 +103,21 @@ TEST(Blended, DecidesForEachPixelAndViewAnew) {
         Camera moved = camera;
         moved.position[axis] += 2.0;
         apart(moved, "position");
+    }
+
+    // Of one eye, looking elsewhere, and with another number.
+    const DeviceScene placed = test::on_device(scene);
+    const Camera from = test::camera_at({96, 96, 50}, {96, 96, 0}, 0.5f);
+    const View view = make_view(from, placed.frame(), side, side);
+    std::vector<std::vector<int>> looks;
+    for (const glm::dvec3& at : {glm::dvec3(96, 96, 0), {110, 96, 0}, {96, 110, 0}})
+        looks.push_back(seen(scene, test::camera_at({96, 96, 50}, at, 0.5f)));
+    View other = view;
+    other.flags |= 3u << VIEW_DITHER_SHIFT;
+    looks.push_back(materials(scene, test::draw(placed, other)));
+    for (std::size_t k = 1; k < looks.size(); ++k) {
+        EXPECT_NEAR(share(looks[k], 0), 0.3, bound(0.3)) << k;
+        EXPECT_NEAR(both(looks[0], looks[k], 0, 0), 0.09, bound(0.09)) << k;
     }
 }
 

@@ -13,11 +13,13 @@ uint stirred(uint h) {
 // tile_chance of kernels/gbuffer/tile.clh.
 float chance() {
     uint row = uint(size.y - 1) - uint(gl_FragCoord.y);
-    uint words[] = uint[](uint(gl_PrimitiveID), floatBitsToUint(window.x), floatBitsToUint(window.y),
+    uint words[] = uint[](uint(gl_PrimitiveID), dither,
+                          floatBitsToUint(window.x), floatBitsToUint(window.y),
                           floatBitsToUint(eye.x), floatBitsToUint(eye.y), floatBitsToUint(eye.z),
-                          row);
+                          floatBitsToUint(forward.x), floatBitsToUint(forward.y),
+                          floatBitsToUint(forward.z), row);
     uint key = 0u;
-    for (int k = 0; k < 7; ++k) key = stirred(key + words[k]);
+    for (int k = 0; k < 11; ++k) key = stirred(key + words[k]);
     return (float(stirred(uint(gl_FragCoord.x) + key) >> 8) + 0.5) * (1.0 / 16777216.0);
 }
 

@@ -7,6 +7,7 @@ uniform vec4 up;
 uniform vec4 forward;
 uniform vec4 window;
 uniform ivec2 size;     // pixels
+uniform uint dither;    // of blended surfaces
 uniform uint cull;      // 1: triangles of one side are not seen from behind
 
 bool perspective() { return eye.w == 0.0; }

@@ -65,9 +65,10 @@ std::size_t batches(const PassKernel& pass, const DeviceScene& scene) {
 
 void need_textures(const PassKernel& pass, const DeviceScene& scene, bool built) {
     if (scene.needs_textures() && !built)
-        throw Error(pass.name +
-                    ": the scene has textures or alpha masks, the kernels were built "
-                    "without (BuildOptions::textures)");
+        throw Error(
+            pass.name +
+            ": the scene has textures, alpha masks or blended surfaces, the kernels were built "
+            "without (BuildOptions::textures)");
 }
 
 }  // namespace

@@ -342,8 +342,10 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         for (const auto& more : {area_samples(scene, options), environment_lights(scene, options)})
             sources.insert(sources.end(), more.begin(), more.end());
     }
-    if (!options.shadows)
-        for (Source& source : sources) source.views.clear();
+    for (Source& source : sources) {
+        if (!options.shadows) source.views.clear();
+        for (View& view : source.views) view.flags |= seed_of(options) << VIEW_DITHER_SHIFT;
+    }
     EmitterSet out;
     out.capacity.emitters = sources.size();
     count_views(sources, out.capacity);

@@ -59,7 +59,8 @@ cl::Event LightPasses::fetch(const cl::CommandQueue& queue, const FetchParams& p
                              const WaitList& wait) const {
     if (scene.needs_textures() && !textures_)
         throw Error(
-            "lights.fetch: the scene has textures or alpha masks, the kernels were built "
+            "lights.fetch: the scene has textures, alpha masks or blended surfaces, the kernels "
+            "were built "
             "without (BuildOptions::textures)");
     if (sources.kind != Pixels::visibility)
         throw Error("lights.fetch: the shadow maps hold depth alone, visibility needed");

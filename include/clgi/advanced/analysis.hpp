@@ -53,7 +53,7 @@ struct SurfaceAnalysis {
     double glossy_area = 0.0;        // share of area whose lobe and coat reflect more than 1e-4
     double double_sided_area = 0.0;  // share
     bool textures = false;  // a texture of a material in use, base or emission, is not one colour
-    bool cutouts = false;   // a mask material in use may have alpha below its cutoff
+    bool cutouts = false;   // a material in use may have alpha below its cutoff, or 1
     std::size_t vertices = 0;    // fewer than triangles where these share them
     std::size_t degenerate = 0;  // triangles without area, to within the rounding of positions
 };
@@ -72,8 +72,8 @@ struct SceneAnalysis {
     // Share of cosine-weighted directions in which nothing is seen, estimated by 64 to 1024 rays
     // from points spread evenly over the sides of surfaces that reflect, by area; 128 where the
     // share is far from those that plans ask for: 0.3, and 0.5 with an environment. 1 where
-    // surfaces_apart, otherwise 0 where nothing reflects. Masked triangles count as whole; geometry
-    // that moves is where the scene's arrays have it.
+    // surfaces_apart, otherwise 0 where nothing reflects. Masked and blended ones count as whole;
+    // geometry that moves is where the scene's arrays have it.
     double openness = 0.0;
     double milliseconds = 0.0;  // that the analysis took
 };

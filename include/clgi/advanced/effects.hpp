@@ -23,7 +23,7 @@ enum class Effect {
     indirect_occlusion,  // what lies between two surfaces
     gloss,               // lobes of materials, of direct and indirect light
     textures,
-    cutouts,  // holes of alpha masks
+    cutouts,  // holes of alpha masks, blended surfaces
     moving_geometry,
     moving_lights,
 };

@@ -46,7 +46,7 @@ struct IrradianceVolume {
 // 2^20: the finest one of at most `most` cubes, or a finer one, of at most eight times as many, if
 // points lie in solid matter. They do if at least half of what they see of `walls` are backs of
 // surfaces that are not double-sided. One that finds a way out within half a cube is moved there.
-// Surfaces with alpha masks hide nothing. Throws Error for a box that is not finite or whose
+// Masked and blended surfaces hide nothing. Throws Error for a box that is not finite or whose
 // corners are not in order, and for `most` out of range.
 CLGI_API IrradianceVolume make_irradiance_volume(const Bounds& box, int most,
                                                  const Scene& walls = {});

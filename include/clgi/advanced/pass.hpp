@@ -34,7 +34,7 @@ struct BuildOptions {
     bool atomics64 = true;       // use 64-bit atomics where the device has them
     bool parallel = true;        // compile several kernels at a time, if the driver can
     bool textures = true;        // false compiles faster, for scenes without textures and
-                                 // alpha masks only (DeviceScene::needs_textures)
+                                 // alpha alone (DeviceScene::needs_textures)
 };
 
 inline bool operator==(const BuildOptions& a, const BuildOptions& b) {

@@ -23,7 +23,9 @@ typedef struct {
     uint flags;        // VIEW_...
 } View;
 
-enum { VIEW_CULL_BACK_FACES = 1 };
+// From the bit of the shift on: blended surfaces are dithered otherwise where it differs, in views
+// that are alike but for that.
+enum { VIEW_CULL_BACK_FACES = 1, VIEW_DITHER_SHIFT = 8 };
 
 // Visibility buffer: one 64-bit word per pixel, (~closeness bits) << 32 | triangle. The smallest
 // wins: the nearest surface, and of equal ones the smaller triangle index. Closeness is linear on
