@@ -29,7 +29,14 @@ SceneFrame local_frame(const Bounds& box, const std::optional<Focus>& focus) {
     }
     frame.radius = static_cast<float>(std::max(radius * frame.scale, 1e-6));
     frame.detail = static_cast<float>(std::max(detail * frame.scale, 1e-6));
+    frame.low = frame.to_local(box.low);
+    frame.high = frame.to_local(box.high);
     return frame;
+}
+
+Bounds reached(const SceneFrame& frame) {
+    const glm::dvec3 around(1e-5 * double{frame.radius});
+    return {glm::dvec3(frame.low) - around, glm::dvec3(frame.high) + around};
 }
 
 double common_exposure(const Scene& scene, const SceneFrame& frame) {

@@ -6,6 +6,7 @@
 
 #include "core/opencl/launch.hpp"
 #include "core/opencl/program.hpp"
+#include "scene/local_frame.hpp"
 
 namespace clgi {
 
@@ -34,6 +35,9 @@ MoveParams move_params(const DeviceScene& scene, std::uint32_t first, std::uint3
         put_double(origin[axis] == 0.0 ? -0.0 : origin[axis], out.given_from + 2 * axis);
         put_double(scene.frame().origin[axis], out.frame_origin + 2 * axis);
     }
+    const Bounds box = reached(scene.frame());
+    out.low = glm::vec4(box.low, 0.0f);
+    out.high = glm::vec4(box.high, 0.0f);
     return out;
 }
 

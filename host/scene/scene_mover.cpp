@@ -189,6 +189,8 @@ cl::Event SceneMover::move(std::uint32_t first, const std::vector<glm::dvec3>& p
     MoveParams params = move_params(scene_, first, static_cast<std::uint32_t>(positions.size()));
     std::fill(params.frame_origin, params.frame_origin + 8, 0u);
     params.exponent = 0;
+    params.low = glm::vec4(reached(frame).low, 0.0f);
+    params.high = glm::vec4(reached(frame).high, 0.0f);
     if (normals.empty()) params.flags &= ~std::uint32_t{MOVE_NORMALS};
     enqueue(params, staged_positions_, staged_normals_, wait);
     if (box) refit(*box);
@@ -208,11 +210,8 @@ MoveStatus SceneMover::status() {
     std::memcpy(&square, &words[MOVE_FARTHEST], sizeof square);
     MoveStatus out;
     out.not_finite = words[MOVE_NOT_FINITE];
-    const double local = std::sqrt(double{square});
-    out.farthest = local / scene_.frame_.scale;
-    // Corners of the frame's own box are that far: a rounding of three coordinates, their squares
-    // and sums, and the radius.
-    out.fits = local <= double{scene_.frame_.radius} * (1.0 + 8 * 0x1p-24);
+    out.farthest = std::sqrt(double{square}) / scene_.frame_.scale;
+    out.fits = words[MOVE_LEFT] == 0;
     return out;
 }
 

@@ -22,6 +22,8 @@ struct SceneFrame {
     double exposure = 1.0;
     float radius = 1.0f;  // of a sphere around the origin that holds the scene
     float detail = 1.0f;  // of the focus: lifts, biases and near planes are shares of it
+    // A box that holds the scene, local units: shadow maps of directional lights reach that far.
+    glm::vec3 low = glm::vec3(-1.0f), high = glm::vec3(1.0f);
 
     glm::vec3 to_local(const glm::dvec3& world) const {
         return glm::vec3((world - origin) * scale);

@@ -29,7 +29,7 @@ struct MovedVertices {
 struct MoveStatus {
     std::uint32_t not_finite = 0;  // vertices that stayed as they were: a number was not finite
     double farthest = 0.0;         // metres from the frame's origin to the farthest moved vertex
-    bool fits = true;              // all moved vertices are within the frame's radius
+    bool fits = true;              // all moved vertices are within the frame's box
 };
 
 // Writes a scene's buffers from the given queue, in order or not. Kernels are built once. Scene and
@@ -49,10 +49,10 @@ public:
     // positions, normals and clusters are written. Whatever reads the scene must wait for it, and
     // `wait` must cover whatever still reads: the event of the last frame.
     //
-    // The local frame stays as it is: its precision and its radius, on which far planes and the
-    // discs of directional lights depend, suit the scene that was loaded. status().fits tells when
-    // it no longer does. With `refit`, the box around all triangles in metres, the frame becomes
-    // the one that a fresh load would find; then all vertices must be given.
+    // The local frame stays as it is: its precision, its radius and its box, on which far planes
+    // and the views of directional lights depend, suit the scene that was loaded. status().fits
+    // tells when it no longer does. With `refit`, the box around all triangles in metres, the frame
+    // becomes the one that a fresh load would find; then all vertices must be given.
     //
     // Waits only where vertices of emissive triangles move: their corners are read back, as the
     // host samples them. Then, and after a refit, a solver needs lights_changed(). The exposure
@@ -67,7 +67,7 @@ public:
                    const std::vector<glm::vec3>& normals, bool refit = false,
                    const WaitList& wait = {});
 
-    // Waits for the last move, reads two words and sets them back.
+    // Waits for the last move, reads three words and sets them back.
     MoveStatus status();
 
 private:

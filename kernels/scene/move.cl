@@ -14,6 +14,14 @@
 
 CLGI_INLINE int finite_bits(uint bits) { return (bits & 0x7f800000u) != 0x7f800000u; }
 
+// What is there only ever grows: a stale look can cost an atomic but never lose one.
+CLGI_INLINE void raise(volatile global uint* most, uint value) {
+#ifndef CLGI_ATOMICS_ONLY
+    if (*most >= value) return;
+#endif
+    atomic_max(most, value);
+}
+
 // One coordinate. axis: 0, 1 or 2.
 CLGI_INLINE uint local_bits(const MoveParams* params, int axis, uint position) {
     ulong from = (ulong)params->given_from[2 * axis + 1] << 32 | params->given_from[2 * axis];
@@ -55,11 +63,7 @@ kernel void scene_move(
     positions[vertex] = moved;
     if (turned) normals[vertex] = (uint4)(normal.xyz, 0);
     float3 p = (float3)(as_float(moved.x), as_float(moved.y), as_float(moved.z));
-    // Bits of positive floats rise with them.
-    uint square = as_uint(dot(p, p));
-#ifndef CLGI_ATOMICS_ONLY
-    // What is there only ever grows: a stale look can cost an atomic but never lose one.
-    if (status[MOVE_FARTHEST] >= square) return;
-#endif
-    atomic_max(status + MOVE_FARTHEST, square);
+    float3 beyond = max(params.low.xyz - p, p - params.high.xyz);
+    raise(status + MOVE_LEFT, max(beyond.x, max(beyond.y, beyond.z)) > 0.0f ? 1u : 0u);
+    raise(status + MOVE_FARTHEST, as_uint(dot(p, p)));  // bits of positive floats rise with them
 }

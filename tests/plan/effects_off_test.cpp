@@ -280,8 +280,8 @@ void expect_maps_built_ahead(Scene scene, Pixels kind, std::size_t least, std::s
 
 TEST(ShadowMaps, KernelsAreBuiltAheadAndNoOthers) {
     Scene fine = test::plain_scene();
-    for (const double x : {-0.6, 0.6}) test::add_sphere(fine, {x, 0, 0}, 0.5, 6);
-    ASSERT_GT(fine.triangles.size(), 131072u);  // more than a list holds
+    for (const double x : {-1.8, -0.6, 0.6, 1.8}) test::add_sphere(fine, {x, 0, 0}, 0.5, 6);
+    ASSERT_GT(fine.triangles.size(), 262144u);  // more than a list holds
     Scene coarse = test::plain_scene();
     test::add_sphere(coarse, {0, 0, 0}, 0.5, 1);
     const unsigned cores = test::device().device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();

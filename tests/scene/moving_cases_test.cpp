@@ -222,7 +222,7 @@ TEST(MovingGeometry, RefusesWhatDoesNotFitAndStaysAsItWas) {
             pass({test::empty<char>(4 * vertices - 1), plenty, plenty, status});
         },
         {"vertex_order", std::to_string(4 * vertices - 1)});
-    expect_refusal([&] { pass({order, plenty, plenty, test::empty<char>(7)}); }, {"status", "8"});
+    expect_refusal([&] { pass({order, plenty, plenty, test::empty<char>(11)}); }, {"status", "12"});
     MoveParams other = params;
     other.vertex_count -= 1;
     EXPECT_THROW(passes.move(test::device().queue, other, scene, {order, plenty, plenty, status}),

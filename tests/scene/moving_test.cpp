@@ -218,6 +218,20 @@ TEST(MovingGeometry, SaysWhenItLeavesTheFrame) {
     EXPECT_FALSE(status.fits);
     EXPECT_NEAR(status.farthest, 9.0, 1e-5);
     EXPECT_TRUE(mover.status().fits);
+    // To each side of the box, no farther than its corners.
+    const glm::dvec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            glm::dvec3 at = middle;
+            at[axis] += side * 1.001 * half[axis];
+            mover.move(last, {at}, {});
+            status = mover.status();
+            EXPECT_FALSE(status.fits) << axis << ", " << side;
+            EXPECT_LT(status.farthest, glm::length(half));
+            at[axis] -= side * 0.002 * half[axis];
+            mover.move(last, {at}, {});
+            EXPECT_TRUE(mover.status().fits) << axis << ", " << side;
+        }
 }
 
 }  // namespace

@@ -185,10 +185,10 @@ TEST(Emitters, ShiftMapsWithinTheirTexels) {
             for (std::size_t i = 0; i < 2; ++i) {                           // the spot and the sun
                 const View &was = usual.views[i], &is = moved.views[i];
                 ASSERT_EQ(static_cast<int>(is.width), size);
-                const double texel = 2.0 * double{is.right.w} / size;
                 for (const auto& [extent, before, shift] :
-                     {std::tuple{is.right.w, was.right.w, is.window.x},
-                      std::tuple{is.up.w, was.up.w, is.window.y}}) {
+                     {std::tuple{is.right.w, was.right.w, is.window.x - was.window.x},
+                      std::tuple{is.up.w, was.up.w, is.window.y - was.window.y}}) {
+                    const double texel = 2.0 * double{extent} / size;
                     EXPECT_LE(std::abs(shift), 0.5001 * texel);
                     EXPECT_GE(extent - std::abs(shift), before);
                     EXPECT_LE(extent, 1.3 * before);

@@ -15,20 +15,17 @@
 #include "core/opencl/check.hpp"
 #include "scene/local_frame.hpp"
 #include "scene/luminance.hpp"
+#include "shading/lights/emitter_views.hpp"
 #include "shading/lights/replicate.hpp"
 #include "shading/lights/single_view.hpp"
 
 namespace clgi {
 namespace {
 
+using namespace shadow_views;
+
 constexpr std::size_t most_pixels = std::size_t{1} << 30;  // kernels count view pixels in ints
 using std::numbers::pi;
-
-// Any unit vector across n.
-glm::vec3 across(const glm::vec3& n) {
-    const glm::vec3 helper = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    return glm::normalize(glm::cross(helper, n));
-}
 
 // Sources that stand for one another: what one of them does not send, others of its group may.
 enum Group : std::size_t { lamps, environment, surfaces, group_count };
@@ -40,63 +37,6 @@ struct Source {
     double acceptance = 0.0;  // share of the sphere in a spot's cone
     Group group = lamps;
 };
-
-View window(const glm::vec3& eye, const glm::vec3& right, const glm::vec3& up,
-            const glm::vec3& forward, float extent_x, float extent_y, float near, int width,
-            int height) {
-    View view{};
-    view.eye = glm::vec4(eye, 0.0f);
-    view.right = glm::vec4(right, extent_x);
-    view.up = glm::vec4(up, extent_y);
-    view.forward = glm::vec4(forward, near);
-    view.width = static_cast<std::uint32_t>(width);
-    view.height = static_cast<std::uint32_t>(height);
-    return view;
-}
-
-// Of the shifts of all points.
-std::uint32_t seed_of(const EmitterOptions& options) {
-    return options.replicate + 0x9e3779b9u * options.sample;
-}
-
-// The map of every sample lies differently within its texels.
-void shift_texels(View& view, const EmitterOptions& options) {
-    if (options.sample == 0) return;
-    // Larger by a texel around, so that none of what is lit leaves it.
-    const float texel = 2.0f / static_cast<float>(view.width);
-    view.right.w *= 1.0f + texel;
-    view.up.w *= 1.0f + texel;
-    const auto shift = [&](std::uint32_t dimension) {
-        return replicate_shift(seed_of(options), ShiftUse::texel, dimension) - 0.5f;
-    };
-    view.window.x = shift(0) * texel * view.right.w;
-    view.window.y = shift(1) * texel * view.up.w;
-}
-
-std::vector<View> cube(const glm::vec3& eye, float near, int size) {
-    const glm::vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    std::vector<View> views;
-    for (int face = 0; face < 6; ++face) {
-        const glm::vec3 forward = face % 2 == 0 ? axes[face / 2] : -axes[face / 2];
-        const glm::vec3 up = axes[(face / 2 + 1) % 3];
-        views.push_back(window(eye, glm::cross(forward, up), up, forward, 1, 1, near, size, size));
-    }
-    return views;
-}
-
-// The face along the normal and the outer halves of the four around it.
-std::vector<View> hemicube(const glm::vec3& eye, const glm::vec3& normal, float near, int size) {
-    const glm::vec3 right = across(normal);
-    const glm::vec3 up = glm::cross(right, normal);
-    std::vector<View> views = {window(eye, right, up, normal, 1, 1, near, size, size)};
-    for (const glm::vec3& side : {right, up, -right, -up}) {
-        View half = window(eye, glm::cross(side, normal), normal, side, 1, 0.5f, near, size,
-                           std::max(size / 2, 1));
-        half.window.y = 0.5f;
-        views.push_back(half);
-    }
-    return views;
-}
 
 Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterOptions& options) {
     Source out;
@@ -149,17 +89,24 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
     e.kind = EMITTER_DIRECTIONAL;
     e.measure = static_cast<float>(pi) * radius * radius;
     out.power = luminance(lux) * e.measure;
-    const auto add_view = [&](float extent) {
-        View view = window(glm::vec3(e.position), right, glm::cross(right, axis), axis, extent,
-                           extent, 0.0f, options.shadow_size, options.shadow_size);
+    const Outline all = outline(frame, axis, right);
+    const auto add_view = [&](const glm::vec2& low, const glm::vec2& high) {
+        const glm::vec2 extent = 0.5f * (high - low), middle = 0.5f * (high + low);
+        View view = window(glm::vec3(e.position), all.right, all.up, axis, extent.x, extent.y, 0.0f,
+                           options.shadow_size, options.shadow_size);
         view.eye.w = 1.0f;
-        view.window.z = 2.05f * radius;
+        view.window = glm::vec4(middle, 2.05f * radius, 0.0f);
         shift_texels(view, options);
         out.views.push_back(view);
     };
     // The origin lies in the middle of the focus, if there is one.
-    if (frame.detail < static_cast<float>(small_focus) * radius) add_view(frame.detail);
-    add_view(radius);
+    if (frame.detail < static_cast<float>(small_focus) * radius) {
+        const glm::vec2 around(frame.detail);
+        const glm::vec2 low = glm::max(all.low, -around), high = glm::min(all.high, around);
+        const bool some = low.x < high.x && low.y < high.y;
+        add_view(some ? low : -around, some ? high : around);
+    }
+    add_view(all.low, all.high);
     return out;
 }
 

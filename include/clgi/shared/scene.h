@@ -113,6 +113,8 @@ typedef struct {
     uint given_from[8];   // x, y, z: the world point that given positions are relative to; -0 adds
                           // nothing, to a -0 either
     uint frame_origin[8];  // x, y, z of the local frame's origin
+    float4 low;            // xyz of the local frame's box, less what rounds; w is not read
+    float4 high;           // and more
 } MoveParams;
 
 enum { MOVE_NORMALS = 1 };
@@ -121,7 +123,8 @@ enum { MOVE_NORMALS = 1 };
 enum {
     MOVE_NOT_FINITE = 0,  // vertices that stayed where they were
     MOVE_FARTHEST = 1,    // bits of the largest squared distance from the local origin, a float
-    MOVE_STATUS_WORDS = 2
+    MOVE_LEFT = 2,        // 1 if one is outside the local frame's box
+    MOVE_STATUS_WORDS = 3
 };
 
 // Vertices that nodes, skins and morph targets place. Numbers of everything that is read.

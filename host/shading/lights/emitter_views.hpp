@@ -1,0 +1,39 @@
+// The views of an emitter: its shadow maps, as they lie in the local frame.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <clgi/shared/gbuffer.h>
+#include <clgi/advanced/emitters.hpp>
+#include <vector>
+
+namespace clgi::shadow_views {
+
+// Any unit vector across n.
+glm::vec3 across(const glm::vec3& n);
+
+// Of the shifts of all points.
+std::uint32_t seed_of(const EmitterOptions& options);
+
+View window(const glm::vec3& eye, const glm::vec3& right, const glm::vec3& up,
+            const glm::vec3& forward, float extent_x, float extent_y, float near, int width,
+            int height);
+
+// The map of every EmitterOptions::sample lies differently within its texels.
+void shift_texels(View& view, const EmitterOptions& options);
+
+std::vector<View> cube(const glm::vec3& eye, float near, int size);
+
+// The face along the normal and the outer halves of the four around it.
+std::vector<View> hemicube(const glm::vec3& eye, const glm::vec3& normal, float near, int size);
+
+// What a directional light sees of the scene's box: a rectangle across its axis.
+struct Outline {
+    glm::vec3 right, up;
+    glm::vec2 low, high;  // along right and up, from the origin
+};
+
+// Turned as one side of the box, or as `right` says, whichever is smallest. A little larger than
+// the box; a box without width has some.
+Outline outline(const SceneFrame& frame, const glm::vec3& axis, const glm::vec3& right);
+
+}  // namespace clgi::shadow_views
