@@ -269,6 +269,7 @@ bool Renderer::run(const Camera& camera, const Progress& progress) {
         s.of([&](auto& method) { method.add_passes(s.passes); });
         s.drew(camera, cl::Event());
         s.finish_samples();
+        if (s.last()) s.last.wait();
         return true;
     }
     const bool done = s.prepared || prepare(progress);

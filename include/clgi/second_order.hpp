@@ -84,8 +84,10 @@ public:
 
     // Another randomised shift of all low-discrepancy points (EmitterOptions::replicate).
     void set_replicate(std::uint32_t replicate);
-    // Another sample of a picture: VPLs, points of emissive surfaces and shadow maps
-    // (EmitterOptions::sample).
+    // Another sample of a picture: other VPLs, and after four samples or sixteen or more other
+    // points of emissive surfaces and shadow maps (EmitterOptions::sample,
+    // Emitters::samples_a_map). Until then the next picture keeps the maps of the last one, of
+    // geometry as it was then: call lights_changed() after it has moved.
     void set_sample(std::uint32_t sample);
 
     // Enqueues a whole picture that begins after `wait`; the event completes when all of it has.

@@ -3,6 +3,8 @@
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "methods/second_order/solver_state.hpp"
 
@@ -11,6 +13,10 @@ namespace clgi {
 using namespace second_order;
 
 namespace {
+
+bool same_views(const std::vector<View>& a, const std::vector<View>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(View)) == 0;
+}
 
 // A distance from a tangent plane of this share of the focus's radius weighs as much as a right
 // angle between normals.
@@ -74,7 +80,7 @@ void SecondOrderSolver::State::allocate(const SecondOrderOptions& next) {
     plan.check(queue.getInfo<CL_QUEUE_DEVICE>(), next.memory_budget, scene.bytes());
     for (const Helper& helper : helpers)
         plan.check(helper.queue.getInfo<CL_QUEUE_DEVICE>(), next.memory_budget, scene.bytes());
-    usable = false;
+    usable = has_maps = keeps_maps = false;
     options = next;
     emitters.adopt(std::move(fresh));
     emitters.build(gbuffer);
@@ -92,7 +98,11 @@ void SecondOrderSolver::State::allocate(const SecondOrderOptions& next) {
 
 // The scene as every emitter sees it, and the VPLs on what they light. [section 3.1]
 void SecondOrderSolver::State::place_lights() {
-    emitters.draw(record, gbuffer, buffers.camera);
+    if (!std::exchange(keeps_maps, false)) {
+        has_maps = false;
+        emitters.draw(record, gbuffer, buffers.camera);
+        has_maps = !record.cancelled();
+    }
     if (!indirect()) return;
     emitters.accept(record, light_passes, buffers.mask, buffers.accepted);
     const auto count = static_cast<std::uint32_t>(emitters.set().vpl_count);
@@ -230,6 +240,7 @@ void SecondOrderSolver::reconfigure(const SecondOrderOptions& options) {
 }
 
 void SecondOrderSolver::lights_changed() {
+    state_->has_maps = state_->keeps_maps = false;
     if (!state_->usable || !state_->emitters.update(state_->options.emitters))
         return state_->allocate(state_->options);
     state_->record.forget_failed();
@@ -242,9 +253,18 @@ void SecondOrderSolver::set_replicate(std::uint32_t replicate) {
 }
 
 void SecondOrderSolver::set_sample(std::uint32_t sample) {
-    if (state_->options.emitters.sample == sample) return;
-    state_->options.emitters.sample = sample;
+    State& s = *state_;
+    EmitterOptions& wanted = s.options.emitters;
+    const std::uint32_t maps = sample / s.emitters.samples_a_map(pixel_count(s.options));
+    if (wanted.vpl_sample == sample && wanted.sample == maps) return;
+    const bool same = s.has_maps && sample > 0 && maps == wanted.sample;
+    const std::vector<View> views = s.emitters.set().views;
+    const cl_mem drawn = s.emitters.buffers().visibility();
+    wanted.vpl_sample = sample;
+    wanted.sample = maps;
     lights_changed();
+    s.has_maps = s.keeps_maps = same && s.emitters.buffers().visibility() == drawn &&
+                                same_views(s.emitters.set().views, views);
 }
 
 cl::Event SecondOrderSolver::render(const Camera& camera, const WaitList& wait) {

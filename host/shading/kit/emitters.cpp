@@ -57,6 +57,16 @@ void Emitters::adopt(Emitters&& planned) {
     buffers_.pixels = set_.pixels;
 }
 
+std::uint32_t Emitters::samples_a_map(std::size_t pixels) const {
+    constexpr std::size_t few = 4, many = 16;
+    constexpr std::size_t cheaper = 16;  // a pixel of a map than one of a picture
+    const bool soft = scene_->has_blended() ||
+                      std::any_of(set_.emitters.begin(), set_.emitters.end(),
+                                  [](const Emitter& one) { return one.kind == EMITTER_AREA; });
+    return static_cast<std::uint32_t>(
+        soft ? few : std::max(many, set_.pixels / std::max<std::size_t>(cheaper * pixels, 1)));
+}
+
 void Emitters::write(Recorder& record) const {
     record.write(buffers_.emitters, set_.emitters.data(), set_.emitters.size() * sizeof(Emitter));
     record.write(buffers_.views, set_.views.data(), set_.views.size() * sizeof(View));

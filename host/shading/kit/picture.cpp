@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/picture.hpp>
 #include <clgi/advanced/planes.hpp>
@@ -22,15 +21,6 @@ EmitterOptions emitters_of(const PictureOptions& options, std::uint32_t sample =
     out.sample = sample;
     out.shadows = out.shadows && (options.direct || options.shadow_maps);
     return out;
-}
-
-// How many samples have the same shadow maps: few where these stand for points of emissive
-// surfaces, which soft shadows need many of, or hold the dither of blended ones.
-std::uint32_t samples_a_map(const DeviceScene& scene, const std::vector<Emitter>& emitters) {
-    const bool soft = scene.has_blended() ||
-                      std::any_of(emitters.begin(), emitters.end(),
-                                  [](const Emitter& one) { return one.kind == EMITTER_AREA; });
-    return soft ? 4 : 16;
 }
 
 }  // namespace
@@ -80,7 +70,7 @@ void Picture::lights_changed() {
 }
 
 void Picture::sample(std::uint32_t index) {
-    const std::uint32_t lights = index / samples_a_map(scene_, emitters_.set().emitters);
+    const std::uint32_t lights = index / emitters_.samples_a_map(pixels());
     keeps_maps_ = index > 0 && lights == lights_;
     if (lights == lights_) return;
     lights_ = lights;

@@ -308,6 +308,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     // of the emissive surfaces theirs over what they light: points of one sequence, as each alone
     // has too few.
     std::array<std::uint32_t, group_count> lights_of{}, given{};
+    const std::uint32_t vpl_seed = seed_of(options) + 0x85ebca6bu * options.vpl_sample;
     for (std::size_t i = 0; i < sources.size(); ++i) lights_of[sources[i].group] += shares[i];
     for (std::size_t i = 0; i < sources.size(); ++i) {
         Source& source = sources[i];
@@ -327,7 +328,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
         source.emitter.first_vpl = static_cast<std::uint32_t>(out.vpl_count);
         source.emitter.vpl_count = shares[i];
         for (int d = 0; d < 4; ++d)
-            source.emitter.shift[d] = replicate_shift(seed_of(options), ShiftUse::light, d);
+            source.emitter.shift[d] = replicate_shift(vpl_seed, ShiftUse::light, d);
         out.vpl_count += shares[i];
         out.candidates.push_back(candidate_count(source, shares[i]));
         if (source.emitter.kind == EMITTER_SPOT && out.candidates.back() == 0)

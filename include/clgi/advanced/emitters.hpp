@@ -24,6 +24,8 @@ struct EmitterOptions {
     // of the points of emissive surfaces, as there are many samples, and shadow maps of spot and
     // directional lights that lie differently within their texels.
     std::uint32_t sample = 0;
+    // Shifts VPLs alone: of samples that share the rest.
+    std::uint32_t vpl_sample = 0;
     // false: nothing lies between lights and surfaces. Emitters then have no views and no shadow
     // maps, and light every point that faces them. No VPL can be placed without views, so vpls
     // counts as 0.
