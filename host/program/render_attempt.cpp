@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <clgi/advanced/static_scene.hpp>
+#include <cmath>
 #include <utility>
 
 #include "lab/preview.hpp"
@@ -120,6 +121,12 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error) {
         spent += taken;
     }
     picture_ = lab::radiance_picture(renderer_);
+}
+
+std::optional<Sampling> RenderAttempt::sampling() const {
+    if (!(record_.refine_ms > 0.0)) return std::nullopt;
+    const double count = renderer_.samples();
+    return Sampling{renderer_.sampling_error() * std::sqrt(count), refining() / (count - 1.0)};
 }
 
 // A frame's time has all in it that follows from the lights and the pose: of a bake, only what has

@@ -9,6 +9,7 @@
 #include "program/gl_frames.hpp"
 #include "program/motion.hpp"
 #include "program/render_flags.hpp"
+#include "program/sampling.hpp"
 #include "program/stats.hpp"
 #include "program/stopwatch.hpp"
 
@@ -45,6 +46,8 @@ public:
     const RenderRecord& record() const { return record_; }
     double seconds() const;  // that the first samples took, with all before them
     double refining() const { return 1e-3 * record_.refine_ms; }
+    // As refine() has found it; none where it added no sample.
+    std::optional<Sampling> sampling() const;
 
 private:
     void warm_up();

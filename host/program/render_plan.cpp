@@ -65,14 +65,33 @@ Plan begun(const cl::Device& device, const Plan& plan, double budget) {
     return trial.cost.total_ms() <= 1e3 * most * budget ? trial : plan;
 }
 
-// Plans for what is left of it.
+// Plans for what is left of it: for all of it, or for the part that leaves the least error together
+// with samples in the rest.
 std::optional<Planned> use_rest(const cl::Device& device, const Planned& planned, double took,
-                                double left) {
+                                double left, const std::optional<Sampling>& sampling) {
     constexpr double margin = 0.9;  // predictions from one picture to the next
-    const std::optional<Plan> next =
-        next_plan(device, planned.plan, {std::nullopt, 1e3 * took}, std::max(0.0, margin * left));
-    if (!next) return std::nullopt;
-    return Planned{*next, planned.milliseconds};
+    const Plan& plan = planned.plan;
+    const auto next_within = [&](double share) {
+        return next_plan(device, plan, {std::nullopt, 1e3 * took},
+                         std::max(0.0, margin * share * left));
+    };
+    std::optional<Plan> best;
+    if (!sampling || !plan.error) {
+        best = next_within(1.0);
+    } else {
+        double least = error_with_samples(*plan.error, *sampling, left);
+        for (const double share : {1.0, 0.75, 0.5, 0.35, 0.2}) {
+            const std::optional<Plan> next = next_within(share);
+            if (!next || !next->error) continue;
+            const double error =
+                error_with_samples(*next->error, *sampling, left - 1e-3 * next->cost.total_ms());
+            if (!(error < least)) continue;
+            least = error;
+            best = next;
+        }
+    }
+    if (!best) return std::nullopt;
+    return Planned{*best, planned.milliseconds};
 }
 
 bool is_better(const reference::Verification& found,
@@ -170,7 +189,13 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
             break;
         }
         spent += attempt->seconds();
-        if (budget) next = use_rest(session.device, *planned, attempt->seconds(), *budget - spent);
+        if (budget) {
+            constexpr double looking = 0.05;  // of the budget, at what samples bring
+            attempt->refine(looking * *budget, 2, 0.0);
+            next = use_rest(session.device, *planned, attempt->seconds(),
+                            *budget - spent - attempt->refining(), attempt->sampling());
+            if (next) spent += attempt->refining();
+        }
         if (!next) {
             refine(*attempt, budget ? std::optional<double>(*budget - spent) : std::nullopt,
                    target);
@@ -178,7 +203,8 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         }
         if (target || (flags.verify.on && !next)) attempt->check(scene, target.value_or(0.0));
         const auto& verified = attempt->record().verified;
-        attempts.push_back({plan_settings(plan), plan.error, verified, attempt->seconds()});
+        attempts.push_back({plan_settings(plan), plan.error, verified, attempt->seconds(),
+                            attempt->record().refine_ms});
         found = target && verified && verified->error.high <= *target;
         if (target && verified && !found && !interrupted())
             next = go_on(session.device, *planned, verified->error, *target, attempt->seconds(),

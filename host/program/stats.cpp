@@ -40,7 +40,8 @@ ordered_json passes_json(const std::vector<std::vector<lab::PassTime>>& frames) 
 ordered_json attempts_json(const RenderRecord& record) {
     ordered_json attempts = ordered_json::array();
     for (const RenderedAttempt& one : record.attempts) {
-        attempts.push_back({{"settings", one.settings}, {"seconds", one.seconds}});
+        attempts.push_back(
+            {{"settings", one.settings}, {"seconds", one.seconds}, {"refine_ms", one.refine_ms}});
         if (one.expected) attempts.back()["expected"] = *one.expected;
         if (one.verified) attempts.back()["measured_error"] = verify_json(*one.verified);
     }

@@ -49,7 +49,8 @@ struct RenderedAttempt {
     std::string settings;            // in words, with the method
     std::optional<double> expected;  // error
     std::optional<reference::Verification> verified;
-    double seconds = 0.0;
+    double seconds = 0.0;    // of the first sample, with all before it
+    double refine_ms = 0.0;  // of later ones
 };
 
 struct RenderRecord {
