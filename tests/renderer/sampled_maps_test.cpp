@@ -126,18 +126,26 @@ TEST(SampledMaps, AreThoseOfTheSample) {
     solver.set_sample(10);
     expect_fresh(solver, 10, 3);
     // Nothing is kept of a picture that was cancelled.
-    solver.set_replicate(4);
+    turned.direction = glm::normalize(glm::vec3(0.4f, -1.0f, 0.5f));
+    placed.set_light(0, turned);
+    solver.lights_changed();
     EXPECT_FALSE(solver.run(from_aside(), [](double) { return false; }));
     solver.set_sample(9);
-    expect_fresh(solver, 9, 4);
-    solver.set_replicate(3);
+    expect_fresh(solver, 9, 3);
     // A picture that is drawn again without another sample has maps of its own.
     SceneMover mover(test::programs(), test::device().queue, placed);
     solver.set_sample(12);
     expect_fresh(solver, 12, 3);
+    solver.set_sample(11);
+    expect_fresh(solver, 11, 3);
     mover.move(4, {{-1.2, 0.0, -0.2}, {0.9, 0.0, -0.5}, {0.8, 1.4, -0.9}, {-1.3, 1.2, -0.6}}, {})
         .wait();
-    expect_fresh(solver, 12, 3);
+    expect_fresh(solver, 11, 3);
+    // Sample 0 is none of those that the options may name.
+    options.emitters.sample = 5;
+    SecondOrderSolver other(test::programs(), test::device().queue, placed, options);
+    other.set_sample(0);
+    expect_fresh(other, 0, 0);
 }
 
 TEST(SampledMaps, RunWaitsForAllSamples) {

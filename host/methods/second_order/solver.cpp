@@ -257,7 +257,7 @@ void SecondOrderSolver::set_sample(std::uint32_t sample) {
     EmitterOptions& wanted = s.options.emitters;
     const std::uint32_t maps = sample / s.emitters.samples_a_map(pixel_count(s.options));
     if (wanted.vpl_sample == sample && wanted.sample == maps) return;
-    const bool same = s.has_maps && sample > 0 && maps == wanted.sample;
+    const bool same = s.has_maps && sample > 0;
     const std::vector<View> views = s.emitters.set().views;
     const cl_mem drawn = s.emitters.buffers().visibility();
     wanted.vpl_sample = sample;
