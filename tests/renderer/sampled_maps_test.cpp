@@ -141,7 +141,12 @@ TEST(SampledMaps, AreThoseOfTheSample) {
     mover.move(4, {{-1.2, 0.0, -0.2}, {0.9, 0.0, -0.5}, {0.8, 1.4, -0.9}, {-1.3, 1.2, -0.6}}, {})
         .wait();
     expect_fresh(solver, 11, 3);
-    // Sample 0 is none of those that the options may name.
+    // Sample 0 begins a picture, of whatever has moved.
+    mover.move(4, {{-1.2, 0.0, -0.5}, {0.9, 0.0, -0.8}, {0.8, 1.4, -1.2}, {-1.3, 1.2, -0.9}}, {})
+        .wait();
+    solver.set_sample(0);
+    expect_fresh(solver, 0, 3);
+    // And none of those that the options may name.
     options.emitters.sample = 5;
     SecondOrderSolver other(test::programs(), test::device().queue, placed, options);
     other.set_sample(0);
