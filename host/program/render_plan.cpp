@@ -191,7 +191,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         spent += attempt->seconds();
         if (budget) {
             constexpr double looking = 0.05;  // of the budget, at what samples bring
-            attempt->refine(looking * *budget, 2, 0.0);
+            if (attempt->seconds() <= *budget - spent) attempt->refine(looking * *budget, 2, 0.0);
             next = use_rest(session.device, *planned, attempt->seconds(),
                             *budget - spent - attempt->refining(), attempt->sampling());
             if (next) spent += attempt->refining();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <clgi/advanced/kit/picture.hpp>
 #include <clgi/clgi.hpp>
 #include <clgi/second_order.hpp>
 
@@ -151,6 +152,59 @@ TEST(SampledMaps, AreThoseOfTheSample) {
     SecondOrderSolver other(test::programs(), test::device().queue, placed, options);
     other.set_sample(0);
     expect_fresh(other, 0, 0);
+}
+
+// The same of what the other methods draw their pictures with.
+TEST(SampledMaps, OfAPictureAreThoseOfTheSceneAsItIs) {
+    const Scene scene = sunlit();
+    DeviceScene placed = test::on_device(scene);
+    PictureOptions options;
+    options.width = options.height = size;
+    options.emitters.shadow_size = size;
+    options.build = test::usual_build();
+    const cl::CommandQueue& queue = test::device().queue;
+    const auto maps_of = [&](Picture& picture) {
+        picture.begin(from_aside(), {});
+        picture.record().wait();
+        return test::download<std::uint32_t>(picture.emitter_buffers().visibility, 2 * size * size);
+    };
+    const auto fresh = [&] {
+        Picture picture(test::programs(), queue, placed, options, "fresh");
+        picture.allocate(picture.table());
+        return maps_of(picture);
+    };
+    Picture picture(test::programs(), queue, placed, options, "test");
+    picture.allocate(picture.table());
+    EXPECT_EQ(maps_of(picture), fresh());
+    picture.sample(1);
+    const std::size_t all = picture.events().size();
+    EXPECT_EQ(maps_of(picture), fresh());
+    EXPECT_LT(picture.events().size(), all);  // no map was drawn
+    EXPECT_EQ(maps_of(picture), fresh());
+    EXPECT_EQ(picture.events().size(), all);
+    // Other lights; other geometry with the same sample, and with the first one.
+    picture.sample(2);
+    Light turned = scene.lights[0];
+    turned.direction = glm::normalize(glm::vec3(0.5f, -1.0f, 0.2f));
+    placed.set_light(0, turned);
+    picture.lights_changed();
+    EXPECT_EQ(maps_of(picture), fresh());
+    SceneMover mover(test::programs(), queue, placed);
+    const auto move = [&](double z) {
+        mover
+            .move(4,
+                  {{-1.2, 0.0, z}, {0.9, 0.0, z - 0.3}, {0.8, 1.4, z - 0.7}, {-1.3, 1.2, z - 0.4}},
+                  {})
+            .wait();
+    };
+    picture.sample(3);
+    move(-0.2);
+    picture.lights_changed();
+    EXPECT_EQ(maps_of(picture), fresh());
+    picture.sample(4);
+    move(-0.5);
+    picture.sample(0);
+    EXPECT_EQ(maps_of(picture), fresh());
 }
 
 TEST(SampledMaps, RunWaitsForAllSamples) {

@@ -3,8 +3,6 @@
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/error.hpp>
 #include <cmath>
-#include <cstring>
-#include <utility>
 
 #include "methods/second_order/solver_state.hpp"
 
@@ -13,10 +11,6 @@ namespace clgi {
 using namespace second_order;
 
 namespace {
-
-bool same_views(const std::vector<View>& a, const std::vector<View>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(View)) == 0;
-}
 
 // A distance from a tangent plane of this share of the focus's radius weighs as much as a right
 // angle between normals.
@@ -80,7 +74,7 @@ void SecondOrderSolver::State::allocate(const SecondOrderOptions& next) {
     plan.check(queue.getInfo<CL_QUEUE_DEVICE>(), next.memory_budget, scene.bytes());
     for (const Helper& helper : helpers)
         plan.check(helper.queue.getInfo<CL_QUEUE_DEVICE>(), next.memory_budget, scene.bytes());
-    usable = has_maps = keeps_maps = false;
+    usable = false;
     options = next;
     emitters.adopt(std::move(fresh));
     emitters.build(gbuffer);
@@ -98,11 +92,7 @@ void SecondOrderSolver::State::allocate(const SecondOrderOptions& next) {
 
 // The scene as every emitter sees it, and the VPLs on what they light. [section 3.1]
 void SecondOrderSolver::State::place_lights() {
-    if (!std::exchange(keeps_maps, false)) {
-        has_maps = false;
-        emitters.draw(record, gbuffer, buffers.camera);
-        has_maps = !record.cancelled();
-    }
+    emitters.draw(record, gbuffer, buffers.camera);
     if (!indirect()) return;
     emitters.accept(record, light_passes, buffers.mask, buffers.accepted);
     const auto count = static_cast<std::uint32_t>(emitters.set().vpl_count);
@@ -240,7 +230,6 @@ void SecondOrderSolver::reconfigure(const SecondOrderOptions& options) {
 }
 
 void SecondOrderSolver::lights_changed() {
-    state_->has_maps = state_->keeps_maps = false;
     if (!state_->usable || !state_->emitters.update(state_->options.emitters))
         return state_->allocate(state_->options);
     state_->record.forget_failed();
@@ -257,14 +246,10 @@ void SecondOrderSolver::set_sample(std::uint32_t sample) {
     EmitterOptions& wanted = s.options.emitters;
     const std::uint32_t maps = sample / s.emitters.samples_a_map(pixel_count(s.options));
     if (wanted.vpl_sample == sample && wanted.sample == maps) return;
-    const bool same = s.has_maps && sample > 0;
-    const std::vector<View> views = s.emitters.set().views;
-    const cl_mem drawn = s.emitters.buffers().visibility();
     wanted.vpl_sample = sample;
     wanted.sample = maps;
     lights_changed();
-    s.has_maps = s.keeps_maps = same && s.emitters.buffers().visibility() == drawn &&
-                                same_views(s.emitters.set().views, views);
+    s.emitters.keep_maps(sample > 0);
 }
 
 cl::Event SecondOrderSolver::render(const Camera& camera, const WaitList& wait) {

@@ -77,9 +77,7 @@ struct SecondOrderSolver::State {
     second_order::Buffers buffers;
     mutable Recorder record;
     std::size_t bytes = 0;
-    bool usable = false;      // all buffers are there
-    bool has_maps = false;    // shadow maps of the emitters as they are
-    bool keeps_maps = false;  // for the next picture
+    bool usable = false;  // all buffers are there
 };
 
 }  // namespace clgi

@@ -2,8 +2,17 @@
 #include <algorithm>
 #include <clgi/advanced/kit/draw.hpp>
 #include <clgi/advanced/kit/emitters.hpp>
+#include <cstring>
+#include <utility>
 
 namespace clgi {
+namespace {
+
+bool same_views(const std::vector<View>& a, const std::vector<View>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(View)) == 0;
+}
+
+}  // namespace
 
 Emitters::Emitters(const DeviceScene& scene, const EmitterOptions& options, Pixels kind)
     : scene_(&scene), set_(make_emitters(scene, options)), capacity_(set_.capacity) {
@@ -21,6 +30,7 @@ void Emitters::add_to(BufferTable& table) {
 }
 
 bool Emitters::update(const EmitterOptions& options) {
+    keeps_ = false;
     EmitterSet next = make_emitters(*scene_, options);
     if (next.capacity.emitters > capacity_.emitters || next.capacity.views > capacity_.views ||
         next.capacity.pixels > capacity_.pixels)
@@ -51,6 +61,7 @@ std::size_t Emitters::follow(const EmitterOptions& options, Recorder& record,
 }
 
 void Emitters::adopt(Emitters&& planned) {
+    drawn_.clear();
     set_ = std::move(planned.set_);
     capacity_ = planned.capacity_;
     buffers_.view_count = set_.views.size();
@@ -94,7 +105,9 @@ void Emitters::build(const GBufferPasses& gbuffer) const {
             build_draw(gbuffer, *scene_, {0, count, views.width, views.height, 0}, buffers_.kind);
 }
 
-void Emitters::draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const {
+void Emitters::draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) {
+    if (std::exchange(keeps_, false) && same_views(drawn_, set_.views)) return;
+    drawn_.clear();
     lists.pixels = buffers_.visibility;
     lists.kind = buffers_.kind;
     // Views of one size are drawn together.
@@ -105,6 +118,7 @@ void Emitters::draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffer
         clgi::draw(record, gbuffer, *scene_, span_of(set_.views, first, last - first),
                    buffers_.views, lists);
     }
+    if (!record.cancelled()) drawn_ = set_.views;
 }
 
 }  // namespace clgi

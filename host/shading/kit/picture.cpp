@@ -71,8 +71,7 @@ void Picture::lights_changed() {
 
 void Picture::sample(std::uint32_t index) {
     const std::uint32_t lights = index / emitters_.samples_a_map(pixels());
-    keeps_maps_ = index > 0 && lights == lights_;
-    if (lights == lights_) return;
+    if (lights == lights_) return emitters_.keep_maps(index > 0);
     lights_ = lights;
     lights_changed();
 }
@@ -80,7 +79,7 @@ void Picture::sample(std::uint32_t index) {
 View Picture::begin(const Camera& camera, const WaitList& wait) {
     const View view = make_view(camera, scene_.frame(), options_.width, options_.height);
     record_.begin(wait);
-    if (!keeps_maps_) emitters_.draw(record_, gbuffer_, raster_);
+    emitters_.draw(record_, gbuffer_, raster_);
     draw_gbuffer(record_, gbuffer_, scene_, view, view_, raster_, seen_, RESOLVE_TRIANGLE);
     return view;
 }

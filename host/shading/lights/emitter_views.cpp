@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shading/lights/emitter_views.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "shading/lights/replicate.hpp"

@@ -49,7 +49,12 @@ public:
 
     // Draws the shadow maps; without EmitterOptions::shadows there are none. lists: as for draw();
     // pixels and kind of it are not used.
-    void draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists) const;
+    void draw(Recorder& record, const GBufferPasses& gbuffer, RasterBuffers lists);
+
+    // The next draw() leaves the maps as they are, unless the lights are read again before it or
+    // views or buffers are others than those that were drawn: for samples of a picture, between
+    // which nothing moves.
+    void keep_maps(bool keep) { keeps_ = keep; }
 
     // Which Halton points of each spot's cone its VPLs are placed at. mask: of most_candidates
     // bits; accepted: [vpls] uint.
@@ -72,6 +77,8 @@ private:
     EmitterSet set_;
     EmitterCapacity capacity_;  // what the buffers have room for
     EmitterBuffers buffers_;
+    std::vector<View> drawn_;  // whose maps are in the buffers
+    bool keeps_ = false;
 };
 
 }  // namespace clgi

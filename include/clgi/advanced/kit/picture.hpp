@@ -48,8 +48,8 @@ public:
 
     // The next picture is sample `index` of one: from time to time by other points of emissive
     // surfaces, and by shadow maps that lie differently within their texels
-    // (EmitterOptions::sample). In between it keeps the maps of the picture before, of the same
-    // geometry and lights.
+    // (EmitterOptions::sample). In between it keeps the maps of the picture before, of geometry as
+    // it was then: call lights_changed() after it has moved.
     void sample(std::uint32_t index);
 
     // Enqueues shadow maps and the G-buffer of a picture that begins after `wait`. The solver then
@@ -106,7 +106,6 @@ private:
     cl::Buffer view_, irradiance_, radiance_, bad_;
     std::size_t bytes_ = 0;
     std::uint32_t lights_ = 0;  // replicates after the first
-    bool keeps_maps_ = false;
 };
 
 }  // namespace clgi
