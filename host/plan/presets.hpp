@@ -16,6 +16,7 @@ enum class SceneKind {
     open,       // much light leaves
     indirect,   // most of what the camera sees is lit by other surfaces
     skylit,     // the sky lights it, by hemicubes
+    fine_sky,   // the same of tens of thousands of triangles
 };
 // Root mean square of indirect light over the mean of the picture, by the probe; 1 without one.
 double indirect_share(const Plan& plan);
@@ -28,7 +29,7 @@ struct Preset {
     int places;      // leaves requested, or VPLs
     // By kind: error of indirect light, over its share (expected_error.hpp); of transfer, of the
     // whole picture. Measured; 0: was not.
-    double error[6];
+    double error[7];
 };
 
 // By method, each from quick to accurate.

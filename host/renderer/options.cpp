@@ -273,6 +273,10 @@ std::vector<OptionRow> of_records() {
         number(row("face", "N", of_irradiance_cache,
                    "Pixels of the face of a record's hemicube, a multiple of 8", 8, 256),
                [](O& o) -> Number { return &o.cache.face; }),
+        number(
+            row("sky-lights", "N", of_irradiance_cache,
+                "Directions of the sky, with shadow maps, in each sample but the first", 0, 4096),
+            [](O& o) -> Number { return &o.cache.sky_lights; }),
         number(row("spots", "N", of_irradiance_cache,
                    "VPLs in small places that lights light, as through a hole; 0: none", 0, 1024),
                [](O& o) -> Number { return &o.cache.spots; }),

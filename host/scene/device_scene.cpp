@@ -17,6 +17,7 @@
 #include "scene/locality.hpp"
 #include "scene/luminance.hpp"
 #include "scene/median_cut.hpp"
+#include "scene/sky_cells.hpp"
 #include "scene/texture_pool.hpp"
 #include "scene/validate.hpp"
 
@@ -111,10 +112,24 @@ Reflectance reflectance(const Material& material) {
 }
 
 // Copies of a scene share it until their environment is turned.
+namespace {
+
+Light as_light(const SkyLight& from) {
+    Light out;
+    out.kind = Light::Kind::directional;
+    out.direction = glm::vec3(-from.toward);
+    out.intensity = glm::vec3(from.lux);
+    return out;
+}
+
+}  // namespace
+
 struct DeviceScene::Cut {
     std::mutex mutex;
     int count = 0;
     std::vector<Light> lights;
+    std::shared_ptr<const SkyWeights> weights;  // of the cells
+    std::optional<SkyCells> cells;
 };
 
 DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene) {
@@ -239,15 +254,25 @@ std::vector<Light> DeviceScene::environment_lights(int count) const {
     const std::lock_guard lock(cut_->mutex);
     if (cut_->count == count) return cut_->lights;
     std::vector<Light> lights;
-    for (const CutLight& part : median_cut(*environment_, count)) {
-        Light& light = lights.emplace_back();
-        light.kind = Light::Kind::directional;
-        light.direction = glm::vec3(-part.toward);
-        light.intensity = glm::vec3(part.lux);
-    }
+    for (const SkyLight& part : median_cut(*environment_, count)) lights.push_back(as_light(part));
     cut_->lights = std::move(lights);
     cut_->count = count;
     return cut_->lights;
+}
+
+std::vector<Light> DeviceScene::drawn_environment_lights(
+    const std::vector<glm::dvec2>& places, const std::shared_ptr<const SkyWeights>& weights) const {
+    if (!environment_ || places.empty()) return {};
+    const std::lock_guard lock(cut_->mutex);
+    if (!cut_->cells || cut_->weights != weights) {
+        cut_->cells.emplace(*environment_, weights ? *weights : SkyWeights());
+        cut_->weights = weights;
+    }
+    std::vector<Light> lights;
+    for (const glm::dvec2& place : places) lights.push_back(as_light(cut_->cells->drawn(place)));
+    const float share = 1.0f / static_cast<float>(places.size());
+    for (Light& light : lights) light.intensity *= share;
+    return lights;
 }
 
 void DeviceScene::turn_environment(double angle) {

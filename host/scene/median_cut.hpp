@@ -12,16 +12,12 @@
 #include <clgi/scene.hpp>
 #include <vector>
 
-namespace clgi {
+#include "scene/sky_cells.hpp"
 
-// Of one part of the picture.
-struct CutLight {
-    glm::dvec3 toward;  // unit, to where the light comes from
-    glm::dvec3 lux;     // on a plane that faces it
-};
+namespace clgi {
 
 // At most `count` lights, fewer where the picture has fewer texels that shine; together as bright
 // as the environment, to the rounding of doubles. The same environment gives the same lights.
-std::vector<CutLight> median_cut(const Environment& environment, int count);
+std::vector<SkyLight> median_cut(const Environment& environment, int count);
 
 }  // namespace clgi

@@ -38,6 +38,13 @@ struct EmissiveTriangle {
     glm::vec3 radiance = glm::vec3(0.0f);  // exposed; mean over the triangle's texels
 };
 
+// How much the light of each part of an environment counts: [rows][columns], above 0, over the
+// whole of its picture.
+struct SkyWeights {
+    int columns = 0, rows = 0;
+    std::vector<float> values;
+};
+
 // Copies share their buffers; SceneMover moves the geometry of all of them, but lists what emits
 // for one.
 class CLGI_API DeviceScene {
@@ -56,6 +63,12 @@ public:
     // Computed at the first call and kept until another count is given. May be called by several
     // threads.
     std::vector<Light> environment_lights(int count) const;
+    // One directional light for each place of [0,1)², drawn from the environment by its luminance,
+    // where this counts by `weights` (null: everywhere alike): the mean over places is the light of
+    // the environment. Kept and called as above.
+    std::vector<Light> drawn_environment_lights(
+        const std::vector<glm::dvec2>& places,
+        const std::shared_ptr<const SkyWeights>& weights = nullptr) const;
     bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
     bool needs_textures() const {  // some surface has a texture, a mask or is blended
         return has_masks_ || (info_.flags & SCENE_HAS_TEXTURES) != 0;

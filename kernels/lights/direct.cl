@@ -48,6 +48,7 @@ kernel void lights_direct(
     }
     for (int c = 0; c < 3; ++c) {
         Row row = irradiance_row(irradiance, c, stride);
+        if (params.add == DIRECT_TAKE) sum[c] = packet_zero - sum[c];
         if (params.add) sum[c] += row_load(row, at);
         row_store(sum[c], row, at);
     }

@@ -70,6 +70,17 @@ public:
                 out[scene_.triangle_order()[t]][c] = planes[c * stride_ + t] * exposure;
         return out;
     }
+    // What is left of the light if twice of it is put there and once of it taken away.
+    std::vector<float> twice_less_once() {
+        render().wait();
+        const auto emitters = static_cast<std::uint32_t>(emitters_.set().emitters.size());
+        for (const std::uint32_t add : {DIRECT_ADD, DIRECT_TAKE}) {
+            const DirectParams params{stride_, count_, emitters, 1.0f, 1, add, 0, 0};
+            lights_.direct(queue_, params, emitters_.buffers(), points_.planes, irradiance_,
+                           non_finite_);
+        }
+        return test::download<float>(irradiance_, IRRADIANCE_PLANES * stride_);
+    }
     std::uint32_t non_finite() const { return record_.read_word(non_finite_); }
     const Recorder& record() const { return record_; }
 
@@ -85,6 +96,26 @@ private:
     GBuffer points_{{}, {}, stride_, Storage::full};
     cl::Buffer samples_, irradiance_, non_finite_;
 };
+
+TEST(Centroids, CanBePutAndTaken) {
+    Scene world = test::patchwork(20, 91, false);
+    world.lights = {test::point_light({-0.4, 0.3, 0.5}, 6.0f)};
+    world.lights[0].intensity *= glm::vec3(0.1f, 0.7f, 1.0f);
+    const DeviceScene scene = test::on_device(world);
+    CentroidSolver lit(test::device().queue, scene, {});
+    const std::vector<glm::vec3> once = lit.irradiance();
+    const std::vector<float> left = lit.twice_less_once();
+    const std::size_t stride = left.size() / IRRADIANCE_PLANES;
+    float most = 0.0f;
+    for (std::size_t t = 0; t < once.size(); ++t)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float wanted = once[scene.triangle_order()[t]][static_cast<int>(c)];
+            const float found = left[c * stride + t] * static_cast<float>(scene.frame().exposure);
+            EXPECT_NEAR(found, wanted, 1e-5f * wanted);
+            most = std::max(most, wanted);
+        }
+    EXPECT_GT(most, 0.0f);
+}
 
 // The path tracer has the same light at the same places, in every channel; but for places on the
 // edge of a shadow, where a shadow map's texel decides.

@@ -31,15 +31,15 @@ Environment sunny_sky() {
         64, 32, [](int row, int column) { return row == 9 && column == 40 ? 1e5f : 1.0f; });
 }
 
-glm::dvec3 sum_of(const std::vector<CutLight>& lights) {
+glm::dvec3 sum_of(const std::vector<SkyLight>& lights) {
     glm::dvec3 sum(0.0);
-    for (const CutLight& light : lights) sum += light.lux;
+    for (const SkyLight& light : lights) sum += light.lux;
     return sum;
 }
 
-double lux_on(const std::vector<CutLight>& lights, const glm::dvec3& normal) {
+double lux_on(const std::vector<SkyLight>& lights, const glm::dvec3& normal) {
     double sum = 0.0;
-    for (const CutLight& light : lights)
+    for (const SkyLight& light : lights)
         sum += light.lux.x * std::max(glm::dot(light.toward, normal), 0.0);
     return sum;
 }
@@ -64,7 +64,7 @@ TEST(MedianCut, KeepsAllLight) {
             EXPECT_EQ(lights.size(), static_cast<std::size_t>(count));
             const glm::dvec3 sum = sum_of(lights);
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], wanted[c], 1e-12 * wanted[c]) << count;
-            for (const CutLight& light : lights) EXPECT_NEAR(glm::length(light.toward), 1.0, 1e-12);
+            for (const SkyLight& light : lights) EXPECT_NEAR(glm::length(light.toward), 1.0, 1e-12);
         }
     }
 }
@@ -75,7 +75,7 @@ TEST(MedianCut, CutsInEqualShares) {
     for (const Environment& sky : {test::even_sky(glm::vec3(1.0f)), rough_sky(400, 200)}) {
         const double whole = luminance(environment_fluence(sky));
         for (const auto& [count, off] : {std::pair(4, 0.006), {16, 0.025}, {64, 0.055}})
-            for (const CutLight& light : median_cut(sky, count))
+            for (const SkyLight& light : median_cut(sky, count))
                 EXPECT_NEAR(luminance(light.lux) * count / whole, 1.0, off) << count;
     }
 }
@@ -88,7 +88,7 @@ TEST(MedianCut, PutsALightOnTheSun) {
         const glm::dvec3 toward = glm::normalize(test::vector_of(sun, double{rotation}));
         const auto lights = median_cut(sky, 16);
         double near = 0.0;
-        for (const CutLight& light : lights)
+        for (const SkyLight& light : lights)
             // Half a texel is 2.8 degrees.
             if (glm::dot(light.toward, toward) > std::cos(2.8 * pi / 180)) near += light.lux.x;
         EXPECT_GE(near, 1e5 * test::solid_angle(sun) * 0.999);

@@ -203,6 +203,81 @@ TEST(Emitters, ShiftMapsWithinTheirTexels) {
     }
 }
 
+// Directions of later samples are drawn anew: the mean of what they bring to a plane is that of the
+// environment, pi/2 + pi/3 n.y.
+TEST(Emitters, OfLaterSamplesAreDrawnFromTheEnvironment) {
+    Scene world = scene_of_all();
+    world.environment = test::gradient_sky();
+    world.environment->factor = {1.0f, 2.0f, 4.0f};
+    const DeviceScene scene = test::on_device(world);
+    EmitterOptions options;
+    options.environment_alone = true;
+    options.environment_lights = 6;
+    const EmitterSet first = make_emitters(scene, options);
+    const std::vector<Light> centres = scene.environment_lights(6);
+    ASSERT_EQ(first.emitters.size(), 6u);
+    EXPECT_TRUE(first.soft);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_EQ(
+            glm::vec3(first.emitters[i].axis.x, first.emitters[i].axis.y, first.emitters[i].axis.z),
+            glm::normalize(centres[i].direction));
+    auto weights = std::make_shared<SkyWeights>();
+    *weights = {1, 2, {1.0f, 0.2f}};
+    for (const bool weighted : {false, true}) {
+        options.sky_weights = weighted ? weights : nullptr;
+        for (const std::uint32_t replicate : {0u, 3u}) {
+            options.replicate = replicate;
+            const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
+            glm::dvec3 sum(0.0);
+            constexpr std::uint32_t samples = 400;
+            for (options.sample = 1; options.sample <= samples; ++options.sample) {
+                const EmitterSet set = make_emitters(scene, options);
+                ASSERT_EQ(set.emitters.size(), 6u);
+                for (const Emitter& one : set.emitters) {
+                    const glm::dvec3 toward(-one.axis.x, -one.axis.y, -one.axis.z);
+                    const glm::dvec3 lux(one.intensity.x, one.intensity.y, one.intensity.z);
+                    sum += scene.frame().exposure / samples *
+                           std::max(glm::dot(toward, normal), 0.0) * lux;
+                }
+            }
+            const double wanted = pi / 2 + pi / 3 * normal.y;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(sum[c], (1 << c) * wanted, 0.01 * (1 << c) * wanted) << weighted;
+        }
+    }
+    // Other weights, another replicate and another sample have other directions, all of them.
+    const auto axes = [&](std::uint32_t sample, std::uint32_t replicate, bool weighted) {
+        options.sample = sample;
+        options.replicate = replicate;
+        options.sky_weights = weighted ? weights : nullptr;
+        std::vector<float> out;
+        for (const Emitter& one : make_emitters(scene, options).emitters) out.push_back(one.axis.x);
+        std::sort(out.begin(), out.end());
+        return out;
+    };
+    const std::vector<float> usual = axes(1, 0, false);
+    EXPECT_EQ(axes(1, 0, false), usual);
+    for (const auto& other : {axes(1, 3, false), axes(2, 0, false), axes(1, 0, true)}) {
+        std::vector<float> both;
+        std::set_intersection(usual.begin(), usual.end(), other.begin(), other.end(),
+                              std::back_inserter(both));
+        EXPECT_TRUE(both.empty());
+    }
+}
+
+// A spot alone has sharp shadows; emissive surfaces and the environment have soft ones.
+TEST(Emitters, KnowWhetherTheirShadowsAreSoft) {
+    Scene world = scene_of_all();
+    const auto soft = [&](int surfaces, int directions) {
+        return make_emitters(test::on_device(world),
+                             {.area_samples = surfaces, .environment_lights = directions})
+            .soft;
+    };
+    EXPECT_FALSE(soft(0, 0));
+    EXPECT_TRUE(soft(3, 0));
+    EXPECT_TRUE(soft(0, 3));
+}
+
 TEST(Emitters, OfAnEnvironmentAreCutAnewForAnotherCount) {
     const DeviceScene scene = test::on_device(scene_of_all());
     const std::vector<Light> four = scene.environment_lights(4);

@@ -22,6 +22,7 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     need_range(cache_owner, "refined", options.refined, 0, 20000);
     need_range(cache_owner, "face", options.face, 8, 256);
     need_range(cache_owner, "bounces", options.bounces, 0, 1000);
+    need_range(cache_owner, "sky_lights", options.sky_lights, 0, 4096);
     need_range(cache_owner, "spots", options.spots, 0, 1024);
     if (options.face % 8 != 0)
         throw Error(std::string(cache_owner) + ": face is " + std::to_string(options.face) +
@@ -74,7 +75,9 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
       options(checked(wanted, of)),
       picture(programs, queue, of, options.picture, cache_owner),
       passes(programs, options.picture.build),
-      cubes(programs, options.picture.build) {
+      cubes(programs, options.picture.build),
+      sky_lights(of, sky_options(options, 0), Pixels::depth),
+      lights(programs, options.picture.build) {
     capacity = most_records(options);
     stride = plane_stride(capacity);
     sky = coarse_sky(scene.environment());
@@ -88,6 +91,10 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     if (options.met > 0) passes.build({"pick", "weigh"});
     if (casts_spots()) passes.build({"mark", "tally", "spots", "shine"});
     cubes.build({"cubes", "raster_views"});
+    if (!corrects()) return;
+    sky_lights.build(picture.passes());
+    passes.build({"sight", "gauge", "correct"});
+    lights.build({"direct"});
 }
 
 void IrradianceCache::State::add_to(BufferTable& table) {
@@ -110,6 +117,18 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     table.add(b.sky, "the sky", "the environment",
               std::max<std::size_t>(16, sky.texels.size() * word));
     add_spots(table);
+    if (!corrects()) return;
+    sky_lights.add_to(table);
+    const std::size_t of_picture = picture.stride() * word;
+    const auto blocks = [](int pixels) {
+        return (static_cast<std::size_t>(pixels) + CACHE_BLOCK - 1) / CACHE_BLOCK;
+    };
+    table.add(sight, "the sky", "the environment",
+              static_cast<std::size_t>(sky.width * sky.height) * word);
+    table.add(found_light, "corrections", "width or height", 3 * of_picture);
+    table.add(corrections, "corrections", "width or height", 4 * of_picture);
+    table.add(shares, "corrections", "width or height",
+              blocks(options.picture.width) * blocks(options.picture.height) * word);
 }
 
 CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count) const {
@@ -156,6 +175,7 @@ void IrradianceCache::lights_changed() {
 cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
     State& s = *state_;
     const View view = s.picture.begin(camera, wait);
+    s.forget_corrections();
     s.choose(view);
     if (s.records.empty()) {
         s.picture.record().fill(s.picture.irradiance(), 0);
@@ -174,12 +194,18 @@ cl::Event IrradianceCache::render_again(const Camera& camera, const WaitList& wa
     State& s = *state_;
     if (s.shown.empty()) throw Error("irradiance-cache: render_again(): there is no picture yet");
     const View view = s.picture.begin(camera, wait);
-    if (!s.records.empty()) s.show();
+    if (!s.records.empty()) {
+        s.show();
+        if (s.corrects()) s.correct(s.sample);
+    }
     s.picture.combine(view);
     return s.picture.end(view);
 }
 
-void IrradianceCache::sample(std::uint32_t index) { state_->picture.sample(index); }
+void IrradianceCache::sample(std::uint32_t index) {
+    state_->picture.sample(index);
+    state_->sample = index;
+}
 
 IrradianceCacheStatus IrradianceCache::status() const {
     IrradianceCacheStatus out = state_->found;
@@ -189,6 +215,6 @@ IrradianceCacheStatus IrradianceCache::status() const {
 
 const Picture& IrradianceCache::picture() const { return state_->picture; }
 const IrradianceCacheOptions& IrradianceCache::options() const { return state_->options; }
-std::size_t IrradianceCache::bytes() const { return state_->picture.bytes(); }
+std::size_t IrradianceCache::bytes() const { return state_->picture.bytes() + state_->grown; }
 
 }  // namespace clgi

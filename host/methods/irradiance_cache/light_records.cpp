@@ -106,9 +106,12 @@ bool IrradianceCache::State::rests() {
     return change <= rest * most;
 }
 
-void IrradianceCache::State::show() {
+void IrradianceCache::State::show() { show(b.light, picture.irradiance()); }
+
+void IrradianceCache::State::show(const cl::Buffer& of, const cl::Buffer& irradiance) {
     const bool refined = found.refined > 0;
     CacheBuffers all = b;
+    all.light = of;
     if (refined) {
         all.nodes = all_nodes;
         all.lists = all_lists;
@@ -117,7 +120,7 @@ void IrradianceCache::State::show() {
                                  0};
     picture.record()("cache.show", picture.pixels(), [&](const WaitList& wait) {
         return passes.show(picture.record().queue(), params, refined ? all_tree : tree, all,
-                           picture.gbuffer(), picture.irradiance(), doubt, wait);
+                           picture.gbuffer(), irradiance, doubt, wait);
     });
 }
 

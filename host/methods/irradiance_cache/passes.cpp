@@ -49,12 +49,27 @@ void need_spots(const PassKernel& pass, const SpotParams& params, std::uint32_t 
     need(pass, "wanted", b.wanted, SPOT_TILES_A_VIEW * word * emitters.view_count);
 }
 
+// Returns how many blocks there are.
+std::size_t need_pixels(const PassKernel& pass, const CacheCorrectParams& params,
+                        const cl::Buffer& sums, const cl::Buffer& shares) {
+    need_range(pass.name.c_str(), "count", params.count, 1u, 1u << 30);
+    need_stride(pass, "stride", params.stride, std::size_t{params.width} * params.height);
+    const auto blocks = [](std::uint32_t pixels) {
+        return (std::size_t{pixels} + CACHE_BLOCK - 1) / CACHE_BLOCK;
+    };
+    const std::size_t count = blocks(params.width) * blocks(params.height);
+    need(pass, "sums", sums, 4 * word * params.stride);
+    need(pass, "shares", shares, word * count);
+    return count;
+}
+
 }  // namespace
 
 CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) {
     const BuildOptions whole = full(options);
     const std::vector<std::string> records = {"pick", "link", "bounce", "weigh"},
-                                   spots = {"mark", "tally", "spots", "shine"};
+                                   spots = {"mark", "tally", "spots", "shine"},
+                                   sky = {"sight", "gauge", "correct"};
     const auto few = [&](const char* pass, const std::vector<std::string>& together) {
         return in_small_groups(programs.kernel("cache", pass, whole, "", together),
                                programs.device(), options);
@@ -71,10 +86,15 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     tally_ = few("tally", spots);
     spots_ = few("spots", spots);
     shine_ = few("shine", spots);
+    sight_ = few("sight", sky);
+    gauge_ = few("gauge", sky);
+    correct_ = programs.kernel("cache", "correct", whole, "", sky);
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
-    build_named({pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_}, passes);
+    build_named({pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
+                 gauge_, correct_},
+                passes);
 }
 
 cl::Event CachePasses::pick(const cl::CommandQueue& queue, const CacheParams& params,
@@ -199,6 +219,33 @@ cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams
     need(show_, "doubt", doubt, word * params.stride);
     return launch(show_, queue, params.point_count, wait, params, tree, b.nodes, b.lists, b.planes,
                   b.light, points.planes, irradiance, doubt);
+}
+
+cl::Event CachePasses::sight(const cl::CommandQueue& queue, const CacheParams& params,
+                             const CacheBuffers& b, const cl::Buffer& sight,
+                             const WaitList& wait) const {
+    need_records(sight_, params, b);
+    need(sight_, "sight", sight,
+         word * std::max<std::size_t>(1, std::size_t{params.sky_width} * params.sky_height));
+    return launch(sight_, queue, std::size_t{5} * (params.sky_width > 0 ? params.count : 0), wait,
+                  params, b.views, b.visibility, sight);
+}
+
+cl::Event CachePasses::gauge(const cl::CommandQueue& queue, const CacheCorrectParams& params,
+                             const cl::Buffer& found, const cl::Buffer& sums,
+                             const cl::Buffer& shares, const WaitList& wait) const {
+    const std::size_t blocks = need_pixels(gauge_, params, sums, shares);
+    need(gauge_, "found", found, 3 * word * params.stride);
+    return launch(gauge_, queue, blocks, wait, params, found, sums, shares);
+}
+
+cl::Event CachePasses::correct(const cl::CommandQueue& queue, const CacheCorrectParams& params,
+                               const cl::Buffer& sums, const cl::Buffer& shares,
+                               const cl::Buffer& irradiance, const WaitList& wait) const {
+    need_pixels(correct_, params, sums, shares);
+    need(correct_, "irradiance", irradiance, irradiance_bytes(correct_.storage, params.stride));
+    return launch(correct_, queue, std::size_t{params.width} * params.height, wait, params, sums,
+                  shares, irradiance);
 }
 
 }  // namespace clgi

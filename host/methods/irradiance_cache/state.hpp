@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <clgi/advanced/kit/emitters.hpp>
 #include <clgi/irradiance_cache.hpp>
 #include <clgi/passes/cache.hpp>
+#include <clgi/passes/lights.hpp>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "methods/irradiance_cache/coarse_sky.hpp"
@@ -17,6 +20,9 @@ constexpr std::size_t scattered = 64;  // VPLs that others light, of each reflec
 
 // VPLs in small lit places, with those that others light; 0 without.
 std::size_t most_vpls(const IrradianceCacheOptions& options);
+
+// Of the directions of the sky that light the pixels of a sample.
+EmitterOptions sky_options(const IrradianceCacheOptions& options, std::uint32_t sample);
 
 // Of lights' views and of finer hemicubes, drawn to find such places.
 std::size_t spot_pixels(const EmitterOptions& emitters);
@@ -62,6 +68,13 @@ struct IrradianceCache::State {
     // Whether the last step changed little.
     bool rests();
     void show();
+    // Where the scene has a sky and options ask for its directions: light of the sky between the
+    // records, by shadow maps of `sample`, other ones than those of samples before it.
+    void correct(std::uint32_t sample);
+    bool corrects() const { return sky_lights.casts_shadows(); }
+    void forget_corrections();
+    std::shared_ptr<const SkyWeights> weigh_sky();
+    void show(const cl::Buffer& of, const cl::Buffer& irradiance);
     // Rows of the buffers for VPLs in small lit places; finds these places, as the records see
     // them.
     void add_spots(BufferTable& table);
@@ -90,7 +103,13 @@ struct IrradianceCache::State {
     std::uint32_t spot_stride = 0;  // of the planes of VPLs
     CacheTree tree{}, all_tree{};   // of those that light goes between, of these and refined ones
     CoarseSky sky;
-    cl::Buffer all_nodes, all_lists;  // of all_tree
+    Emitters sky_lights;
+    LightPasses lights;
+    cl::Buffer sight, found_light, corrections, shares;
+    std::shared_ptr<const SkyWeights> sky_weights;  // of the records of this picture
+    std::size_t grown = 0;                          // bytes, of shadow maps
+    std::uint32_t sample = 0, corrected = 0;        // samples, of which so many have been corrected
+    cl::Buffer all_nodes, all_lists;                // of all_tree
     cl::Buffer chosen, places, worth, nearest, doubt;
     std::vector<CacheRecord> records;
     std::vector<CacheRecord> shown;  // what each pixel shows

@@ -110,10 +110,26 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
     return out;
 }
 
-// Directional lights that stand for the environment.
+// Directional lights that stand for the environment: in later samples and replicates the next ones
+// of a Halton sequence of places.
+std::vector<Light> sky_lights(const DeviceScene& scene, const EmitterOptions& options) {
+    const auto count = static_cast<std::uint32_t>(options.environment_lights);
+    if (seed_of(options) == 0) return scene.environment_lights(options.environment_lights);
+    const auto place = [&](std::uint32_t index, std::uint32_t base, std::uint32_t dimension) {
+        return double{shifted_radical_inverse(
+            index, base, replicate_shift(options.replicate + 1, ShiftUse::environment, dimension))};
+    };
+    std::vector<glm::dvec2> places;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t index = options.sample * count + k;
+        places.emplace_back(place(index, 2, 0), place(index, 3, 1));
+    }
+    return scene.drawn_environment_lights(places, options.sky_weights);
+}
+
 std::vector<Source> environment_lights(const DeviceScene& scene, const EmitterOptions& options) {
     std::vector<Source> out;
-    for (const Light& light : scene.environment_lights(options.environment_lights)) {
+    for (const Light& light : sky_lights(scene, options)) {
         out.push_back(directional(light, scene.frame(), options));
         out.back().group = environment;
     }
@@ -124,7 +140,7 @@ std::vector<Source> environment_lights(const DeviceScene& scene, const EmitterOp
 std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions& options) {
     const std::vector<EmissiveTriangle>& triangles = scene.emissive();
     std::vector<Source> out;
-    if (triangles.empty() || options.area_samples < 1) return out;
+    if (triangles.empty() || options.area_samples < 1 || options.environment_alone) return out;
     std::vector<double> cumulative;
     double total = 0.0;
     const SceneFrame& frame = scene.frame();
@@ -281,6 +297,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     std::vector<Source> sources;
     if (scene.info().triangle_count > 0) {
         for (const Light& light : scene.lights()) {
+            if (options.environment_alone) break;
             if (light.kind != Light::Kind::directional)
                 sources.push_back(spot_or_point(light, scene.frame(), options));
             else if (options.directional)
@@ -302,6 +319,8 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
             "area_samples or environment_lights, or smaller shadow_size and face_size needed");
     std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
     if (sources.empty()) return out;
+    out.soft = std::any_of(sources.begin(), sources.end(),
+                           [](const Source& source) { return source.group != lamps; });
     const std::vector<std::uint32_t> shares = divide(sources, vpls);
     const std::array<double, group_count> factor = taken_over(sources, shares);
     // All directions of the environment spread their lights over one disc together, and all samples

@@ -6,7 +6,14 @@
 
 namespace clgi {
 
-enum class ShiftUse : std::uint32_t { light = 0, area = 4, image = 6, stratum = 8, texel = 10 };
+enum class ShiftUse : std::uint32_t {
+    light = 0,
+    area = 4,
+    image = 6,
+    stratum = 8,
+    texel = 10,
+    environment = 12
+};
 
 // The shift of one dimension of one use in a replicate, [0,1): even, and independent of all
 // others. Replicate 0 is the sequence itself: no shift.

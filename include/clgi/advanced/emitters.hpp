@@ -6,23 +6,26 @@
 #include <clgi/shared/lights.h>
 #include <clgi/advanced/export.hpp>
 #include <clgi/device_scene.hpp>
+#include <memory>
 #include <vector>
 
 namespace clgi {
 
 struct EmitterOptions {
-    int vpls = 300;               // virtual point lights (VPLs), of all emitters together
-    int shadow_size = 512;        // pixels per side of a spot or directional light's map
-    int face_size = 256;          // pixels per side of a cube or hemicube face
-    int area_samples = 16;        // sample points on all emissive surfaces together
-    bool focused = false;         // of surfaces within the scene's focus alone
-    int environment_lights = 16;  // directional lights that approximate it
+    int vpls = 300;         // virtual point lights (VPLs), of all emitters together
+    int shadow_size = 512;  // pixels per side of a spot or directional light's map
+    int face_size = 256;    // pixels per side of a cube or hemicube face
+    int area_samples = 16;  // sample points on all emissive surfaces together
+    bool focused = false;   // of surfaces within the scene's focus alone
+    // Directional lights that approximate the environment [Debevec05]; in replicates and later
+    // samples as many that are drawn from it.
+    int environment_lights = 16;
     // 0: the Halton points themselves. Other values: randomised shifts of them (Cranley and
     // Patterson). The differences between replicates estimate the error of one.
     std::uint32_t replicate = 0;
-    // 0: as `replicate` says. Other values: later samples of a picture, with other shifts, a quarter
-    // of the points of emissive surfaces, as there are many samples, and shadow maps of spot and
-    // directional lights that lie differently within their texels.
+    // 0: as `replicate` says. Other values: later samples of a picture, with other shifts, a
+    // quarter of the points of emissive surfaces, as there are many samples, and shadow maps of
+    // spot and directional lights that lie differently within their texels.
     std::uint32_t sample = 0;
     // Shifts VPLs alone: of samples that share the rest.
     std::uint32_t vpl_sample = 0;
@@ -31,6 +34,10 @@ struct EmitterOptions {
     // counts as 0.
     bool shadows = true;
     bool directional = true;  // false: the scene's directional lights are left out
+    // true: lights are directions of the environment alone, none of the scene's
+    bool environment_alone = false;
+    // By which directions of the environment are drawn; null: by luminance alone.
+    std::shared_ptr<const SkyWeights> sky_weights;
 };
 
 // Halton candidates that are tried for a spot at most; a narrower cone is mapped directly.
@@ -56,6 +63,7 @@ struct EmitterSet {
     std::size_t pixels = 0;                 // of all views
     std::vector<std::uint32_t> candidates;  // Halton candidates to try, by emitter; spots only
     std::size_t vpl_count = 0;
+    bool soft = false;  // some stand for parts of a larger light: surfaces or the environment
     EmitterCapacity capacity;
 };
 

@@ -98,11 +98,29 @@ public:
                    const cl::Buffer& irradiance, const cl::Buffer& doubt,
                    const WaitList& wait = {}) const;
 
+    // Adds to sight [sky_height][sky_width] uint how much of the sky's texels the hemicubes of
+    // params.count records see: 2^30 where these see nothing but sky.
+    cl::Event sight(const cl::CommandQueue& queue, const CacheParams& params,
+                    const CacheBuffers& buffers, const cl::Buffer& sight,
+                    const WaitList& wait = {}) const;
+
+    // Adds a sample's corrections, found [IRRADIANCE_PLANES][stride] float, to sums [4][stride],
+    // and finds the share of each block of CACHE_BLOCK x CACHE_BLOCK pixels, row by row.
+    cl::Event gauge(const cl::CommandQueue& queue, const CacheCorrectParams& params,
+                    const cl::Buffer& found, const cl::Buffer& sums, const cl::Buffer& shares,
+                    const WaitList& wait = {}) const;
+
+    // By sums and shares corrects irradiance [IRRADIANCE_PLANES][stride] of all pixels.
+    cl::Event correct(const cl::CommandQueue& queue, const CacheCorrectParams& params,
+                      const cl::Buffer& sums, const cl::Buffer& shares,
+                      const cl::Buffer& irradiance, const WaitList& wait = {}) const;
+
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_;
+    PassKernel pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_, gauge_,
+        correct_;
     bool groups_;  // a record by a group of work-items
 };
 

@@ -94,6 +94,16 @@ typedef struct {
     uint pad_;
 } CacheBounceParams;
 
+// A picture whose light of the sky is corrected, in blocks of so many pixels a side.
+enum { CACHE_BLOCK = 8 };
+
+typedef struct {
+    uint width;   // pixels
+    uint height;
+    uint stride;  // of the planes of pixels
+    uint count;   // of corrections so far, at least 1
+} CacheCorrectParams;
+
 typedef struct {
     uint point_count;
     uint stride;  // of the G-buffer, the irradiance and the doubt

@@ -78,10 +78,12 @@ typedef struct {
     uint emitter_count;
     float texel_bias;  // shadow bias, in texels of the shadow map; 1
     uint depth_words;  // words of a shadow map's pixel: 1 for depth alone, 2 for visibility
-    uint add;          // 1: to what is there; 0: in its place
+    uint add;          // 0: in the place of what is there; DIRECT_ADD, DIRECT_TAKE
     uint pad0_;
     uint pad1_;
 } DirectParams;
+
+enum { DIRECT_ADD = 1, DIRECT_TAKE = 2 };  // to what is there, from it
 
 CLGI_SHARED_END
 

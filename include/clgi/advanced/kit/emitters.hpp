@@ -62,8 +62,9 @@ public:
                 const cl::Buffer& accepted) const;
 
     // How many samples of a picture of so many pixels have the same shadow maps: few where these
-    // stand for points of emissive surfaces, which soft shadows need many of, or hold the dither of
-    // blended ones; otherwise so many that the maps take no longer than the samples.
+    // stand for points of emissive surfaces or parts of the environment, which soft shadows need
+    // many of, or hold the dither of blended surfaces; otherwise so many that the maps take no
+    // longer than the samples.
     std::uint32_t samples_a_map(std::size_t pixels) const;
 
     // Whether some light of the scene has a shadow map, also one that is dark now.

@@ -1,0 +1,121 @@
+// Light of the sky between records. Hemicubes know how much of it reaches a record, but not where
+// between two records its shadows end. Directions of the sky with shadow maps know that of every
+// pixel, but many are needed. So each later sample of a picture takes a few of them, drawn where
+// the records see the sky, and finds what they bring to its pixels beyond what they would by way of
+// the records: the mean of that over samples is what interpolation leaves out.
+//                              [derived: control variates; Debevec05: parts of the sky]
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <clgi/advanced/planes.hpp>
+#include <cmath>
+
+#include "methods/irradiance_cache/state.hpp"
+#include "scene/environment.hpp"
+
+namespace clgi {
+namespace {
+
+constexpr int most_map = 256;  // pixels a side: a direction is one of many
+constexpr int around = 1;      // texels by which what records see is spread, as they are few
+// Of the most that is seen of any direction, how much counts as seen of those that no record sees.
+constexpr double unseen = 0.002;
+
+}  // namespace
+
+EmitterOptions sky_options(const IrradianceCacheOptions& options, std::uint32_t sample) {
+    EmitterOptions out = options.picture.emitters;
+    out.environment_alone = true;
+    out.shadows = true;
+    out.environment_lights = options.sky_lights;
+    out.shadow_size = std::min(out.shadow_size, most_map);
+    out.vpls = 0;
+    out.sample = sample;
+    return out;
+}
+
+// Whether light of a direction reaches a pixel is yes or no, so the variance of a direction drawn
+// with probability p is as how much of it is seen, over p: least where p is as the root.
+std::shared_ptr<const SkyWeights> IrradianceCache::State::weigh_sky() {
+    Recorder& record = picture.record();
+    record.fill(sight, 0);
+    const CacheParams of = params(0, found.seen);
+    record("cache.sight", 5 * found.seen,
+           [&](const WaitList& wait) { return passes.sight(record.queue(), of, b, sight, wait); });
+    const int width = sky.width, height = sky.height;
+    const auto at = [&](int row, int column) {
+        return static_cast<std::size_t>(std::clamp(row, 0, height - 1)) *
+                   static_cast<std::size_t>(width) +
+               static_cast<std::size_t>((column + width) % width);
+    };
+    std::vector<std::uint32_t> seen(static_cast<std::size_t>(width) *
+                                    static_cast<std::size_t>(height));
+    const WaitList pending = record.waits();
+    record.queue().enqueueReadBuffer(sight, CL_TRUE, 0, seen.size() * sizeof(std::uint32_t),
+                                     seen.data(), &pending);
+    std::vector<double> of_texel(seen.size());
+    double most = 0.0;
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < width; ++column) {
+            double sum = 0.0, angle = 0.0;
+            for (int down = -around; down <= around; ++down) {
+                const int line = std::clamp(row + down, 0, height - 1);
+                angle += (2 * around + 1) * texel_solid_angle(width, height, line);
+                for (int across = -around; across <= around; ++across)
+                    sum += seen[at(line, column + across)];
+            }
+            of_texel[at(row, column)] = sum / angle;
+            most = std::max(most, sum / angle);
+        }
+    if (!(most > 0.0)) return nullptr;
+    auto out = std::make_shared<SkyWeights>();
+    out->columns = width;
+    out->rows = height;
+    for (const double share : of_texel)
+        out->values.push_back(static_cast<float>(std::sqrt(share / most + unseen)));
+    return out;
+}
+
+void IrradianceCache::State::forget_corrections() {
+    sky_weights.reset();
+    corrected = 0;
+}
+
+void IrradianceCache::State::correct(std::uint32_t of_sample) {
+    Recorder& record = picture.record();
+    if (corrected == 0) {
+        sky_weights = weigh_sky();
+        record.fill(corrections, 0);
+    }
+    if (!sky_weights) return;  // no record sees the sky
+    EmitterOptions wanted = sky_options(options, of_sample);
+    wanted.sky_weights = sky_weights;
+    grown += sky_lights.follow(wanted, record, picture.passes());
+    sky_lights.draw(record, picture.passes(), picture.lists());
+    const auto light = [&](const cl::Buffer& planes, std::size_t points, std::uint32_t of_stride,
+                           const cl::Buffer& irradiance, std::uint32_t add) {
+        const auto directions = static_cast<std::uint32_t>(sky_lights.set().emitters.size());
+        const DirectParams direct{
+            of_stride, static_cast<std::uint32_t>(points), directions, 1.0f, 1, add, 0, 0};
+        record("lights.direct", points, [&](const WaitList& wait) {
+            return lights.direct(record.queue(), direct, sky_lights.buffers(), planes, irradiance,
+                                 picture.counter(), wait);
+        });
+    };
+    const std::size_t pixels = picture.pixels();
+    record.fill(b.next, 0);
+    light(b.planes, records.size(), stride, b.next, DIRECT_TAKE);
+    show(b.next, found_light);
+    light(picture.gbuffer().planes, pixels, picture.stride(), found_light, DIRECT_ADD);
+    const CacheCorrectParams blocks{static_cast<std::uint32_t>(options.picture.width),
+                                    static_cast<std::uint32_t>(options.picture.height),
+                                    picture.stride(), ++corrected};
+    record("cache.gauge", pixels, [&](const WaitList& wait) {
+        return passes.gauge(record.queue(), blocks, found_light, corrections, shares, wait);
+    });
+    record("cache.correct", pixels, [&](const WaitList& wait) {
+        return passes.correct(record.queue(), blocks, corrections, shares, picture.irradiance(),
+                              wait);
+    });
+}
+
+}  // namespace clgi

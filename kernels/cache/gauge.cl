@@ -1,0 +1,50 @@
+// How far to trust what the directions of the sky say about the pixels of a block, against what the
+// records between them say. Each sample of the picture brings a correction d of its own directions;
+// their mean is right, but noisy while there are few.
+//
+//   B = sum over pixels ((sum d)^2 - sum d^2) / (n (n - 1))      the mean's square, without its noise
+//   V = sum over pixels (sum d^2 - (sum d)^2 / n) / (n (n - 1))  the noise of the mean
+//   share = 1 - V (1 + 4 / n) / B, 0 for one sample and where it were less      d: luminance
+//                                          [derived: the linear estimate of least mean square error]
+//
+// Work size    1D, one work-item a block of CACHE_BLOCK x CACHE_BLOCK pixels; any local size; tail
+//              guarded
+// Writes       sums of its own pixels, its own share
+// SPDX-License-Identifier: MIT
+#include "clgi/shared/cache.h"
+#include "finite.clh"
+#include "luminance.clh"
+
+kernel void cache_gauge(
+    const CacheCorrectParams  params,
+    global const float*       restrict found,   // [3][stride] d of this sample, exposed lux
+    global float*             restrict sums,    // [4][stride] of d, and of its luminance squared
+    global float*             restrict shares)  // [blocks down][blocks across]
+{
+    uint item = (uint)get_global_id(0), stride = params.stride;
+    uint across = (params.width + CACHE_BLOCK - 1) / CACHE_BLOCK;
+    uint down = (params.height + CACHE_BLOCK - 1) / CACHE_BLOCK;
+    if (item >= across * down) return;
+    uint left = item % across * CACHE_BLOCK, top = item / across * CACHE_BLOCK;
+    uint right = min(left + CACHE_BLOCK, params.width), bottom = min(top + CACHE_BLOCK, params.height);
+    float together = 0.0f, apart = 0.0f;
+    for (uint y = top; y < bottom; ++y)
+        for (uint x = left; x < right; ++x) {
+            uint at = y * params.width + x;
+            float3 d = (float3)(found[at], found[stride + at], found[2 * stride + at]);
+            if (!is_finite3(d)) d = (float3)(0.0f);  // counted where it came from (lights/direct.cl)
+            float3 sum = d + (float3)(sums[at], sums[stride + at], sums[2 * stride + at]);
+            float one = luminance(d.x, d.y, d.z), all = luminance(sum.x, sum.y, sum.z);
+            float square = fma(one, one, sums[3 * stride + at]);
+            sums[at] = sum.x;
+            sums[stride + at] = sum.y;
+            sums[2 * stride + at] = sum.z;
+            sums[3 * stride + at] = square;
+            together = fma(all, all, together);
+            apart += square;
+        }
+    float n = (float)params.count;
+    float bias = together - apart, noise = (apart - together / n) * (1.0f + 4.0f / n);
+    int some = params.count > 1 && bias > fmax(noise, 0.0f);
+    shares[item] = some ? (bias - fmax(noise, 0.0f)) / bias : 0.0f;
+}

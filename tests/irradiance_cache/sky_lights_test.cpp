@@ -1,0 +1,136 @@
+// Light of the sky between the records of an irradiance cache.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <clgi/irradiance_cache.hpp>
+#include <clgi/reference.hpp>
+#include <cmath>
+
+#include "apart.hpp"
+#include "cache_pictures.hpp"
+#include "scenes.hpp"
+#include "skies.hpp"
+
+namespace clgi {
+namespace {
+
+// Posts on a tilted ground, under a sky that is brighter and of another colour on one side.
+Scene posts() {
+    Scene scene = test::plain_scene({0.7f, 0.5f, 0.3f});
+    test::add_quad(scene, {glm::dvec3(-4, -1, 4), {4, 0.5, 4}, {4, 0.5, -4}, {-4, -1, -4}});
+    for (int k = 0; k < 6; ++k) {
+        const double x = -1.2 + 0.5 * k, z = k % 2 == 0 ? -0.6 : 0.5, y = x * 3.0 / 16.0 - 0.3;
+        test::add_box(scene, {x, y - 0.2, z}, {x + 0.12, y + 1.0, z + 0.12}, 1);
+    }
+    scene.environment = test::picture_sky(32, 16, [](int row, int column) {
+        return row >= 8 ? 0.0f : column > 10 && column < 15 && row > 2 && row < 6 ? 20.0f : 0.7f;
+    });
+    scene.environment->factor = {1.0f, 0.8f, 0.5f};
+    scene.cameras = {test::camera_at({0.6, 2.4, 3.0}, {0.1, 0, 0}, 0.8f)};
+    return scene;
+}
+
+// Mean of samples that look through the same places of pixels.
+std::vector<glm::vec3> sampled(IrradianceCache& cache, const Camera& camera,
+                               std::uint32_t samples) {
+    std::vector<glm::dvec3> sum(std::size_t{cache_width} * cache_height, glm::dvec3(0.0));
+    for (std::uint32_t index = 0; index < samples; ++index) {
+        cache.sample(index);
+        (index == 0 ? cache.render(camera) : cache.render_again(camera)).wait();
+        const auto one = test::vectors(test::device().queue, cache.picture().radiance(),
+                                       cache.picture().stride(), sum.size());
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += glm::dvec3(one[i]) / static_cast<double>(samples);
+    }
+    std::vector<glm::vec3> out;
+    for (const glm::dvec3& value : sum) out.emplace_back(value);
+    return out;
+}
+
+// Few records stand far apart, so their light is a blur: directions of the sky find the shadows.
+TEST(SkyLights, FindShadowsBetweenRecords) {
+    const Scene scene = posts();
+    reference::Options truth;
+    truth.width = cache_width;
+    truth.height = cache_height;
+    truth.samples = 256;
+    const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
+    const DeviceScene device = test::on_device(scene);
+    IrradianceCacheOptions options = cache_options(12, 100);
+    options.refined = 0;
+    const auto found = [&](int lights, bool direct) {
+        options.sky_lights = lights;
+        options.picture.emitters.shadows = direct;  // of the scene's lights, and there is none
+        IrradianceCache cache(test::programs(), test::device().queue, device, options);
+        const test::Apart out = test::apart(sampled(cache, scene.cameras[0], 40), twice);
+        EXPECT_EQ(cache.status().non_finite, 0u);
+        return out;
+    };
+    const test::Apart without = found(0, true), with = found(16, true);
+    EXPECT_GT(without.error, 0.1);
+    EXPECT_LT(with.error, 0.25 * without.error);
+    EXPECT_NEAR(with.energy, 1.0, 0.02);
+    EXPECT_LT(found(16, false).error, 0.25 * without.error);
+}
+
+// Where hemicubes know the light, directions of the sky change next to nothing: of a convex ground
+// every part of the sky is seen as by the records.
+TEST(SkyLights, LeaveAloneWhatRecordsKnow) {
+    Scene scene = posts();
+    scene.triangles.resize(2);
+    const DeviceScene device = test::on_device(scene);
+    IrradianceCacheOptions options = cache_options(12, 0);
+    options.refined = 0;
+    const auto found = [&](int lights) {
+        options.sky_lights = lights;
+        IrradianceCache cache(test::programs(), test::device().queue, device, options);
+        return sampled(cache, scene.cameras[0], 6);
+    };
+    const auto without = found(0), with = found(16);
+    for (std::size_t i = 0; i < with.size(); ++i)
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(with[i][c], without[i][c], 0.003f * without[i][c]);
+}
+
+// A picture from elsewhere, or under a sky that has turned, has none of the corrections before it.
+TEST(SkyLights, BelongToOnePicture) {
+    const Scene scene = posts();
+    DeviceScene device = test::on_device(scene);
+    IrradianceCacheOptions options = cache_options(12, 20);
+    options.refined = 5;
+    options.sky_lights = 4;
+    const Camera other = test::camera_at({-1.6, 2.0, 2.0}, {0.3, 0, 0}, 0.9f);
+    IrradianceCache cache(test::programs(), test::device().queue, device, options);
+    const auto fresh = [&](const Camera& camera) {
+        IrradianceCache one(test::programs(), test::device().queue, device, options);
+        return sampled(one, camera, 7);
+    };
+    const auto first = sampled(cache, scene.cameras[0], 7);
+    EXPECT_TRUE(test::same_bits(sampled(cache, other, 7), fresh(other)));
+    EXPECT_TRUE(test::same_bits(sampled(cache, scene.cameras[0], 7), first));
+    device.turn_environment(1.0);
+    cache.lights_changed();
+    const auto turned = sampled(cache, scene.cameras[0], 7);
+    EXPECT_TRUE(test::same_bits(turned, fresh(scene.cameras[0])));
+    EXPECT_FALSE(test::same_bits(turned, first));
+}
+
+TEST(SkyLights, NeedASkyThatIsSeen) {
+    Scene scene = test::plain_scene({0.7f, 0.5f, 0.3f});
+    test::add_box(scene, {-1, 0, -1}, {1, 2, 1}, -1);  // closed, from within
+    scene.lights = {test::point_light({0.2, 1.5, 0.1}, 4.0f)};
+    scene.cameras = {test::camera_at({0.5, 0.8, 0.6}, {-0.4, 0.6, -0.5}, 1.2f)};
+    IrradianceCacheOptions options = cache_options(10, 20);
+    const auto picture = [&] {
+        const DeviceScene device = test::on_device(scene);
+        IrradianceCache cache(test::programs(), test::device().queue, device, options);
+        return sampled(cache, scene.cameras[0], 3);
+    };
+    const auto closed = picture();
+    scene.environment = test::even_sky({1.0f, 2.0f, 3.0f});
+    EXPECT_TRUE(test::same_bits(picture(), closed));
+    scene.environment->factor = glm::vec3(0.0f);
+    EXPECT_TRUE(test::same_bits(picture(), closed));
+}
+
+}  // namespace
+}  // namespace clgi

@@ -1,0 +1,252 @@
+// What records see of the sky, and how far directions of it are trusted, with buffers of the test's
+// own.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clgi/passes/cache.hpp>
+#include <cmath>
+#include <limits>
+
+#include "device.hpp"
+#include "math_modes.hpp"
+#include "record_cubes.hpp"
+#include "scenes.hpp"
+#include "skies.hpp"
+
+namespace clgi {
+namespace {
+
+using std::numbers::pi;
+
+CLGI_IN_BOTH_MATHS(SkyPasses);
+
+constexpr int columns = 6, rows = 5;
+
+// The share of a texel in the cosine about a normal, [0,1]; fraction of all: 1 over the hemisphere.
+// turn: of the picture, in turns.
+std::vector<double> cosines(const glm::dvec3& normal, double turn) {
+    std::vector<double> out(columns * rows, 0.0);
+    constexpr int fine = 120;
+    for (int y = 0; y < rows * fine; ++y) {
+        const double down = pi * (y + 0.5) / (rows * fine);
+        for (int x = 0; x < columns * fine; ++x) {
+            // u = across / (2 pi) + 1/2 + turn
+            const double across = 2 * pi * ((x + 0.5) / (columns * fine) - 0.5 - turn);
+            const glm::dvec3 d(std::sin(down) * std::sin(across), std::cos(down),
+                               -std::sin(down) * std::cos(across));
+            const double angle =
+                std::sin(down) * (pi / (rows * fine)) * (2 * pi / (columns * fine));
+            out[static_cast<std::size_t>(y / fine * columns + x / fine)] +=
+                std::max(glm::dot(d, normal), 0.0) * angle / pi;
+        }
+    }
+    return out;
+}
+
+// Two records, of which the second is tilted, above a small square far below that hides hardly any
+// of the sky. Only those that are asked for count.
+TEST_P(SkyPasses, SeeTheSkyByItsCosine) {
+    Scene world = test::plain_scene();
+    test::add_floor(world, 0.001, -50.0);
+    const DeviceScene scene = test::on_device(world);
+    const glm::dvec3 up(0, 1, 0), tilted = glm::normalize(glm::dvec3(0.6, 0.5, -0.3));
+    const CacheBuffers b =
+        test::record_cubes(scene, {{{0, 0, 0}, up}, {{0.2, 0.1, 0}, tilted}}, 64);
+    const CachePasses passes(test::programs(), test::usual_build());
+    CacheParams params{};
+    params.stride = test::record_stride;
+    params.size = 64;
+    params.sky_width = columns;
+    params.sky_height = rows;
+    params.sky_turn = 0.15f;
+    for (const std::uint32_t first : {0u, 1u})
+        for (const std::uint32_t count : {1u, 2u}) {
+            if (first + count > 2) continue;
+            params.first = first;
+            params.count = count;
+            const cl::Buffer sight =
+                test::upload(std::vector<std::uint32_t>(columns * rows + 1, 7u));
+            passes.sight(test::device().queue, params, b, sight).wait();
+            const auto found = test::download<std::uint32_t>(sight, columns * rows + 1);
+            EXPECT_EQ(found.back(), 7u);
+            std::vector<double> wanted(columns * rows, 0.0);
+            for (std::uint32_t r = first; r < first + count; ++r) {
+                const std::vector<double> one = cosines(r == 0 ? up : tilted, 0.15);
+                for (std::size_t k = 0; k < one.size(); ++k) wanted[k] += one[k] / count;
+            }
+            double sum = 0.0;
+            for (std::size_t k = 0; k < wanted.size(); ++k) {
+                const double share = (found[k] - 7.0) / (1u << 30);
+                // Pixels belong to one texel or another.
+                EXPECT_NEAR(share, wanted[k], 0.004) << first << count << " " << k;
+                sum += share;
+            }
+            EXPECT_NEAR(sum, 1.0, 0.002);
+        }
+}
+
+// A wall close by hides half of the hemisphere from a record that looks along it.
+TEST_P(SkyPasses, SeeNoSkyBehindWalls) {
+    Scene world = test::plain_scene();
+    test::add_quad(
+        world,
+        {glm::dvec3(100, -100, -0.01), {-100, -100, -0.01}, {-100, 100, -0.01}, {100, 100, -0.01}});
+    const DeviceScene scene = test::on_device(world);
+    const CacheBuffers b = test::record_cubes(scene, {{{0, 0, 0}, {0, 1, 0}}}, 64);
+    const CachePasses passes(test::programs(), test::usual_build());
+    CacheParams params{};
+    params.count = 1;
+    params.stride = test::record_stride;
+    params.size = 64;
+    params.sky_width = 2;
+    params.sky_height = 1;
+    params.sky_turn = -0.25f;  // texels are the halves with z > 0 and z < 0
+    const cl::Buffer sight = test::upload(std::vector<std::uint32_t>(2, 0u));
+    passes.sight(test::device().queue, params, b, sight).wait();
+    const auto found = test::download<std::uint32_t>(sight, 2);
+    const auto [least, most] = std::minmax(found[0], found[1]);
+    EXPECT_NEAR(most / double(1u << 30), 0.5, 0.005);
+    EXPECT_LT(least / double(1u << 30), 0.02);
+}
+
+struct Blocks {
+    static constexpr std::uint32_t width = 19, height = 13, stride = 272, across = 3, down = 2;
+    static constexpr std::uint32_t pixels = width * height;
+    std::vector<double> sums = std::vector<double>(4 * stride, 0.0);
+    std::vector<double> shares = std::vector<double>(across * down, 0.0);
+
+    // A sample more, of count.
+    void add(const std::vector<float>& found, double count) {
+        std::vector<double> together(shares.size(), 0.0), apart(shares.size(), 0.0);
+        for (std::uint32_t p = 0; p < pixels; ++p) {
+            double d = 0.0, sum = 0.0;
+            const double weights[] = {0.2126, 0.7152, 0.0722};
+            for (std::uint32_t c = 0; c < 3; ++c) {
+                const double value = found[c * stride + p];
+                const bool good = std::isfinite(found[p]) && std::isfinite(found[stride + p]) &&
+                                  std::isfinite(found[2 * stride + p]);
+                sums[c * stride + p] += good ? value : 0.0;
+                d += good ? weights[c] * value : 0.0;
+                sum += weights[c] * sums[c * stride + p];
+            }
+            sums[3 * stride + p] += d * d;
+            const std::size_t block = p / width / 8 * across + p % width / 8;
+            together[block] += sum * sum;
+            apart[block] += sums[3 * stride + p];
+        }
+        for (std::size_t k = 0; k < shares.size(); ++k) {
+            const double bias = together[k] - apart[k],
+                         noise = (1 + 4 / count) * (apart[k] - together[k] / count);
+            shares[k] = bias > noise && bias > 0.0 ? 1 - noise / bias : 0.0;
+        }
+    }
+};
+
+// What stays and what changes by turns, in blocks that the picture cuts off.
+TEST_P(SkyPasses, TrustWhatSamplesAgreeAbout) {
+    const CachePasses passes(test::programs(), test::usual_build());
+    const cl::CommandQueue& queue = test::device().queue;
+    Blocks wanted;
+    using B = Blocks;
+    const cl::Buffer sums = test::upload(std::vector<float>(4 * B::stride, 0.0f)),
+                     shares = test::upload(std::vector<float>(B::across * B::down + 1, -3.0f));
+    test::Random random(3);
+    for (std::uint32_t sample = 1; sample <= 12; ++sample) {
+        std::vector<float> found(3 * B::stride, 9.0f);
+        for (std::uint32_t p = 0; p < B::pixels; ++p)
+            for (std::uint32_t c = 0; c < 3; ++c) {
+                const double place = p % B::width / double{B::width};
+                found[c * B::stride + p] = static_cast<float>(
+                    place * (1.0 + c) + (1.0 - place) * random(-2.0, 2.0) - (c == 1 ? 0.5 : 0.0));
+            }
+        if (sample == 2) found[B::stride + 40] = std::numeric_limits<float>::quiet_NaN();
+        if (sample == 3) found[41] = std::numeric_limits<float>::infinity();
+        wanted.add(found, sample);
+        passes.gauge(queue, {B::width, B::height, B::stride, sample}, test::upload(found), sums,
+                     shares);
+        queue.finish();
+        const auto got = test::download<float>(shares, B::across * B::down + 1);
+        for (std::size_t k = 0; k < wanted.shares.size(); ++k) {
+            EXPECT_NEAR(got[k], wanted.shares[k], 2e-4) << sample << " " << k;
+            if (sample == 1) {
+                EXPECT_EQ(got[k], 0.0f);
+            }
+        }
+        EXPECT_EQ(got.back(), -3.0f);
+    }
+    const auto [least, most] = std::minmax_element(wanted.shares.begin(), wanted.shares.end());
+    EXPECT_LT(*least, 0.3);
+    EXPECT_GT(*most, 0.9);
+    const auto got = test::download<float>(sums, 4 * B::stride);
+    for (std::size_t plane = 0; plane < 4; ++plane)
+        for (std::size_t p = 0; p < B::stride; ++p)
+            EXPECT_NEAR(got[plane * B::stride + p], wanted.sums[plane * B::stride + p], 1e-4);
+}
+
+// Shares are linear between the middles of blocks, and constant beyond the outermost.
+TEST_P(SkyPasses, CorrectByTheSharesAround) {
+    const CachePasses passes(test::programs(), test::usual_build());
+    using B = Blocks;
+    test::Random random(4);
+    std::vector<float> sums(4 * B::stride), light(3 * B::stride);
+    for (float& one : sums) one = static_cast<float>(random(-1.0, 1.0));
+    for (float& one : light) one = static_cast<float>(random(0.0, 5.0));
+    const std::vector<float> shares = {0.1f, 0.9f, 0.4f, 0.6f, 0.0f, 1.0f};
+    const cl::Buffer irradiance = test::upload(light);
+    passes
+        .correct(test::device().queue, {B::width, B::height, B::stride, 5}, test::upload(sums),
+                 test::upload(shares), irradiance)
+        .wait();
+    const auto got = test::download<float>(irradiance, 3 * B::stride);
+    const auto along = [](double pixel, std::uint32_t blocks) {
+        return std::clamp((pixel + 0.5) / 8.0 - 0.5, 0.0, blocks - 1.0);
+    };
+    for (std::uint32_t p = 0; p < B::stride; ++p) {
+        double share = 0.0;
+        if (p < B::pixels)
+            for (std::uint32_t k = 0; k < shares.size(); ++k) {
+                const double x = along(p % B::width, B::across), y = along(p / B::width, B::down);
+                share += std::max(0.0, 1.0 - std::abs(x - k % B::across)) *
+                         std::max(0.0, 1.0 - std::abs(y - k / B::across)) * double{shares[k]};
+            }
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            const double wanted = light[c * B::stride + p] + share / 5 * sums[c * B::stride + p];
+            EXPECT_NEAR(got[c * B::stride + p], wanted, 1e-5) << p << " " << c;
+        }
+    }
+}
+
+TEST(SkyPassChecks, RefuseBuffersThatAreTooSmall) {
+    const CachePasses passes(test::programs(), test::usual_build());
+    const cl::CommandQueue& queue = test::device().queue;
+    using B = Blocks;
+    const cl::Buffer planes = test::empty<float>(4 * B::stride), few = test::empty<float>(4);
+    const CacheCorrectParams of{B::width, B::height, B::stride, 1};
+    EXPECT_NO_THROW(passes.gauge(queue, of, planes, planes, planes));
+    EXPECT_NO_THROW(passes.correct(queue, of, planes, planes, planes));
+    for (int k = 0; k < 3; ++k) {
+        const auto at = [&](int i) { return i == k ? few : planes; };
+        EXPECT_THROW(passes.gauge(queue, of, at(0), at(1), at(2)), Error);
+        EXPECT_THROW(passes.correct(queue, of, at(0), at(1), at(2)), Error);
+    }
+    for (const CacheCorrectParams& wrong :
+         {CacheCorrectParams{B::width, B::height, B::stride, 0}, {B::width, B::height, 240, 1}})
+        EXPECT_THROW(passes.gauge(queue, wrong, planes, planes, planes), Error);
+    CacheParams params{};
+    params.count = 1;
+    params.size = 8;
+    params.stride = 16;
+    params.sky_width = params.sky_height = 2;
+    CacheBuffers b;
+    b.planes = test::empty<float>(RECORD_PLANES * 16);
+    b.views = test::upload(std::vector<View>(5, View{}));  // of no pixels
+    b.visibility = test::upload(std::vector<std::uint64_t>(3 * 64, 0));
+    EXPECT_NO_THROW(passes.sight(queue, params, b, few));
+    params.sky_width = 3;
+    EXPECT_THROW(passes.sight(queue, params, b, few), Error);
+    queue.finish();
+}
+
+}  // namespace
+}  // namespace clgi
