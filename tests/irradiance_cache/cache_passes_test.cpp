@@ -74,6 +74,26 @@ TEST(CachePasses, ShowsTheMeanOfRecordsAndHowFarTheyDiffer) {
     const cl::Buffer irradiance = test::upload(std::vector<float>(3 * stride, -1.0f)),
                      doubt = test::upload(std::vector<float>(stride, -1.0f));
     passes.show(queue, {4, stride, 0, 0}, two.tree, two.b, points, irradiance, doubt);
+    // A second light by the same shares: the records' own, in other channels.
+    std::vector<float> other(3 * plane, 0.0f);
+    for (std::uint32_t i = 0; i < 2; ++i)
+        for (std::uint32_t c = 0; c < 3; ++c)
+            other[c * plane + i] = -two.values[1 - i][(c + 1) % 3];
+    const CachePasses::More more{test::upload(other),
+                                 test::upload(std::vector<float>(3 * stride, -1.0f))};
+    const cl::Buffer again = test::upload(std::vector<float>(3 * stride, -1.0f));
+    passes.show(queue, {4, stride, 1, 0}, two.tree, two.b, points, again, doubt, more);
+    const auto second = test::download<float>(more.irradiance, 3 * stride);
+    EXPECT_TRUE(test::download<float>(again, 3 * stride) ==
+                test::download<float>(irradiance, 3 * stride));
+    for (std::uint32_t c = 0; c < 3; ++c) {
+        const std::uint32_t from = (c + 1) % 3;
+        EXPECT_NEAR(second[c * stride], -0.5f * (two.values[0][from] + two.values[1][from]), 1e-5f);
+        EXPECT_NEAR(second[c * stride + 1], -two.values[0][from], 0.05f);
+        EXPECT_EQ(second[c * stride + 2], 0.0f);
+        EXPECT_EQ(second[c * stride + 3], 0.0f);
+        EXPECT_EQ(second[c * stride + 4], -1.0f);
+    }
     std::vector<float> found(3 * stride), doubts(stride);
     queue.enqueueReadBuffer(irradiance, CL_TRUE, 0, found.size() * sizeof(float), found.data());
     queue.enqueueReadBuffer(doubt, CL_TRUE, 0, doubts.size() * sizeof(float), doubts.data());

@@ -195,8 +195,9 @@ cl::Event IrradianceCache::render_again(const Camera& camera, const WaitList& wa
     if (s.shown.empty()) throw Error("irradiance-cache: render_again(): there is no picture yet");
     const View view = s.picture.begin(camera, wait);
     if (!s.records.empty()) {
-        s.show();
-        if (s.corrects()) s.correct(s.sample);
+        const bool sky = s.corrects() && s.light_by_sky(s.sample);
+        s.show(sky);
+        if (sky) s.correct();
     }
     s.picture.combine(view);
     return s.picture.end(view);

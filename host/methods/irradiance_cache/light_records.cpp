@@ -106,21 +106,20 @@ bool IrradianceCache::State::rests() {
     return change <= rest * most;
 }
 
-void IrradianceCache::State::show() { show(b.light, picture.irradiance()); }
-
-void IrradianceCache::State::show(const cl::Buffer& of, const cl::Buffer& irradiance) {
+void IrradianceCache::State::show(bool sky) {
     const bool refined = found.refined > 0;
     CacheBuffers all = b;
-    all.light = of;
     if (refined) {
         all.nodes = all_nodes;
         all.lists = all_lists;
     }
-    const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()), picture.stride(), 0,
-                                 0};
+    const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()), picture.stride(),
+                                 sky ? 1u : 0u, 0};
+    const CachePasses::More more = sky ? CachePasses::More{b.next, found_light}
+                                       : CachePasses::More{b.light, picture.irradiance()};
     picture.record()("cache.show", picture.pixels(), [&](const WaitList& wait) {
         return passes.show(picture.record().queue(), params, refined ? all_tree : tree, all,
-                           picture.gbuffer(), irradiance, doubt, wait);
+                           picture.gbuffer(), picture.irradiance(), doubt, more, wait);
     });
 }
 

@@ -211,14 +211,25 @@ cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams
                             const CacheTree& tree, const CacheBuffers& b, const GBuffer& points,
                             const cl::Buffer& irradiance, const cl::Buffer& doubt,
                             const WaitList& wait) const {
+    CacheShowParams alone = params;
+    alone.more = 0;
+    return show(queue, alone, tree, b, points, irradiance, doubt, {b.light, irradiance}, wait);
+}
+
+cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams& params,
+                            const CacheTree& tree, const CacheBuffers& b, const GBuffer& points,
+                            const cl::Buffer& irradiance, const cl::Buffer& doubt, const More& more,
+                            const WaitList& wait) const {
     need_tree(show_, tree, b);
     need_stride(show_, "stride", params.stride, params.point_count);
     need(show_, "light", b.light, 3 * word * tree.stride);
     need(show_, "points", points.planes, point_bytes(show_.storage, params.stride));
     need(show_, "irradiance", irradiance, irradiance_bytes(show_.storage, params.stride));
     need(show_, "doubt", doubt, word * params.stride);
+    need(show_, "more.light", more.light, 3 * word * tree.stride);
+    need(show_, "more.irradiance", more.irradiance, irradiance_bytes(show_.storage, params.stride));
     return launch(show_, queue, params.point_count, wait, params, tree, b.nodes, b.lists, b.planes,
-                  b.light, points.planes, irradiance, doubt);
+                  b.light, points.planes, more.light, irradiance, doubt, more.irradiance);
 }
 
 cl::Event CachePasses::sight(const cl::CommandQueue& queue, const CacheParams& params,

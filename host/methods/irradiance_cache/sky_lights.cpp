@@ -80,32 +80,39 @@ void IrradianceCache::State::forget_corrections() {
     corrected = 0;
 }
 
-void IrradianceCache::State::correct(std::uint32_t of_sample) {
+void IrradianceCache::State::light_by_sky(const cl::Buffer& planes, std::size_t points,
+                                          std::uint32_t of_stride, const cl::Buffer& irradiance,
+                                          std::uint32_t add) {
+    Recorder& record = picture.record();
+    const auto directions = static_cast<std::uint32_t>(sky_lights.set().emitters.size());
+    const DirectParams direct{
+        of_stride, static_cast<std::uint32_t>(points), directions, 1.0f, 1, add, 0, 0};
+    record("lights.direct", points, [&](const WaitList& wait) {
+        return lights.direct(record.queue(), direct, sky_lights.buffers(), planes, irradiance,
+                             picture.counter(), wait);
+    });
+}
+
+bool IrradianceCache::State::light_by_sky(std::uint32_t of_sample) {
     Recorder& record = picture.record();
     if (corrected == 0) {
         sky_weights = weigh_sky();
         record.fill(corrections, 0);
     }
-    if (!sky_weights) return;  // no record sees the sky
+    if (!sky_weights) return false;
     EmitterOptions wanted = sky_options(options, of_sample);
     wanted.sky_weights = sky_weights;
     grown += sky_lights.follow(wanted, record, picture.passes());
     sky_lights.draw(record, picture.passes(), picture.lists());
-    const auto light = [&](const cl::Buffer& planes, std::size_t points, std::uint32_t of_stride,
-                           const cl::Buffer& irradiance, std::uint32_t add) {
-        const auto directions = static_cast<std::uint32_t>(sky_lights.set().emitters.size());
-        const DirectParams direct{
-            of_stride, static_cast<std::uint32_t>(points), directions, 1.0f, 1, add, 0, 0};
-        record("lights.direct", points, [&](const WaitList& wait) {
-            return lights.direct(record.queue(), direct, sky_lights.buffers(), planes, irradiance,
-                                 picture.counter(), wait);
-        });
-    };
-    const std::size_t pixels = picture.pixels();
     record.fill(b.next, 0);
-    light(b.planes, records.size(), stride, b.next, DIRECT_TAKE);
-    show(b.next, found_light);
-    light(picture.gbuffer().planes, pixels, picture.stride(), found_light, DIRECT_ADD);
+    light_by_sky(b.planes, records.size(), stride, b.next, DIRECT_TAKE);
+    return true;
+}
+
+void IrradianceCache::State::correct() {
+    Recorder& record = picture.record();
+    const std::size_t pixels = picture.pixels();
+    light_by_sky(picture.gbuffer().planes, pixels, picture.stride(), found_light, DIRECT_ADD);
     const CacheCorrectParams blocks{static_cast<std::uint32_t>(options.picture.width),
                                     static_cast<std::uint32_t>(options.picture.height),
                                     picture.stride(), ++corrected};

@@ -67,14 +67,19 @@ struct IrradianceCache::State {
     std::vector<float> read_doubt();
     // Whether the last step changed little.
     bool rests();
-    void show();
+    // sky: light_by_sky() has been called.
+    void show(bool sky = false);
     // Where the scene has a sky and options ask for its directions: light of the sky between the
     // records, by shadow maps of `sample`, other ones than those of samples before it.
-    void correct(std::uint32_t sample);
+    // light_by_sky() draws them and finds what they bring to the records, false if no record sees
+    // the sky; show() interpolates that, and correct() follows.
+    bool light_by_sky(std::uint32_t sample);
+    void correct();
     bool corrects() const { return sky_lights.casts_shadows(); }
     void forget_corrections();
     std::shared_ptr<const SkyWeights> weigh_sky();
-    void show(const cl::Buffer& of, const cl::Buffer& irradiance);
+    void light_by_sky(const cl::Buffer& planes, std::size_t points, std::uint32_t of_stride,
+                      const cl::Buffer& irradiance, std::uint32_t add);
     // Rows of the buffers for VPLs in small lit places; finds these places, as the records see
     // them.
     void add_spots(BufferTable& table);

@@ -92,7 +92,15 @@ public:
 
     // buffers.light -> irradiance [IRRADIANCE_PLANES][params.stride] of the points of a G-buffer,
     // in the storage of these passes, and how much the records of each differ, doubt
-    // [params.stride] float.
+    // [params.stride] float. With params.more also more.light -> more.irradiance, by the same
+    // shares.
+    struct More {
+        cl::Buffer light, irradiance;
+    };
+    cl::Event show(const cl::CommandQueue& queue, const CacheShowParams& params,
+                   const CacheTree& tree, const CacheBuffers& buffers, const GBuffer& points,
+                   const cl::Buffer& irradiance, const cl::Buffer& doubt, const More& more,
+                   const WaitList& wait = {}) const;
     cl::Event show(const cl::CommandQueue& queue, const CacheShowParams& params,
                    const CacheTree& tree, const CacheBuffers& buffers, const GBuffer& points,
                    const cl::Buffer& irradiance, const cl::Buffer& doubt,

@@ -107,8 +107,8 @@ typedef struct {
 typedef struct {
     uint point_count;
     uint stride;  // of the G-buffer, the irradiance and the doubt
-    uint pad0_;
-    uint pad1_;
+    uint more;    // 1: a second light is shown by the same shares
+    uint pad_;
 } CacheShowParams;
 
 CLGI_SHARED_END
