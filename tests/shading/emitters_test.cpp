@@ -276,6 +276,14 @@ TEST(Emitters, KnowWhetherTheirShadowsAreSoft) {
     EXPECT_FALSE(soft(0, 0));
     EXPECT_TRUE(soft(3, 0));
     EXPECT_TRUE(soft(0, 3));
+    const auto samples = [&](int surfaces, int directions) {
+        const DeviceScene scene = test::on_device(world);
+        return Emitters(scene, {.area_samples = surfaces, .environment_lights = directions})
+            .samples_a_map(1u << 20);
+    };
+    EXPECT_EQ(samples(0, 0), 16u);
+    EXPECT_EQ(samples(3, 0), 4u);
+    EXPECT_EQ(samples(0, 3), 4u);
 }
 
 TEST(Emitters, OfAnEnvironmentAreCutAnewForAnotherCount) {
