@@ -10,52 +10,10 @@
 
 #include "device.hpp"
 #include "math_modes.hpp"
+#include "two_records.hpp"
 
 namespace clgi {
 namespace {
-
-// A tree of one leaf around the origin.
-CacheTree one_leaf(std::uint32_t records, std::uint32_t stride) {
-    CacheTree out{};
-    out.centre = {0.0f, 0.0f, 0.0f, 4.0f};
-    out.node_count = 1;
-    out.record_count = records;
-    out.stride = stride;
-    return out;
-}
-
-GBuffer points_of(const std::vector<float>& planes, std::uint32_t stride) {
-    GBuffer out;
-    out.stride = stride;
-    out.planes = test::upload(planes);
-    return out;
-}
-
-constexpr std::uint32_t plane = 16;  // stride of small planes
-
-// Two records that face up, a metre to the left and to the right of the origin.
-struct TwoRecords {
-    TwoRecords() {
-        std::vector<float> records(RECORD_PLANES * plane, 0.0f), light(3 * plane, 0.0f);
-        std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
-        for (std::uint32_t i = 0; i < 2; ++i) {
-            records[RECORD_POSITION * plane + i] = i == 0 ? -1.0f : 1.0f;
-            records[(RECORD_NORMAL + 1) * plane + i] = 1.0f;
-            lists[2 * CACHE_LISTED + i] = i;  // +y
-            for (std::uint32_t c = 0; c < 3; ++c) light[c * plane + i] = values[i][c];
-        }
-        b.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
-        b.lists = test::upload(lists);
-        b.planes = test::upload(records);
-        b.light = test::upload(light);
-    }
-
-    const float values[2][3] = {{1.0f, 2.0f, 3.0f}, {5.0f, 1.0f, 8.0f}};
-    // Half of the difference of luminance.
-    const float half = 0.5f * (0.2126f * 4.0f - 0.7152f * 1.0f + 0.0722f * 5.0f);
-    CacheTree tree = one_leaf(2, plane);
-    CacheBuffers b;
-};
 
 // Between two records that are as near, light is their mean, and the doubt the square of half their
 // difference of luminance; on one of them it is almost its own.
@@ -74,26 +32,6 @@ TEST(CachePasses, ShowsTheMeanOfRecordsAndHowFarTheyDiffer) {
     const cl::Buffer irradiance = test::upload(std::vector<float>(3 * stride, -1.0f)),
                      doubt = test::upload(std::vector<float>(stride, -1.0f));
     passes.show(queue, {4, stride, 0, 0}, two.tree, two.b, points, irradiance, doubt);
-    // A second light by the same shares: the records' own, in other channels.
-    std::vector<float> other(3 * plane, 0.0f);
-    for (std::uint32_t i = 0; i < 2; ++i)
-        for (std::uint32_t c = 0; c < 3; ++c)
-            other[c * plane + i] = -two.values[1 - i][(c + 1) % 3];
-    const CachePasses::More more{test::upload(other),
-                                 test::upload(std::vector<float>(3 * stride, -1.0f))};
-    const cl::Buffer again = test::upload(std::vector<float>(3 * stride, -1.0f));
-    passes.show(queue, {4, stride, 1, 0}, two.tree, two.b, points, again, doubt, more);
-    const auto second = test::download<float>(more.irradiance, 3 * stride);
-    EXPECT_TRUE(test::download<float>(again, 3 * stride) ==
-                test::download<float>(irradiance, 3 * stride));
-    for (std::uint32_t c = 0; c < 3; ++c) {
-        const std::uint32_t from = (c + 1) % 3;
-        EXPECT_NEAR(second[c * stride], -0.5f * (two.values[0][from] + two.values[1][from]), 1e-5f);
-        EXPECT_NEAR(second[c * stride + 1], -two.values[0][from], 0.05f);
-        EXPECT_EQ(second[c * stride + 2], 0.0f);
-        EXPECT_EQ(second[c * stride + 3], 0.0f);
-        EXPECT_EQ(second[c * stride + 4], -1.0f);
-    }
     std::vector<float> found(3 * stride), doubts(stride);
     queue.enqueueReadBuffer(irradiance, CL_TRUE, 0, found.size() * sizeof(float), found.data());
     queue.enqueueReadBuffer(doubt, CL_TRUE, 0, doubts.size() * sizeof(float), doubts.data());

@@ -13,6 +13,7 @@
 #include "record_cubes.hpp"
 #include "scenes.hpp"
 #include "skies.hpp"
+#include "two_records.hpp"
 
 namespace clgi {
 namespace {
@@ -214,6 +215,38 @@ TEST_P(SkyPasses, CorrectByTheSharesAround) {
             const double wanted = light[c * B::stride + p] + share / 5 * sums[c * B::stride + p];
             EXPECT_NEAR(got[c * B::stride + p], wanted, 1e-5) << p << " " << c;
         }
+    }
+}
+
+// A second light of the records is shown by the same shares, in its own channels: between both
+// records, on the second, on none that faces as the point, and in the background.
+TEST_P(SkyPasses, ShowTwoLightsAtOnce) {
+    const CachePasses passes(test::programs(), test::usual_build());
+    const cl::CommandQueue& queue = test::device().queue;
+    const TwoRecords two;
+    std::vector<float> planes(GBUFFER_PLANES * plane, 0.0f), other(3 * plane, 0.0f);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        planes[GBUFFER_POSITION * plane + i] = i == 1 ? 1.0f : 0.0f;
+        planes[(GBUFFER_NORMAL + 1) * plane + i] = i == 2 ? -1.0f : 1.0f;
+    }
+    for (std::uint32_t i = 0; i < 2; ++i)
+        for (std::uint32_t c = 0; c < 3; ++c)
+            other[c * plane + i] = -two.values[1 - i][(c + 1) % 3];
+    const GBuffer points = points_of(planes, plane);
+    const auto none = [] { return test::upload(std::vector<float>(3 * plane, -1.0f)); };
+    const cl::Buffer alone = none(), first = none(), doubt = none();
+    const CachePasses::More more{test::upload(other), none()};
+    passes.show(queue, {4, plane, 0, 0}, two.tree, two.b, points, alone, doubt);
+    passes.show(queue, {4, plane, 1, 0}, two.tree, two.b, points, first, doubt, more).wait();
+    EXPECT_TRUE(test::download<float>(first, 3 * plane) == test::download<float>(alone, 3 * plane));
+    const auto second = test::download<float>(more.irradiance, 3 * plane);
+    for (std::uint32_t c = 0; c < 3; ++c) {
+        const std::uint32_t from = (c + 1) % 3;
+        EXPECT_NEAR(second[c * plane], -0.5f * (two.values[0][from] + two.values[1][from]), 1e-5f);
+        EXPECT_NEAR(second[c * plane + 1], -two.values[0][from], 0.05f);
+        EXPECT_EQ(second[c * plane + 2], 0.0f);
+        EXPECT_EQ(second[c * plane + 3], 0.0f);
+        EXPECT_EQ(second[c * plane + 4], -1.0f);
     }
 }
 
