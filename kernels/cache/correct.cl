@@ -17,8 +17,7 @@ kernel void cache_correct(
 {
     uint at = (uint)get_global_id(0), stride = params.stride;
     if (at >= params.width * params.height) return;
-    uint across = (params.width + CACHE_BLOCK - 1) / CACHE_BLOCK;
-    uint down = (params.height + CACHE_BLOCK - 1) / CACHE_BLOCK;
+    uint across = cache_blocks(params.width), down = cache_blocks(params.height);
     float x = ((float)(at % params.width) + 0.5f) / (float)CACHE_BLOCK - 0.5f;
     float y = ((float)(at / params.width) + 0.5f) / (float)CACHE_BLOCK - 0.5f;
     x = clamp(x, 0.0f, (float)(across - 1));

@@ -22,8 +22,7 @@ kernel void cache_gauge(
     global float*             restrict shares)  // [blocks down][blocks across]
 {
     uint item = (uint)get_global_id(0), stride = params.stride;
-    uint across = (params.width + CACHE_BLOCK - 1) / CACHE_BLOCK;
-    uint down = (params.height + CACHE_BLOCK - 1) / CACHE_BLOCK;
+    uint across = cache_blocks(params.width), down = cache_blocks(params.height);
     if (item >= across * down) return;
     uint left = item % across * CACHE_BLOCK, top = item / across * CACHE_BLOCK;
     uint right = min(left + CACHE_BLOCK, params.width), bottom = min(top + CACHE_BLOCK, params.height);

@@ -16,16 +16,6 @@ namespace {
 
 using std::numbers::pi;
 
-// Uneven everywhere, in every channel.
-Environment rough_sky(int width, int height) {
-    test::Random random(7);
-    Environment sky = test::picture_sky(width, height, [](int, int) { return 0.0f; });
-    for (glm::vec3& texel : sky.texels)
-        for (int c = 0; c < 3; ++c) texel[c] = static_cast<float>(std::exp(random(-3, 3)));
-    sky.factor = {1.0f, 0.5f, 2.0f};
-    return sky;
-}
-
 Environment sunny_sky() {
     return test::picture_sky(
         64, 32, [](int row, int column) { return row == 9 && column == 40 ? 1e5f : 1.0f; });
@@ -56,8 +46,9 @@ TEST(Fluence, IsTheIntegralOverAllDirections) {
 }
 
 TEST(MedianCut, KeepsAllLight) {
-    for (const Environment& sky : {test::even_sky({1, 2, 3}), test::gradient_sky(), sunny_sky(),
-                                   rough_sky(40, 20), rough_sky(3, 1), rough_sky(600, 300)}) {
+    for (const Environment& sky :
+         {test::even_sky({1, 2, 3}), test::gradient_sky(), sunny_sky(), test::rough_sky(40, 20),
+          test::rough_sky(3, 1), test::rough_sky(600, 300)}) {
         const glm::dvec3 wanted = environment_fluence(sky);
         for (const int count : {1, 2, 7, 16, 64, 500}) {
             const auto lights = median_cut(sky, count);
@@ -72,7 +63,7 @@ TEST(MedianCut, KeepsAllLight) {
 TEST(MedianCut, CutsInEqualShares) {
     // Whole cells are cut, so shares differ, the more the smaller they are. Measured: 0, 0.015 and
     // 0.04 under the even sky; 0.003, 0.017 and 0.038 under the rough one.
-    for (const Environment& sky : {test::even_sky(glm::vec3(1.0f)), rough_sky(400, 200)}) {
+    for (const Environment& sky : {test::even_sky(glm::vec3(1.0f)), test::rough_sky(400, 200)}) {
         const double whole = luminance(environment_fluence(sky));
         for (const auto& [count, off] : {std::pair(4, 0.006), {16, 0.025}, {64, 0.055}})
             for (const SkyLight& light : median_cut(sky, count))
@@ -97,7 +88,7 @@ TEST(MedianCut, PutsALightOnTheSun) {
 
 TEST(MedianCut, OfNothingIsNothing) {
     EXPECT_TRUE(median_cut(test::even_sky(glm::vec3(0)), 16).empty());
-    EXPECT_TRUE(median_cut(rough_sky(4, 2), 0).empty());
+    EXPECT_TRUE(median_cut(test::rough_sky(4, 2), 0).empty());
     // A single texel that shines, of cells that all have a share: no more lights than cells.
     const Environment one = test::picture_sky(
         256, 128, [](int row, int column) { return row == 3 && column == 4 ? 1.0f : 0.0f; });

@@ -18,12 +18,8 @@ namespace {
 
 constexpr std::uint32_t many_draws = 1u << 16;
 
-Environment coloured_sky(int width, int height) {
-    test::Random random(11);
-    Environment sky = test::picture_sky(width, height, [](int, int) { return 0.0f; });
-    for (glm::vec3& texel : sky.texels)
-        for (int c = 0; c < 3; ++c) texel[c] = static_cast<float>(std::exp(random(-2, 2)));
-    sky.factor = {1.0f, 0.5f, 2.0f};
+Environment turned_sky(int width, int height) {
+    Environment sky = test::rough_sky(width, height, 2.0);
     sky.rotation = 0.7f;
     return sky;
 }
@@ -53,8 +49,8 @@ Drawn mean_of_draws(const SkyCells& cells) {
 }
 
 TEST(SkyCells, DrawTheLightOfTheEnvironment) {
-    for (const Environment& sky : {test::even_sky({1, 2, 3}), coloured_sky(40, 20),
-                                   coloured_sky(3, 1), coloured_sky(600, 300)})
+    for (const Environment& sky :
+         {test::even_sky({1, 2, 3}), turned_sky(40, 20), turned_sky(3, 1), turned_sky(600, 300)})
         for (const SkyWeights& weights : {SkyWeights(), uneven_weights()}) {
             const glm::dvec3 wanted = environment_fluence(sky);
             glm::dvec3 vector[3] = {};
@@ -79,7 +75,7 @@ TEST(SkyCells, DrawTheLightOfTheEnvironment) {
 
 // By luminance alone every draw is as bright as the sky.
 TEST(SkyCells, DrawEquallyBrightLights) {
-    const Environment sky = coloured_sky(40, 20);
+    const Environment sky = turned_sky(40, 20);
     const SkyCells cells(sky);
     const double wanted = luminance(environment_fluence(sky));
     for (std::uint32_t k = 0; k < 200; ++k) {

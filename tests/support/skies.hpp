@@ -7,6 +7,8 @@
 #include <functional>
 #include <numbers>
 
+#include "scenes.hpp"
+
 namespace clgi::test {
 
 inline Environment even_sky(const glm::vec3& radiance) {
@@ -33,6 +35,16 @@ inline Environment gradient_sky(int width = 8, int height = 256) {
         const double lower = std::cos(std::numbers::pi * (row + 1) / height);
         return static_cast<float>(0.5 + 0.25 * (upper + lower));
     });
+}
+
+// Uneven everywhere, in every channel: by factors of up to e^(2 steps).
+inline Environment rough_sky(int width, int height, double steps = 3.0) {
+    Random random(7);
+    Environment sky = picture_sky(width, height, [](int, int) { return 0.0f; });
+    for (glm::vec3& texel : sky.texels)
+        for (int c = 0; c < 3; ++c) texel[c] = static_cast<float>(std::exp(random(-steps, steps)));
+    sky.factor = {1.0f, 0.5f, 2.0f};
+    return sky;
 }
 
 // A block of texels in angles: from +Y, and from the picture's left edge.

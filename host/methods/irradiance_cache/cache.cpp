@@ -62,11 +62,18 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
         vpls > 0.0 ? vpls * hemicube + sizeof(std::uint64_t) *
                                            static_cast<double>(spot_pixels(o.picture.emitters))
                    : 0.0;
+    // Directions of the sky have a map each, or two, and pixels their corrections.
+    double sky = 0.0;
+    if (o.sky_lights > 0 && scene.environment()) {
+        const double side = sky_options(o, 0).shadow_size;
+        sky = o.sky_lights * side * side * sizeof(std::uint32_t) +
+              7.0 * sizeof(float) * o.picture.width * o.picture.height;
+    }
     constexpr double pairs = 32.0, drawn = 4e-9;  // a pixel; a triangle in a hemicube, seconds
     const double milliseconds = 1e3 * records *
                                 (3.0 * face * face * pairs / pairs_per_second(device) +
                                  drawn * static_cast<double>(scene.info().triangle_count));
-    return {static_cast<std::size_t>(most * per_record + spots), milliseconds};
+    return {static_cast<std::size_t>(most * per_record + spots + sky), milliseconds};
 }
 
 IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& queue,
@@ -121,7 +128,7 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     sky_lights.add_to(table);
     const std::size_t of_picture = picture.stride() * word;
     const auto blocks = [](int pixels) {
-        return (static_cast<std::size_t>(pixels) + CACHE_BLOCK - 1) / CACHE_BLOCK;
+        return std::size_t{cache_blocks(static_cast<std::uint32_t>(pixels))};
     };
     table.add(sight, "the sky", "the environment",
               static_cast<std::size_t>(sky.width * sky.height) * word);

@@ -115,11 +115,10 @@ void IrradianceCache::State::show(bool sky) {
     }
     const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()), picture.stride(),
                                  sky ? 1u : 0u, 0};
-    const CachePasses::More more = sky ? CachePasses::More{b.next, found_light}
-                                       : CachePasses::More{b.light, picture.irradiance()};
     picture.record()("cache.show", picture.pixels(), [&](const WaitList& wait) {
         return passes.show(picture.record().queue(), params, refined ? all_tree : tree, all,
-                           picture.gbuffer(), picture.irradiance(), doubt, more, wait);
+                           picture.gbuffer(), picture.irradiance(), doubt, {b.next, found_light},
+                           wait);
     });
 }
 

@@ -54,10 +54,7 @@ std::size_t need_pixels(const PassKernel& pass, const CacheCorrectParams& params
                         const cl::Buffer& sums, const cl::Buffer& shares) {
     need_range(pass.name.c_str(), "count", params.count, 1u, 1u << 30);
     need_stride(pass, "stride", params.stride, std::size_t{params.width} * params.height);
-    const auto blocks = [](std::uint32_t pixels) {
-        return (std::size_t{pixels} + CACHE_BLOCK - 1) / CACHE_BLOCK;
-    };
-    const std::size_t count = blocks(params.width) * blocks(params.height);
+    const std::size_t count = std::size_t{cache_blocks(params.width)} * cache_blocks(params.height);
     need(pass, "sums", sums, 4 * word * params.stride);
     need(pass, "shares", shares, word * count);
     return count;
@@ -213,7 +210,7 @@ cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams
                             const WaitList& wait) const {
     CacheShowParams alone = params;
     alone.more = 0;
-    return show(queue, alone, tree, b, points, irradiance, doubt, {b.light, irradiance}, wait);
+    return show(queue, alone, tree, b, points, irradiance, doubt, More(), wait);
 }
 
 cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams& params,
@@ -226,10 +223,12 @@ cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams
     need(show_, "points", points.planes, point_bytes(show_.storage, params.stride));
     need(show_, "irradiance", irradiance, irradiance_bytes(show_.storage, params.stride));
     need(show_, "doubt", doubt, word * params.stride);
-    need(show_, "more.light", more.light, 3 * word * tree.stride);
-    need(show_, "more.irradiance", more.irradiance, irradiance_bytes(show_.storage, params.stride));
+    const More shown = params.more ? more : More{b.light, irradiance};  // else not read or written
+    need(show_, "more.light", shown.light, 3 * word * tree.stride);
+    need(show_, "more.irradiance", shown.irradiance,
+         irradiance_bytes(show_.storage, params.stride));
     return launch(show_, queue, params.point_count, wait, params, tree, b.nodes, b.lists, b.planes,
-                  b.light, points.planes, more.light, irradiance, doubt, more.irradiance);
+                  b.light, points.planes, shown.light, irradiance, doubt, shown.irradiance);
 }
 
 cl::Event CachePasses::sight(const cl::CommandQueue& queue, const CacheParams& params,

@@ -77,6 +77,7 @@ std::shared_ptr<const SkyWeights> IrradianceCache::State::weigh_sky() {
 
 void IrradianceCache::State::forget_corrections() {
     sky_weights.reset();
+    weighed = false;
     corrected = 0;
 }
 
@@ -95,7 +96,8 @@ void IrradianceCache::State::light_by_sky(const cl::Buffer& planes, std::size_t 
 
 bool IrradianceCache::State::light_by_sky(std::uint32_t of_sample) {
     Recorder& record = picture.record();
-    if (corrected == 0) {
+    if (!weighed) {
+        weighed = true;
         sky_weights = weigh_sky();
         record.fill(corrections, 0);
     }

@@ -111,7 +111,8 @@ struct IrradianceCache::State {
     Emitters sky_lights;
     LightPasses lights;
     cl::Buffer sight, found_light, corrections, shares;
-    std::shared_ptr<const SkyWeights> sky_weights;  // of the records of this picture
+    bool weighed = false;  // whether the records of this picture see the sky is known
+    std::shared_ptr<const SkyWeights> sky_weights;  // by these records; null: they do not
     std::size_t grown = 0;                          // bytes, of shadow maps
     std::uint32_t sample = 0, corrected = 0;        // samples, of which so many have been corrected
     cl::Buffer all_nodes, all_lists;                // of all_tree

@@ -97,6 +97,9 @@ typedef struct {
 // A picture whose light of the sky is corrected, in blocks of so many pixels a side.
 enum { CACHE_BLOCK = 8 };
 
+// Of so many pixels across or down.
+CLGI_INLINE uint cache_blocks(uint pixels) { return (pixels + CACHE_BLOCK - 1) / CACHE_BLOCK; }
+
 typedef struct {
     uint width;   // pixels
     uint height;
