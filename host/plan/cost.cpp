@@ -176,7 +176,7 @@ PlanCost dynamic_transfer(const Plan& plan) {
 // Each record has its hemicube drawn and looked up.
 PlanCost irradiance_cache(const Plan& plan) {
     const IrradianceCacheOptions& options = plan.cache;
-    const double records = 1.5 * options.seen + options.met + options.refined,
+    const double shown = 1.5 * options.seen + options.refined, records = shown + options.met,
                  pixels = 3.0 * options.face * options.face;
     // A pixel of a hemicube is lit by all lamps, but by few of the samples of emissive surfaces.
     // Some pixels are looked up again while records are weighed.
@@ -185,10 +185,14 @@ PlanCost irradiance_cache(const Plan& plan) {
     const double samples =
         plan.on(Effect::area_light) ? static_cast<double>(plan.picture.emitters.area_samples) : 0.0;
     const double lit = lamps.emitters - samples + std::min(samples, samples_at_once);
+    const double look = (4e-5 + 1e-5 * lit) * pixels;
     Amount frame = picture(plan, false);
-    frame += {records * (0.1 + 1.2e-5 * triangles(plan) + weighed * (4e-5 + 1e-5 * lit) * pixels) +
+    frame += {records * (0.1 + 1.2e-5 * triangles(plan) + weighed * look) +
                   2e-6 * records * records,
               records * (8.0 * pixels + 12.0 * records)};
+    if (plan.on(Effect::gloss))  // what records have around them, and directions of lobes
+        frame += {shown * look + 8e-4 * plan.request.width * plan.request.height,
+                  10.5 * shown * pixels};
     return {0.0, frame.ms, 1e-6 * frame.bytes};
 }
 

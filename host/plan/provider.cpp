@@ -105,7 +105,7 @@ Provider provider_of(const Plan& plan, Method method, Effect effect) {
             return indirect_occlusion(method);
         case Effect::gloss:
             if (method == Method::antiradiance) return {"direct light, glossy leaves"};
-            if (method == Method::irradiance_cache) return {"direct light, spread hemicubes"};
+            if (method == Method::irradiance_cache) return {"direct light, hemicubes"};
             if (method == Method::dynamic_transfer) return {"direct light, masks of pixels"};
             return {"direct light"};  // indirect light is diffuse
         case Effect::textures:

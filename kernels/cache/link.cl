@@ -2,10 +2,11 @@
 // not depend on other records, the light of the sky and of emission, and direct light once reflected.
 //
 //   E_i = B_i + R_i + sum_j T_ij E_j
-//   T_ij = sum over pixels w rho W_j,   B_i = sum w pi L,   R_i = sum w rho D
+//   T_ij = sum over pixels w rho W_j,   B_i = sum w pi L,   R_i = sum w pi D
 //
-// w: form factor of a pixel, rho: albedo of the surface in it, lobes taken for diffuse, W_j: share of record j in it
-// (lookup.clh), D: direct light there, by shadow maps (lights/direct.clh). E has no direct light.
+// w: form factor of a pixel, rho: albedo of the surface in it, lobes taken for diffuse, W_j: share of
+// record j in it (lookup.clh), D: radiance that it reflects of direct light towards the record, by
+// shadow maps (lights/direct.clh) and lobes (microfacet.clh). E has no direct light.
 // Sample points of emissive surfaces, of which there may be hundreds, take turns from one block of
 // 16 pixels to the next.        [derived: radiosity of points, gathered by hemicubes]
 //
@@ -42,7 +43,7 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
                 CacheShare share;
                 if (!link_surface(&world, &packet, k, &sends, &reflects, &share)) continue;
                 own += sends;
-                once += reflects * link_lane(packet.direct, k);
+                once += packet.factor[k] * link_lane(packet.once, k);
                 for (uint i = 0; i < share.count; ++i) {
                     global float* to = row + share.record[i];
                     to[0] += share.weight[i] * reflects.x;

@@ -44,7 +44,7 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
                 float3 sends, rho;
                 CacheShare share;
                 if (link_surface(&world, &packet, 0, &sends, &rho, &share)) {
-                    float3 once = rho * link_lane(packet.direct, 0);
+                    float3 once = packet.factor[0] * link_lane(packet.once, 0);
                     brings[1][lane] = sends.x;
                     brings[2][lane] = sends.y;
                     brings[3][lane] = sends.z;

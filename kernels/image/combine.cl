@@ -3,8 +3,7 @@
 //   L = L_e + sum over lights f E_light + rho/pi max(0, I_s - I_n)
 //   f: microfacet.clh,  rho = diffuse share * base colour          [Cochran07, section 3.4; glTF 2.0]
 //
-// Without COMBINE_SPECULAR f is rho/pi. With COMBINE_SPREAD_LOBES the indirect light has rho + k_s in
-// place of rho, k_s = coat + lobe share * base colour, the lobes' mean albedo.
+// Without COMBINE_SPECULAR f is rho/pi.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels, finite and not negative; non_finite counts the packets
@@ -62,29 +61,24 @@ kernel void image_combine(
 
     // What the material makes of its base colour in even light: a diffuse share, and lobes. No
     // material: all of it diffuse.
-    floatp diffuse = one, coat = zero, share = zero;
-    float lanes[7][CLGI_WIDTH];
+    floatp diffuse = one;
+    float lanes[5][CLGI_WIDTH];
     for (int k = 0; k < CLGI_WIDTH; ++k) {
         // Past the last pixel another renderer may have left anything.
         int there = pixel + k < params.width * params.height;
-        float4 r = (float4)(1.0f, 0.0f, 0.0f, 0.0f), s = (float4)(0.0f, 1.0f, 0.0f, 0.0f);
+        float share = 1.0f;
+        float4 s = (float4)(0.0f, 1.0f, 0.0f, 0.0f);
         if (there && (params.effects & COMBINE_MATERIALS))
-            r = pixel_reflectance(ids, materials, stride, pixel + k);
+            share = pixel_reflectance(ids, materials, stride, pixel + k).x;
         if (there && (params.effects & COMBINE_SPECULAR))
             s = pixel_surface(ids, materials, stride, pixel + k);
-        lanes[0][k] = r.x;
-        lanes[1][k] = r.y;
-        lanes[2][k] = r.z;
-        lanes[3][k] = s.x;
-        lanes[4][k] = s.y * s.y;
-        lanes[5][k] = s.z;
-        lanes[6][k] = s.w;
+        lanes[0][k] = share;
+        lanes[1][k] = s.x;
+        lanes[2][k] = s.y * s.y;
+        lanes[3][k] = s.z;
+        lanes[4][k] = s.w;
     }
-    if (params.effects & COMBINE_MATERIALS) {
-        diffuse = packet_load(lanes[0]);
-        coat = packet_load(lanes[1]);
-        share = packet_load(lanes[2]);
-    }
+    if (params.effects & COMBINE_MATERIALS) diffuse = packet_load(lanes[0]);
 
     if ((params.effects & COMBINE_DIRECT) && packet_any(surface)) {
         ShadowPoint point = direct_point(planes, stride, pixel);
@@ -96,10 +90,10 @@ kernel void image_combine(
                                  zero - view.forward.x,
                                  zero - view.forward.y,
                                  zero - view.forward.z,
+                                 packet_load(lanes[1]),
+                                 packet_load(lanes[2]),
                                  packet_load(lanes[3]),
                                  packet_load(lanes[4]),
-                                 packet_load(lanes[5]),
-                                 packet_load(lanes[6]),
                                  one};
         if (params.effects & COMBINE_SPECULAR) {
             if (view.eye.w == 0.0f)
@@ -141,9 +135,6 @@ kernel void image_combine(
             worst = max(worst, packet_magnitude(indirect));  // packet_max would hide it
             indirect = packet_max(indirect, zero);
             light += indirect;
-            if (params.effects & COMBINE_SPREAD_LOBES)
-                glossy[c] =
-                    fma(fma(share, base[c], coat) * (1.0f / CLGI_PI), indirect, glossy[c]);
         }
         out[c] = fma(base[c] * diffuse * (1.0f / CLGI_PI), light, glossy[c]);
         if (params.effects & COMBINE_EMISSION)

@@ -86,14 +86,6 @@ TEST(CachePasses, WeighWhatPicksSend) {
     EXPECT_EQ(cells[5], 77u);
 }
 
-EmitterBuffers no_emitters() {
-    EmitterBuffers out;
-    out.kind = Pixels::depth;
-    for (cl::Buffer* buffer : {&out.emitters, &out.views, &out.visibility})
-        *buffer = test::empty<float>(64);
-    return out;
-}
-
 // Two records at the origin that look up, their hemicubes, in which nothing is drawn, and what link
 // writes.
 void look_up(CacheBuffers& b, std::uint32_t size) {

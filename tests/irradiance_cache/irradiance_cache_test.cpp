@@ -95,28 +95,6 @@ TEST_P(IrradianceCachePictures, HaveAllReflectionsOfASphere) {
     }
 }
 
-// Lobes count with their mean albedo: of a wall that is half metal, p is the sum of the shares of
-// coat, lobe and diffuse light (docs/materials.md).
-TEST_P(IrradianceCachePictures, HaveReflectionsByLobesInASphere) {
-    Scene scene = furnace({.light = LightSource::point, .subdivisions = 3});
-    const glm::vec3 base(0.6f, 0.3f, 0.75f);
-    scene.materials[0].base_color = glm::vec4(base, 1.0f);
-    scene.materials[0].metallic = 0.5f;
-    scene.materials[0].roughness = 0.4f;
-    scene.lights[0].intensity = {1.0f, 2.0f, 5.0f};
-    scene.cameras = {test::camera_at({0, 0, 0.2}, {0.3, 0.2, -1}, 1.2f)};
-    IrradianceCacheOptions options = cache_options();
-    options.picture.direct = false;
-    const CachePicture found = pictured(scene, options);
-    // Integrals of D V, and of D V (1 - v.h)^5, for alpha 0.16.
-    const double albedo = 0.9392, grazing = 0.0261;
-    for (int c = 0; c < 3; ++c) {
-        const double p = 0.5 * (base[c] * (1.0 + albedo - grazing) + grazing);
-        const double wanted = p / pi * scene.lights[0].intensity[c] * p / (1.0 - p);
-        EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.04 * wanted) << c;
-    }
-}
-
 // Below the middle of a square lamp: E = 4 L (a / A atan(b / A) + b / B atan(a / B)) / 2.
 TEST_P(IrradianceCachePictures, HaveALampByHemicubes) {
     Scene scene = below_a_lamp({0.5f, 0.5f, 0.5f});

@@ -26,6 +26,14 @@ inline GBuffer points_of(const std::vector<float>& planes, std::uint32_t stride)
     return out;
 }
 
+inline EmitterBuffers no_emitters() {
+    EmitterBuffers out;
+    out.kind = Pixels::depth;
+    for (cl::Buffer* buffer : {&out.emitters, &out.views, &out.visibility})
+        *buffer = test::empty<float>(64);
+    return out;
+}
+
 constexpr std::uint32_t plane = 16;  // stride of small planes
 
 // Two records that face up, a metre to the left and to the right of the origin.

@@ -45,7 +45,14 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
                   f.surfaces.gloss = f.surfaces.glossy_area = 0.5;
                   w.seconds = 10.0;
               }),
-              Method::antiradiance);
+              Method::irradiance_cache);
+    // Of which a picture by others knows nothing, however many triangles there are.
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
+                  f.surfaces.gloss = f.surfaces.glossy_area = 0.5;
+                  f.surfaces.triangles = 500000;
+                  w.seconds = 10.0;
+              }),
+              Method::irradiance_cache);
     EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
                   f.surfaces.triangles = 500000;
                   w.animated = true;

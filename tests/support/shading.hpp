@@ -159,7 +159,6 @@ inline ShadedTruth shaded_truth(const Shading& in, const ShadedPixel& pixel) {
     const Material material = shown_material(pixel, in.materials);
     const Reflectance r = reflectance(material);
     const glm::dvec3 base(pixel.base), rho = base * double{r.diffuse};
-    const glm::dvec3 gloss = base * double{r.lobe} + double{r.coat};
     const glm::dvec3 toward_eye = in.view.eye.w == 0.0f
                                       ? glm::normalize(glm::dvec3(in.view.eye) - p)
                                       : -glm::dvec3(in.view.forward);
@@ -212,9 +211,8 @@ inline ShadedTruth shaded_truth(const Shading& in, const ShadedPixel& pixel) {
         }
     }
     for (int c = 0; c < 3; ++c) {
-        const double spread = in.params.effects & COMBINE_SPREAD_LOBES ? gloss[c] : 0.0;
         if (in.params.effects & COMBINE_INDIRECT)
-            out.radiance[c] += (rho[c] + spread) / pi * std::max(double{pixel.irradiance[c]}, 0.0);
+            out.radiance[c] += rho[c] / pi * std::max(double{pixel.irradiance[c]}, 0.0);
         if (in.params.effects & COMBINE_EMISSION) out.radiance[c] += double{pixel.emission[c]};
         out.radiance[c] *= double{in.params.exposure};
         out.bound[c] = out.bound[c] * double{in.params.exposure} + 16 * u * out.radiance[c];

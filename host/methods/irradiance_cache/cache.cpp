@@ -35,16 +35,19 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     options.picture.build.textures = options.picture.build.textures && scene.needs_textures();
     if (options.emission) options.picture.emitters.area_samples = 0;
     options.picture.emitters.focused = true;
-    options.picture.spread_lobes = true;
     return options;
 }
 
-// A block of pixels has up to four records.
-std::size_t most_records(const IrradianceCacheOptions& options) {
+// Records on what pixels see: a block of pixels has up to four.
+std::size_t most_around(const IrradianceCacheOptions& options) {
     const auto pixels = static_cast<std::size_t>(options.picture.width) *
                         static_cast<std::size_t>(options.picture.height);
     return std::min(4 * static_cast<std::size_t>(options.seen), 4 * pixels) +
-           static_cast<std::size_t>(options.met) + static_cast<std::size_t>(options.refined);
+           static_cast<std::size_t>(options.refined);
+}
+
+std::size_t most_records(const IrradianceCacheOptions& options) {
+    return most_around(options) + static_cast<std::size_t>(options.met);
 }
 
 }  // namespace
@@ -62,6 +65,11 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
         vpls > 0.0 ? vpls * hemicube + sizeof(std::uint64_t) *
                                            static_cast<double>(spot_pixels(o.picture.emitters))
                    : 0.0;
+    const double around =
+        scene.has_lobes()
+            ? static_cast<double>(around_bytes({0, 0, static_cast<std::uint32_t>(most_around(o)),
+                                                static_cast<std::uint32_t>(o.face)}))
+            : 0.0;
     // Directions of the sky have a map each, or two, and pixels their corrections.
     double sky = 0.0;
     if (o.sky_lights > 0 && scene.environment()) {
@@ -73,7 +81,7 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     const double milliseconds = 1e3 * records *
                                 (3.0 * face * face * pairs / pairs_per_second(device) +
                                  drawn * static_cast<double>(scene.info().triangle_count));
-    return {static_cast<std::size_t>(most * per_record + spots + sky), milliseconds};
+    return {static_cast<std::size_t>(most * per_record + spots + sky + around), milliseconds};
 }
 
 IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& queue,
@@ -98,6 +106,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     if (options.met > 0) passes.build({"pick", "weigh"});
     if (casts_spots()) passes.build({"mark", "tally", "spots", "shine"});
     cubes.build({"cubes", "raster_views"});
+    if (scene.has_lobes()) passes.build({"around", "gloss"});
     if (!corrects()) return;
     sky_lights.build(picture.passes());
     passes.build({"sight", "gauge", "correct"});
@@ -124,6 +133,10 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     table.add(b.sky, "the sky", "the environment",
               std::max<std::size_t>(16, sky.texels.size() * word));
     add_spots(table);
+    if (scene.has_lobes())
+        table.add(around, "what records have around them", lower,
+                  around_bytes({0, 0, static_cast<std::uint32_t>(most_around(options)),
+                                static_cast<std::uint32_t>(options.face)}));
     if (!corrects()) return;
     sky_lights.add_to(table);
     const std::size_t of_picture = picture.stride() * word;
@@ -163,6 +176,7 @@ CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count)
     out.emitter_count = static_cast<std::uint32_t>(emitters.size());
     out.whole_emitters = static_cast<std::uint32_t>(whole);  // they come first
     out.spots = has_tiles ? 1 : 0;
+    out.lobes = scene.has_lobes() ? 1 : 0;
     out.emitter_step =
         std::max(1u, (out.emitter_count - out.whole_emitters) / area_samples_at_once);
     return out;
@@ -192,8 +206,10 @@ cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
         s.light(s.options.bounces);
         s.show();
         s.refine(view);
+        s.look_around();
     }
     s.picture.combine(view);
+    if (!s.records.empty()) s.add_gloss(view);
     return s.picture.end(view);
 }
 
@@ -207,6 +223,7 @@ cl::Event IrradianceCache::render_again(const Camera& camera, const WaitList& wa
         if (sky) s.correct();
     }
     s.picture.combine(view);
+    if (!s.records.empty()) s.add_gloss(view);
     return s.picture.end(view);
 }
 

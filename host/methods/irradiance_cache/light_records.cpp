@@ -106,17 +106,20 @@ bool IrradianceCache::State::rests() {
     return change <= rest * most;
 }
 
-void IrradianceCache::State::show(bool sky) {
-    const bool refined = found.refined > 0;
-    CacheBuffers all = b;
-    if (refined) {
-        all.nodes = all_nodes;
-        all.lists = all_lists;
+CacheBuffers IrradianceCache::State::shown_buffers() const {
+    CacheBuffers out = b;
+    if (found.refined > 0) {
+        out.nodes = all_nodes;
+        out.lists = all_lists;
     }
+    return out;
+}
+
+void IrradianceCache::State::show(bool sky) {
     const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()), picture.stride(),
                                  sky ? 1u : 0u, 0};
     picture.record()("cache.show", picture.pixels(), [&](const WaitList& wait) {
-        return passes.show(picture.record().queue(), params, refined ? all_tree : tree, all,
+        return passes.show(picture.record().queue(), params, shown_tree(), shown_buffers(),
                            picture.gbuffer(), picture.irradiance(), doubt, {b.next, found_light},
                            wait);
     });

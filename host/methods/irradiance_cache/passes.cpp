@@ -31,6 +31,34 @@ void need_tree(const PassKernel& pass, const CacheTree& tree, const CacheBuffers
     need(pass, "planes", b.planes, RECORD_PLANES * word * tree.stride);
 }
 
+// What hemicubes see and how it is lit.
+void need_link(const PassKernel& pass, const CacheParams& params, const CacheTree& tree,
+               const EmitterBuffers& emitters, const CacheBuffers& b) {
+    need_tree(pass, tree, b);
+    need(pass, "sky", b.sky,
+         3 * word * std::max<std::size_t>(1, std::size_t{params.sky_width} * params.sky_height));
+    need_range(pass.name.c_str(), "thin", params.thin, 1u, 1u << 20);
+    need_range(pass.name.c_str(), "emitter_step", params.emitter_step, 1u, 1u << 20);
+    need_range(pass.name.c_str(), "whole_emitters", params.whole_emitters, 0u,
+               params.emitter_count);
+    need_depth_words(pass, 1, emitters.kind);
+    need_emitters(pass, emitters, params.emitter_count);
+    if (params.spots)
+        need(pass, "by_spots", b.by_spots, SPOT_TILES_A_VIEW * word * emitters.view_count);
+}
+
+// records: how many there are.
+void need_around(const PassKernel& pass, const CacheAround& of, std::size_t records,
+                 const cl::Buffer& around) {
+    const std::size_t slots = records - std::min<std::size_t>(records, of.met);
+    if (of.slots != slots || of.seen > slots || of.size % 8 != 0)
+        throw Error(pass.name + ": slots are " + std::to_string(of.slots) + " of size " +
+                    std::to_string(of.size) + ", " + std::to_string(slots) +
+                    " of a multiple of 8 needed");
+    need_countable(pass.name, "around", 4 * std::size_t{of.size} * of.size, of.slots);
+    need(pass, "around", around, around_bytes(of));
+}
+
 std::size_t seen_bytes(const DeviceScene& scene) {
     return (2 * std::size_t{scene.info().vertex_count} + 31) / 32 * word;
 }
@@ -66,7 +94,7 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     const BuildOptions whole = full(options);
     const std::vector<std::string> records = {"pick", "link", "bounce", "weigh"},
                                    spots = {"mark", "tally", "spots", "shine"},
-                                   sky = {"sight", "gauge", "correct"};
+                                   sky = {"sight", "gauge", "correct"}, gloss = {"around", "gloss"};
     const auto few = [&](const char* pass, const std::vector<std::string>& together) {
         return in_small_groups(programs.kernel("cache", pass, whole, "", together),
                                programs.device(), options);
@@ -86,11 +114,13 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     sight_ = few("sight", sky);
     gauge_ = few("gauge", sky);
     correct_ = programs.kernel("cache", "correct", whole, "", sky);
+    around_ = few("around", gloss);
+    gloss_ = programs.kernel("cache", "gloss", whole, "", gloss);
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
     build_named({pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
-                 gauge_, correct_},
+                 gauge_, correct_, around_, gloss_},
                 passes);
 }
 
@@ -110,20 +140,11 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
                             const EmitterBuffers& emitters, const CacheBuffers& b,
                             const WaitList& wait) const {
     need_records(link_, params, b);
-    need_tree(link_, tree, b);
-    need(link_, "sky", b.sky,
-         3 * word * std::max<std::size_t>(1, std::size_t{params.sky_width} * params.sky_height));
+    need_link(link_, params, tree, emitters, b);
     need(link_, "rows", b.rows,
          3 * word * params.stride * (std::size_t{params.first} + params.count));
     need(link_, "base", b.base, 3 * word * params.stride);
     need(link_, "reflected", b.reflected, 3 * word * params.stride);
-    need_range("cache.link", "thin", params.thin, 1u, 1u << 20);
-    need_range("cache.link", "emitter_step", params.emitter_step, 1u, 1u << 20);
-    need_range("cache.link", "whole_emitters", params.whole_emitters, 0u, params.emitter_count);
-    need_depth_words(link_, 1, emitters.kind);
-    need_emitters(link_, emitters, params.emitter_count);
-    if (params.spots)
-        need(link_, "by_spots", b.by_spots, SPOT_TILES_A_VIEW * word * emitters.view_count);
     return launch(link_, queue, params.count * items_each(link_, groups_), wait, params, tree,
                   scene.info(), b.views, b.visibility, b.nodes, b.lists, b.planes, b.sky, scene,
                   emitters.emitters, emitters.views, emitters.visibility, b.by_spots, b.rows,
@@ -256,6 +277,51 @@ cl::Event CachePasses::correct(const cl::CommandQueue& queue, const CacheCorrect
     need(correct_, "irradiance", irradiance, irradiance_bytes(correct_.storage, params.stride));
     return launch(correct_, queue, std::size_t{params.width} * params.height, wait, params, sums,
                   shares, irradiance);
+}
+
+cl::Event CachePasses::around(const cl::CommandQueue& queue, const CacheParams& params,
+                              const CacheAround& of, const CacheTree& tree,
+                              const DeviceScene& scene, const EmitterBuffers& emitters,
+                              const CacheBuffers& b, const cl::Buffer& around,
+                              const WaitList& wait) const {
+    need_records(around_, params, b);
+    need_link(around_, params, tree, emitters, b);
+    need_around(around_, of, params.first + params.count, around);
+    if (of.size != params.size)
+        throw Error("cache.around: size is " + std::to_string(of.size) + ", " +
+                    std::to_string(params.size) + " needed");
+    need(around_, "light", b.light, 3 * word * tree.stride);
+    return launch(around_, queue, std::size_t{5} * of.slots, wait, params, tree, scene.info(),
+                  b.views, b.visibility, b.nodes, b.lists, b.planes, b.sky, scene,
+                  emitters.emitters, emitters.views, emitters.visibility, b.by_spots, of, b.light,
+                  around);
+}
+
+cl::Event CachePasses::gloss(const cl::CommandQueue& queue, const CacheGlossParams& params,
+                             const CacheAround& of, const CacheTree& tree, const DeviceScene& scene,
+                             const CacheBuffers& b, const Glossy& picture,
+                             const WaitList& wait) const {
+    need_tree(gloss_, tree, b);
+    need_stride(gloss_, "stride", params.stride, params.pixel_count);
+    need_range("cache.gloss", "directions", params.directions, 1u, 1u << 16);
+    need_around(gloss_, of, tree.record_count, picture.around);
+    need(gloss_, "light", b.light, 3 * word * tree.stride);
+    need(gloss_, "views", b.views, 5 * sizeof(View) * tree.record_count);
+    need(gloss_, "planes", picture.points.planes, gbuffer_bytes(gloss_.storage, params.stride));
+    need(gloss_, "ids", picture.points.ids, GBUFFER_ID_PLANES * word * params.stride);
+    need(gloss_, "irradiance", picture.irradiance, irradiance_bytes(gloss_.storage, params.stride));
+    need(gloss_, "radiance", picture.radiance, RADIANCE_PLANES * word * params.stride);
+    need(gloss_, "non_finite", picture.non_finite, word);
+    return launch(gloss_, queue, params.pixel_count, wait, params, of, tree, b.nodes, b.lists,
+                  b.planes, b.light, b.views, picture.around, scene.materials(),
+                  picture.points.planes, picture.points.ids, picture.irradiance, picture.radiance,
+                  picture.non_finite);
+}
+
+std::size_t around_bytes(const CacheAround& of) {
+    std::size_t sum = 0, level = std::size_t{3} * of.slots * of.size * of.size;
+    for (int k = 0; k < AROUND_LEVELS; ++k, level /= 4) sum += level;
+    return sum * sizeof(std::uint64_t);
 }
 
 }  // namespace clgi

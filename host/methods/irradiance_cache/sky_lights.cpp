@@ -16,7 +16,7 @@ namespace clgi {
 namespace {
 
 constexpr int most_map = 256;  // pixels a side: a direction is one of many
-constexpr int around = 1;      // texels by which what records see is spread, as they are few
+constexpr int nearby = 1;      // texels by which what records see is spread, as they are few
 // Of the most that is seen of any direction, how much counts as seen of those that no record sees.
 constexpr double unseen = 0.002;
 
@@ -57,10 +57,10 @@ std::shared_ptr<const SkyWeights> IrradianceCache::State::weigh_sky() {
     for (int row = 0; row < height; ++row)
         for (int column = 0; column < width; ++column) {
             double sum = 0.0, angle = 0.0;
-            for (int down = -around; down <= around; ++down) {
+            for (int down = -nearby; down <= nearby; ++down) {
                 const int line = std::clamp(row + down, 0, height - 1);
-                angle += (2 * around + 1) * texel_solid_angle(width, height, line);
-                for (int across = -around; across <= around; ++across)
+                angle += (2 * nearby + 1) * texel_solid_angle(width, height, line);
+                for (int across = -nearby; across <= nearby; ++across)
                     sum += seen[at(line, column + across)];
             }
             of_texel[at(row, column)] = sum / angle;

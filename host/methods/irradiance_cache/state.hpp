@@ -67,6 +67,9 @@ struct IrradianceCache::State {
     std::vector<float> read_doubt();
     // Whether the last step changed little.
     bool rests();
+    // Of the records that pixels look up.
+    const CacheTree& shown_tree() const { return found.refined > 0 ? all_tree : tree; }
+    CacheBuffers shown_buffers() const;
     // sky: light_by_sky() has been called.
     void show(bool sky = false);
     // Where the scene has a sky and options ask for its directions: light of the sky between the
@@ -75,6 +78,9 @@ struct IrradianceCache::State {
     // the sky; show() interpolates that, and correct() follows.
     bool light_by_sky(std::uint32_t sample);
     void correct();
+    // Where surfaces have lobes: what the records have around them, and what lobes reflect of it.
+    void look_around();
+    void add_gloss(const View& view);
     bool corrects() const { return sky_lights.casts_shadows(); }
     void forget_corrections();
     std::shared_ptr<const SkyWeights> weigh_sky();
@@ -106,11 +112,12 @@ struct IrradianceCache::State {
     bool has_tiles = false;         // of lights that do not light pixels
     std::uint32_t spot_size = 0;    // pixels a side
     std::uint32_t spot_stride = 0;  // of the planes of VPLs
-    CacheTree tree{}, all_tree{};   // of those that light goes between, of these and refined ones
+    CacheAround surroundings{};
+    CacheTree tree{}, all_tree{};  // of those that light goes between, of these and refined ones
     CoarseSky sky;
     Emitters sky_lights;
     LightPasses lights;
-    cl::Buffer sight, found_light, corrections, shares;
+    cl::Buffer around, sight, found_light, corrections, shares;
     bool weighed = false;  // whether the records of this picture see the sky is known
     std::shared_ptr<const SkyWeights> sky_weights;  // by these records; null: they do not
     std::size_t grown = 0;                          // bytes, of shadow maps

@@ -88,7 +88,6 @@ void Picture::combine(const View& view) {
     CombineParams params =
         combine_params(scene_, view, seen_.stride, emitters_.set().emitters.size(), Pixels::depth);
     params.effects |= COMBINE_INDIRECT;
-    if (options_.spread_lobes) params.effects |= COMBINE_SPREAD_LOBES;
     if (options_.direct) {
         params.effects |= COMBINE_DIRECT | COMBINE_EMISSION;
         if (scene_.has_lobes()) params.effects |= COMBINE_SPECULAR;

@@ -42,6 +42,9 @@ struct SpotBuffers {
     CacheBuffers hemicubes;  // views and visibility of these
 };
 
+// Of what CachePasses::around writes.
+CLGI_API std::size_t around_bytes(const CacheAround& of);
+
 class CLGI_API CachePasses {
 public:
     explicit CachePasses(const Programs& programs, const BuildOptions& options = {});
@@ -123,12 +126,33 @@ public:
                       const cl::Buffer& sums, const cl::Buffer& shares,
                       const cl::Buffer& irradiance, const WaitList& wait = {}) const;
 
+    // Radiance around records: buffers.light -> around [around_bytes(of) / 8] ulong, of all records
+    // but those that were met. params: of all records, as for link.
+    cl::Event around(const cl::CommandQueue& queue, const CacheParams& params,
+                     const CacheAround& of, const CacheTree& tree, const DeviceScene& scene,
+                     const EmitterBuffers& emitters, const CacheBuffers& buffers,
+                     const cl::Buffer& around, const WaitList& wait = {}) const;
+
+    // Adds what lobes reflect of that to the radiance of a picture. irradiance: as show left it,
+    // corrected or not.
+    struct Glossy {
+        cl::Buffer around;
+        GBuffer points;
+        cl::Buffer irradiance;  // [IRRADIANCE_PLANES][params.stride] exposed lux
+        cl::Buffer radiance;    // [RADIANCE_PLANES][params.stride] cd/m^2
+        cl::Buffer non_finite;  // [1] uint, only added to
+    };
+    cl::Event gloss(const cl::CommandQueue& queue, const CacheGlossParams& params,
+                    const CacheAround& of, const CacheTree& tree, const DeviceScene& scene,
+                    const CacheBuffers& buffers, const Glossy& picture,
+                    const WaitList& wait = {}) const;
+
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
 
 private:
     PassKernel pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_, gauge_,
-        correct_;
+        correct_, around_, gloss_;
     bool groups_;  // a record by a group of work-items
 };
 

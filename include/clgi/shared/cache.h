@@ -54,7 +54,7 @@ typedef struct {
     uint emitter_step;    // of the others each lights one block of 16 pixels in so many, at least 1
     uint thin;  // of the blocks of 16 pixels one in so many counts, at least 1
     uint spots;  // 1: some tiles of lights, if any, do not light pixels
-    uint pad0_;
+    uint lobes;  // 1: direct light is reflected by lobes, not as by diffuse surfaces
     uint pad1_;
     uint pad2_;
 } CacheParams;
@@ -113,6 +113,36 @@ typedef struct {
     uint more;    // 1: a second light is shown by the same shares
     uint pad_;
 } CacheShowParams;
+
+// Radiance in the pixels of hemicubes, and its means over 2 x 2 and 4 x 4 of them. Records that were
+// met have none; the others have a slot each, in their order.
+enum { AROUND_LEVELS = 3 };
+
+typedef struct {
+    uint seen;   // records that come first
+    uint met;    // that follow them
+    uint slots;  // of all other records
+    uint size;   // pixels, side of a hemicube's whole face, a multiple of 8
+} CacheAround;
+
+// The first pixel of a level; of AROUND_LEVELS: how many there are.
+CLGI_INLINE uint around_first(uint slots, uint size, uint level) {
+    uint sum = 0, of_level = 3 * slots * size * size;
+    for (uint k = 0; k < level; ++k, of_level /= 4) sum += of_level;
+    return sum;
+}
+
+typedef struct {
+    float4 eye;  // xyz: local frame; w: 1: the direction to the eye, everywhere
+    uint pixel_count;
+    uint stride;           // of the planes of pixels
+    uint first_direction;  // of a sequence
+    uint directions;       // a pixel, at least 1
+    float exposure;
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+} CacheGlossParams;
 
 CLGI_SHARED_END
 

@@ -49,10 +49,7 @@ enum {
     COMBINE_EMISSION = 4,
     COMBINE_SPECULAR = 8,    // with COMBINE_MATERIALS
     COMBINE_MATERIALS = 16,  // some material's diffuse share is not 1
-    // Lobes reflect indirect light as diffuse surfaces of their mean albedo do; with
-    // COMBINE_MATERIALS.
-    COMBINE_SPREAD_LOBES = 32,
-    COMBINE_MAPPED_NORMALS = 64  // GBUFFER_MAPPED_NORMAL holds where it is not -1
+    COMBINE_MAPPED_NORMALS = 32   // GBUFFER_MAPPED_NORMAL holds where it is not -1
 };
 
 // Radiance planes: rgb, stride apart.

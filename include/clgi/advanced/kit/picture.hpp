@@ -22,8 +22,6 @@ struct PictureOptions {
     int height = 480;
     EmitterOptions emitters;  // for direct light; emitters.vpls is not used
     bool direct = true;       // with its gloss, emission and the environment; false: no shadow maps
-    // Lobes reflect indirect light too, as diffuse surfaces of their mean albedo do.
-    bool spread_lobes = false;
     bool shadow_maps = false;  // without direct light too, for a solver that reads them
     // Bytes that the buffers may take together; 0: what the device has beside the scene.
     std::size_t memory_budget = 0;

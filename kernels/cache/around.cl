@@ -1,0 +1,61 @@
+// What records have around them, once the light between them is known: the radiance in each pixel of
+// their hemicubes, and its means over blocks of pixels.
+//
+//   L = L_sky, or L_e + D + rho/pi E        E: of records (lookup.clh), D: direct light that the surface
+//                                           reflects towards the record (link.clh)
+//                                      [Krivanek05: radiance that is cached; derived: in hemicubes]
+//
+// Work size    1D, one work-item a face, five a slot; any local size; tail guarded
+// Writes       its own pixels, at all levels
+// Cost         as link.cl a pixel
+// SPDX-License-Identifier: MIT
+#include "cache/around.clh"
+#include "cache/link.clh"
+
+// From pixel k, exposed; 0 where there is nothing.
+static float3 around_radiance(const LinkWorld* world, const View* view, const LinkPacket* packet,
+                              global const float* light, int k) {
+    float per_factor = 1.0f / packet->factor[k];
+    float3 sends, reflects;
+    CacheShare share;
+    if (!link_surface(world, packet, k, &sends, &reflects, &share))
+        return link_above(world, view, packet, k) * world->params->sky.xyz * per_factor;
+    CacheLight found = cache_light(&share, light, world->tree->stride);
+    return (link_lane(packet->once, k) + (sends + reflects * found.irradiance) * per_factor) *
+           (1.0f / CLGI_PI);
+}
+
+kernel void cache_around(
+    RECORD_WORLD_ARGUMENTS,
+    const CacheAround    of,
+    global const float*  restrict light,   // [3][stride] exposed lux
+    global uint2*        restrict around)  // [pixels of all levels] (around.clh), exposed radiance
+{
+    uint item = (uint)get_global_id(0), slot = item / 5, face = item % 5;
+    if (slot >= of.slots) return;
+    LinkWorld world = LINK_WORLD;
+    uint record = slot < of.seen ? slot : slot + of.met;
+    int stands = link_stands(&params, planes, record);
+    View view = views[5 * record + face];
+    uint to = around_face(&of, slot, face, 0), pixels = view.width * view.height;
+    for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
+        LinkPacket packet;
+        if (stands)
+            link_packet(&world, &view, visibility, face, pixel, link_block(record, face, pixel),
+                        &packet);
+        for (int k = 0; k < CLGI_WIDTH; ++k)
+            around[to + pixel + k] =
+                stands ? around_pack(around_radiance(&world, &view, &packet, light, k)) : (uint2)(0);
+    }
+    for (uint level = 1; level < AROUND_LEVELS; ++level) {
+        uint from = to, width = view.width >> level, height = view.height >> level;
+        to = around_face(&of, slot, face, level);
+        for (uint pixel = 0; pixel < width * height; ++pixel) {
+            uint at = from + pixel / width * 4 * width + pixel % width * 2;
+            float3 sum = around_unpack(around[at]) + around_unpack(around[at + 1]) +
+                         around_unpack(around[at + 2 * width]) +
+                         around_unpack(around[at + 2 * width + 1]);
+            around[to + pixel] = around_pack(0.25f * sum);
+        }
+    }
+}

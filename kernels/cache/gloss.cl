@@ -1,0 +1,133 @@
+// What the lobes of a picture's surfaces reflect of indirect light and of the sky: directions drawn
+// from glTF's lobe, looked up in what the records of a pixel have around them.
+//
+//   L = c/K sum_k F G_1(l_k) L(l_k)                    l_k: directions of the lobe (microfacet_sample.clh)
+//
+// Each direction is looked up at one record, drawn by its weight (lookup.clh), in pixels about a
+// quarter as large as what it stands for: larger ones blur, smaller ones are noise. c: how far the
+// irradiance was corrected, in luminance (correct.cl). Of a metal's lobe the share alpha^2 counts as
+// diffuse (microfacet_means). A pixel whose records were all met reflects E as a diffuse surface of the
+// lobe's mean albedo does.
+//             [Krivanek05: radiance that is cached; Krivanek08: filtered importance sampling; derived]
+//
+// Work size    1D, one work-item a pixel; any local size; tail guarded
+// Writes       radiance of its own pixel; values that are not finite are counted and left out
+// Cost         a look-up, and some 250 flops and two scattered reads a direction
+// SPDX-License-Identifier: MIT
+#include "cache/around.clh"
+#include "cache/lookup.clh"
+#include "detail_codes.clh"
+#include "gloss.clh"
+#include "microfacet_sample.clh"
+
+#define CHANGE_MOST 2.0f
+
+// Radiance about a unit direction, over a solid angle; 0 where the record has none.
+static float3 gloss_around(const CacheAround* of, global const View* views,
+                           global const uint2* around, uint record, float3 direction, float angle) {
+    global const View* front = views + 5 * record;
+    float a = dot(direction, front->right.xyz), b = dot(direction, front->up.xyz);
+    float c = fabs(dot(direction, front->forward.xyz));  // beneath a surface that bends away: mirrored
+    // Faces as faces_of() numbers them; x and y on their image planes.
+    int across = fabs(a) >= fabs(b);
+    float side = across ? a : b, larger = fabs(side), other = across ? b : -a;
+    uint face = c >= larger ? 0 : (across ? 1u : 2u) + (side < 0.0f ? 2u : 0u);
+    float x = face == 0 ? a / c : other / side, y = face == 0 ? b / c : c / larger;
+    float square = fma(x, x, fma(y, y, 1.0f)), half_size = 0.5f * (float)of->size;
+    float pixels = angle * square * sqrt(square) * half_size * half_size;
+    uint level = pixels < 8.0f ? 0 : pixels < 32.0f ? 1 : 2;
+    uint width = of->size, height = face == 0 ? width : width / 2;
+    uint column = min((uint)fmax(fma(x, half_size, half_size), 0.0f), width - 1) >> level;
+    uint row = min((uint)fmax((1.0f - y) * half_size, 0.0f), height - 1) >> level;
+    uint slot = record < of->seen ? record : record - of->met;
+    return around_unpack(
+        around[around_face(of, slot, face, level) + row * (width >> level) + column]);
+}
+
+// In [0, 1), of a sequence that fills three dimensions evenly, shifted from pixel to pixel.
+//                             [derived: Kronecker's sequence of the powers of 1 / 1.2207440846]
+CLGI_INLINE float3 gloss_numbers(uint pixel, uint index) {
+    uint shift = pixel * 0x9e3779b9u;
+    shift = (shift ^ shift >> 15) * 0x85ebca6bu;
+    shift = (shift ^ shift >> 13) * 0xc2b2ae35u;
+    shift ^= shift >> 16;
+    uint3 at = (uint3)(shift, shift * 0x9e3779b1u, shift * 0x85ebca77u) +
+               index * (uint3)(0xd1b54a33u, 0xabc98389u, 0x8cb92ba7u);
+    return convert_float3(at >> 8) * (1.0f / 16777216.0f);
+}
+
+kernel void cache_gloss(
+    const CacheGlossParams        params,
+    const CacheAround             of,
+    const CacheTree               tree,
+    global const uint*            restrict nodes,
+    global const uint*            restrict lists,
+    global const float*           restrict records,     // [RECORD_PLANES][tree.stride]
+    global const float*           restrict light,       // [3][tree.stride] exposed lux
+    global const View*            restrict views,       // five of each record
+    global const uint2*           restrict around,      // [pixels of all levels] (around.cl)
+    global const MaterialRecord*  restrict materials,
+    global const float*           restrict planes,      // [GBUFFER_PLANES][stride]
+    global const int*             restrict ids,         // [GBUFFER_ID_PLANES][stride]
+    global const float*           restrict irradiance,  // [IRRADIANCE_PLANES][stride] exposed lux
+    global float*                 restrict radiance,    // [RADIANCE_PLANES][stride] cd/m^2
+    global uint*                  restrict non_finite)  // [1]
+{
+    uint pixel = (uint)get_global_id(0), stride = params.stride;
+    if (pixel >= params.pixel_count) return;
+    float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, pixel);
+    if (!(dot(normal, normal) > 0.0f)) return;
+    float4 surface = pixel_surface(ids, materials, stride, pixel);
+    float metallic = surface.x, alpha = surface.y;
+    if (!(metallic + surface.z + surface.w > 0.0f)) return;
+    float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, pixel), base, shown;
+    base.x = row_load_one(gbuffer_row(planes, GBUFFER_BASE, stride), pixel);
+    base.y = row_load_one(gbuffer_row(planes, GBUFFER_BASE + 1, stride), pixel);
+    base.z = row_load_one(gbuffer_row(planes, GBUFFER_BASE + 2, stride), pixel);
+    shown.x = row_load_one(irradiance_row(irradiance, 0, stride), pixel);
+    shown.y = row_load_one(irradiance_row(irradiance, 1, stride), pixel);
+    shown.z = row_load_one(irradiance_row(irradiance, 2, stride), pixel);
+
+    CacheShare share = cache_lookup(&tree, nodes, lists, records, point, normal, CACHE_LISTED);
+    float3 before = cache_light(&share, light, tree.stride).irradiance;
+    float all = 0.0f;
+    for (uint i = 0; i < share.count; ++i) {
+        if (share.record[i] >= of.seen && share.record[i] < of.seen + of.met) share.weight[i] = 0.0f;
+        all += share.weight[i];
+    }
+
+    // The frame of the lobe: y across the eye's direction.
+    normal = mapped_normal(ids[GBUFFER_MAPPED_NORMAL * stride + pixel], normalize(normal));
+    float3 eye = params.eye.w != 0.0f ? params.eye.xyz : normalize(params.eye.xyz - point);
+    float facing = dot(normal, eye);
+    float3 x = eye - facing * normal;
+    float3 helper = fabs(normal.x) < 0.6f ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 1.0f, 0.0f);
+    x = dot(x, x) > 1e-8f ? normalize(x) : normalize(cross(normal, helper));
+    float3 y = cross(normal, x);
+
+    float3 sum = (float3)(0.0f);
+    for (uint k = 0; all > 0.0f && k < params.directions; ++k) {
+        float3 numbers = gloss_numbers(pixel, params.first_direction + k);
+        LobeSample at = lobe_sample(clamp(fabs(facing), 1e-3f, 1.0f), alpha, numbers.x, numbers.y);
+        if (!(at.masked > 0.0f)) continue;
+        float left = numbers.z * all;
+        uint i = 0;
+        while (i + 1 < share.count && left >= share.weight[i]) left -= share.weight[i++];
+        float3 from = gloss_around(&of, views, around, share.record[i],
+                                   at.toward.x * x + at.toward.y * y + at.toward.z * normal,
+                                   1.0f / (at.density * (float)params.directions));
+        float fresnel = fma(surface.w - surface.z, at.away, surface.z);
+        float white = fma(1.0f - metallic, fresnel, metallic * at.away);
+        float tint = metallic * (1.0f - alpha * alpha) * (1.0f - at.away);
+        sum += at.masked * (white + tint * base) * from;
+    }
+    float was = luminance(before.x, before.y, before.z), is = luminance(shown.x, shown.y, shown.z);
+    sum *= (was > 0.0f ? clamp(is / was, 0.0f, CHANGE_MOST) : 1.0f) / (float)params.directions;
+    if (!(all > 0.0f)) {
+        float4 means = pixel_reflectance(ids, materials, stride, pixel);
+        sum = (means.y + means.z * base) * shown * (1.0f / CLGI_PI);
+    }
+    add_reflected(pixel, params.exposure, sum.x, radiance, non_finite);
+    add_reflected(stride + pixel, params.exposure, sum.y, radiance, non_finite);
+    add_reflected(2 * stride + pixel, params.exposure, sum.z, radiance, non_finite);
+}
