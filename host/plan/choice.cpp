@@ -52,15 +52,12 @@ Choice candidates_for(const Plan& plan) {
         return {{Method::irradiance_cache}, "the picture sees a small part of the scene"};
     if (plan.probe && plan.probe->reflected > elsewhere)
         return {{Method::irradiance_cache}, "little of the light reaches the picture"};
-    if (analysis.surfaces.gloss > noticeable && plan.on(Effect::gloss)) {
-        Choice out{{Method::irradiance_cache}, "glossy surfaces reflect indirect light"};
-        if (analysis.surfaces.triangles <= most_glossy_triangles)
-            out.methods.push_back(Method::antiradiance);
-        return out;
-    }
-    return {
-        {Method::second_order, Method::antiradiance, Method::light_atlas, Method::irradiance_cache},
-        "light goes on between surfaces"};
+    Choice out{{Method::second_order, Method::light_atlas, Method::irradiance_cache},
+               "light goes on between surfaces"};
+    const bool glossy = analysis.surfaces.gloss > noticeable && plan.on(Effect::gloss);
+    if (!glossy || analysis.surfaces.triangles <= most_glossy_triangles)
+        out.methods.push_back(Method::antiradiance);
+    return out;
 }
 
 // Whether a method has all effects that are on, and can leave out those that are off by request.

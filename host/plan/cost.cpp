@@ -187,12 +187,12 @@ PlanCost irradiance_cache(const Plan& plan) {
     const double lit = lamps.emitters - samples + std::min(samples, samples_at_once);
     const double look = (4e-5 + 1e-5 * lit) * pixels;
     Amount frame = picture(plan, false);
-    frame += {records * (0.1 + 1.2e-5 * triangles(plan) + weighed * look) +
-                  2e-6 * records * records,
-              records * (8.0 * pixels + 12.0 * records)};
+    frame +=
+        {records * (0.1 + 1.2e-5 * triangles(plan) + weighed * look) + 2e-6 * records * records,
+         records * (8.0 * pixels + 12.0 * records)};
     if (plan.on(Effect::gloss))  // what records have around them, and directions of lobes
-        frame += {shown * look + 8e-4 * plan.request.width * plan.request.height,
-                  10.5 * shown * pixels};
+        frame +=
+            {shown * look + 8e-4 * plan.request.width * plan.request.height, 10.5 * shown * pixels};
     return {0.0, frame.ms, 1e-6 * frame.bytes};
 }
 

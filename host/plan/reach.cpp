@@ -30,6 +30,7 @@ constexpr double small_size = 0.125, small_area = 0.1, small_power = 0.5;
 struct Place {
     glm::dvec3 position;  // local
     glm::dvec3 normal;    // towards where the path came from
+    std::size_t triangle = 0;
 };
 
 // Where rays end; those that leave the scene do not.
@@ -43,7 +44,7 @@ std::vector<Place> ends(Rays& rays, const std::vector<Place>& from,
         if (!rays.met(i)) continue;
         const glm::dvec3 normal = local.triangles[rays.triangle(i)].normal;
         out.push_back({from[i].position + rays.distance(i) * along[i],
-                       glm::dot(normal, along[i]) > 0.0 ? -normal : normal});
+                       glm::dot(normal, along[i]) > 0.0 ? -normal : normal, rays.triangle(i)});
     }
     return out;
 }
@@ -104,6 +105,21 @@ double pixel_size(const Met& found, const Camera& camera, const SceneFrame& fram
     return (parallel ? 2.0 * double{camera.half_height} * frame.scale
                      : 2.0 * std::tan(0.5 * double{camera.vertical_fov}) * *quarter) /
            height;
+}
+
+// Of what is shown.
+double shown_gloss(const Scene& scene, const Met& found) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < found.shown; ++i) {
+        const Material& material =
+            scene.materials[scene.triangles[found.places[i].triangle].material];
+        const Reflectance shares = reflectance(material);
+        const double base = luminance(glm::dvec3(material.base_color));
+        const double gloss = base * double{shares.lobe} + double{shares.coat};
+        const double all = gloss + base * double{shares.diffuse};
+        if (all > 0.0) sum += gloss / all * (gloss / all);
+    }
+    return found.shown > 0 ? std::sqrt(sum / static_cast<double>(found.shown)) : 0.0;
 }
 
 double radius_of_share(const std::vector<Place>& places, const glm::dvec3& centre, double share) {
@@ -241,6 +257,7 @@ Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera
     const std::vector<Place>& places = found.places;
     out.pixel = pixel_size(found, camera, frame, height) / frame.scale;
     out.points = places.size();
+    out.gloss = shown_gloss(scene, found);
     out.sphere = {frame.origin, frame.radius / frame.scale};
     if (places.empty()) return out;
     // The middle of those that are not far away, so that a few places behind a window do not draw

@@ -136,6 +136,27 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
 }
 
 // Whether by proof or by request, a light atlas draws no hemicubes then, and costs less.
+// What lobes reflect of indirect light is lost by some methods.
+TEST(Plan, CountsGlossThatAMethodLoses) {
+    const SceneAnalysis room = scene_analysis(test::furnished_room(3));
+    const auto error = [&](Method method, double gloss) {
+        SceneAnalysis analysis = room;
+        analysis.surfaces.gloss = gloss;
+        analysis.surfaces.glossy_area = 0.4;
+        PlanRequest request;
+        request.seconds = 1.0;
+        request.method = method;
+        return make_plan(test::device().device, analysis, request).error.value();
+    };
+    for (const Method method : {Method::light_atlas, Method::second_order}) {
+        EXPECT_NEAR(std::hypot(error(method, 0.0), 0.4), error(method, 0.4), 0.01);
+        EXPECT_GT(error(method, 0.4), 0.4);
+    }
+    const auto wide = [&](double gloss) { return error(Method::antiradiance, gloss); };
+    EXPECT_NEAR(std::hypot(wide(0.0), 0.4 * 0.4), wide(0.4), 0.01);
+    EXPECT_EQ(error(Method::irradiance_cache, 0.0), error(Method::irradiance_cache, 0.4));
+}
+
 TEST(Plan, SwitchesTheOcclusionOfLightAtlasesOff) {
     const cl::Device& device = test::device().device;
     SceneAnalysis analysis = scene_analysis(test::furnished_room(3));

@@ -78,6 +78,27 @@ TEST(Reach, KnowsWhatAPixelCovers) {
 }
 
 // Of twenty equal rooms, one: a twentieth of area and power; the sphere is that of the room alone.
+// Half of a wall is glossy, and all that lies behind the camera.
+TEST(Reach, KnowsHowGlossyWhatIsShownIs) {
+    Scene scene = test::plain_scene({0.5f, 0.25f, 0.75f});
+    Material metal;
+    metal.base_color = {0.9f, 0.6f, 0.3f, 1.0f};
+    metal.metallic = 0.7f;
+    metal.roughness = 0.4f;
+    const std::uint32_t shiny = test::add_material(scene, metal);
+    test::add_quad(scene, {{{-9, -9, -3}, {0, -9, -3}, {0, 9, -3}, {-9, 9, -3}}}, shiny);
+    test::add_quad(scene, {{{0, -9, -3}, {9, -9, -3}, {9, 9, -3}, {0, 9, -3}}});
+    test::add_quad(scene, {{{-9, -9, 5}, {-9, 9, 5}, {9, 9, 5}, {9, -9, 5}}}, shiny);
+    scene.cameras = {test::camera_at({0, 0, 0}, {0, 0, -1}, 0.8f)};
+    const Reflectance shares = reflectance(metal);
+    const double base = 0.2126 * 0.9 + 0.7152 * 0.6 + 0.0722 * 0.3;
+    const double gloss = base * double{shares.lobe} + double{shares.coat};
+    const double wanted = gloss / (gloss + base * double{shares.diffuse});
+    EXPECT_NEAR(reached(scene).gloss, wanted * std::sqrt(0.5), 0.02 * wanted);
+    for (SceneTriangle& triangle : scene.triangles) triangle.material = 0;
+    EXPECT_EQ(reached(scene).gloss, 0.0);
+}
+
 TEST(Reach, IsOneRoomOfMany) {
     const Scene one = rooms(1), many = rooms(20);
     const Reach alone = reached(one);

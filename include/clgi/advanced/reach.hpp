@@ -22,6 +22,9 @@ struct Reach {
     double size = 1.0;
     // Metres that a pixel covers, across, of what is seen at first hand: a quarter covers less.
     double pixel = 0.0;
+    // Root of the mean square, over what is seen at first hand, of the share of gloss in what
+    // materials reflect of even light, without their textures; [0,1].
+    double gloss = 0.0;
     double milliseconds = 0.0;
 };
 
