@@ -153,9 +153,11 @@ TEST(GlossPictures, HaveAllReflectionsOfASphere) {
 // floor of f E cos cos' / r^2.
 TEST(GlossPictures, LightByLobesOfWhatIsLit) {
     const glm::vec3 base(0.9f, 0.6f, 0.3f);
-    const glm::dvec3 sun = glm::normalize(glm::dvec3(0.6, 0.7, 0.2)), place(-0.5, 1.0, 0.1);
+    const glm::dvec3 place(-0.5, 1.0, 0.1);
     constexpr double half_patch = 0.05, half_floor = 1.5, lux = 1000.0;
-    for (const float metallic : {1.0f, 0.0f}) {
+    // A low sun is reflected most where F is not that of normal incidence.
+    for (const auto& [metallic, height] : {std::pair(1.0f, 0.7), {0.0f, 0.7}, {0.0f, 0.25}}) {
+        const glm::dvec3 sun = glm::normalize(glm::dvec3(0.6, height, 0.2));
         Scene scene = test::plain_scene({0.8f, 0.8f, 0.8f});
         Material floor = test::finished(metallic, 0.55f, 1.0f);
         floor.base_color = glm::vec4(base, 1.0f);
@@ -192,7 +194,7 @@ TEST(GlossPictures, LightByLobesOfWhatIsLit) {
         const glm::dvec3 wanted = 0.8 / std::numbers::pi * sum;
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted[c], 0.03 * wanted[c])
-                << metallic << " " << c;
+                << metallic << " " << height << " " << c;
     }
 }
 
