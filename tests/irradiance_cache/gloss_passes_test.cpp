@@ -78,6 +78,8 @@ struct UnderASky {
         test::Random random(7);
         for (int k = 0; k < sky_columns * sky_rows; ++k)
             sky.emplace_back(random(0.5, 4.0), random(0.5, 4.0), random(0.5, 4.0));
+        // One whose largest channel rounds up to the next power of two.
+        sky[8] = {std::nextafter(4.0f, 0.0f), 1.0, 0.5};
         std::vector<float> texels;
         for (const glm::dvec3& value : sky)
             for (int c = 0; c < 3; ++c) texels.push_back(static_cast<float>(value[c]));

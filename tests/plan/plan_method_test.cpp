@@ -46,6 +46,18 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
                   w.seconds = 10.0;
               }),
               Method::irradiance_cache);
+    // Leaves of many glossy triangles would take long.
+    for (const double gloss : {0.0, 0.03})
+        for (const std::size_t triangles : {std::size_t{19000}, std::size_t{21000}}) {
+            const Method taken = method([&](SceneAnalysis& f, PlanRequest& w) {
+                f.surfaces.gloss = f.surfaces.glossy_area = gloss;
+                f.surfaces.triangles = triangles;
+                f.surfaces.cutouts = false;
+                w.seconds = 0.5;
+            });
+            EXPECT_EQ(taken == Method::antiradiance, gloss == 0.0 || triangles == 19000)
+                << gloss << " " << triangles;
+        }
     // Of which a picture by others knows nothing, however many triangles there are.
     EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
                   f.surfaces.gloss = f.surfaces.glossy_area = 0.5;
