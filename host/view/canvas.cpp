@@ -97,12 +97,16 @@ void Canvas::draw() {
     drawn_from_ = camera_;
     if (shown_.viewpoint)
         drawn_from_ = look_at(camera_, shown_.viewpoint->eye, shown_.viewpoint->target);
+    const bool first = frame_ms_ == 0.0;
+    time_frame();
     // A first frame builds kernels: how long it takes says nothing of those to come.
-    for (int frames = frame_ms_ == 0.0 && serves_cameras() ? 2 : 1; frames > 0; --frames) {
-        const Clock::time_point begin = Clock::now();
-        renderer_.render(drawn_from_).wait();
-        frame_ms_ = since(begin);
-    }
+    if (first && serves_cameras() && !is_quick()) time_frame();
+}
+
+void Canvas::time_frame() {
+    const Clock::time_point begin = Clock::now();
+    renderer_.render(drawn_from_).wait();
+    frame_ms_ = since(begin);
 }
 
 void Canvas::refine() { renderer_.refine().wait(); }

@@ -37,6 +37,7 @@ public:
 
 private:
     void pose(const Shown& shown);
+    void time_frame();
 
     Shown shown_;
     std::size_t clip_, camera_index_;

@@ -213,6 +213,8 @@ TEST_P(IrradianceCachePictures, ErrLessWithRefinedRecords) {
 // A block below a sky and a lamp: groups of any size find the light of single work-items.
 TEST(IrradianceCache, IsTheSameInGroups) {
     Scene scene = below_a_lamp({0.5f, 0.6f, 0.7f});
+    scene.materials[0].metallic = 0.5f;  // with lobes
+    scene.materials[0].roughness = 0.4f;
     scene.environment = upper_half({0.2f, 0.5f, 1.0f});
     test::add_box(scene, {-0.05, 0, -0.05}, {0.05, 0.3, 0.05}, 1);
     scene.cameras = {test::camera_at({0.3, 0.4, 0.2}, {0, 0.1, 0}, 0.5f)};

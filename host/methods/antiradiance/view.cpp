@@ -3,6 +3,7 @@
 #include <clgi/advanced/planes.hpp>
 #include <optional>
 
+#include "shading/kit/eye.hpp"
 #include "shading/kit/without_sky.hpp"
 
 namespace clgi {
@@ -24,8 +25,7 @@ struct AntiradianceView::State {
         WaitList ready = wait;
         if (solver.last()()) ready.push_back(solver.last());
         const View view = picture.begin(camera, ready);
-        const glm::vec4 eye =
-            view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
+        const glm::vec4 eye = eye_of(view);
         const auto pixels = static_cast<std::uint32_t>(picture.pixels());
         const ShowElementsParams params{eye, pixels, picture.stride(), scene.info().triangle_count,
                                         solver.links().element_count};

@@ -50,6 +50,12 @@ std::size_t most_records(const IrradianceCacheOptions& options) {
     return most_around(options) + static_cast<std::size_t>(options.met);
 }
 
+std::size_t most_around_bytes(const DeviceScene& scene, const IrradianceCacheOptions& options) {
+    if (!scene.has_lobes()) return 0;
+    return around_bytes({0, 0, static_cast<std::uint32_t>(most_around(options)),
+                         static_cast<std::uint32_t>(options.face)});
+}
+
 }  // namespace
 
 Estimate estimate(const cl::Device& device, const DeviceScene& scene,
@@ -65,11 +71,7 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
         vpls > 0.0 ? vpls * hemicube + sizeof(std::uint64_t) *
                                            static_cast<double>(spot_pixels(o.picture.emitters))
                    : 0.0;
-    const double around =
-        scene.has_lobes()
-            ? static_cast<double>(around_bytes({0, 0, static_cast<std::uint32_t>(most_around(o)),
-                                                static_cast<std::uint32_t>(o.face)}))
-            : 0.0;
+    const auto around = static_cast<double>(most_around_bytes(scene, o));
     // Directions of the sky have a map each, or two, and pixels their corrections.
     double sky = 0.0;
     if (o.sky_lights > 0 && scene.environment()) {
@@ -135,8 +137,7 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     add_spots(table);
     if (scene.has_lobes())
         table.add(around, "what records have around them", lower,
-                  around_bytes({0, 0, static_cast<std::uint32_t>(most_around(options)),
-                                static_cast<std::uint32_t>(options.face)}));
+                  most_around_bytes(scene, options));
     if (!corrects()) return;
     sky_lights.add_to(table);
     const std::size_t of_picture = picture.stride() * word;

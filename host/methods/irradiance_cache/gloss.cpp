@@ -1,6 +1,7 @@
 // What lobes reflect of indirect light and of the sky, by what the records have around them.
 // SPDX-License-Identifier: MIT
 #include "methods/irradiance_cache/state.hpp"
+#include "shading/kit/eye.hpp"
 
 namespace clgi {
 namespace {
@@ -26,7 +27,7 @@ void IrradianceCache::State::look_around() {
 void IrradianceCache::State::add_gloss(const View& view) {
     if (!scene.has_lobes()) return;
     CacheGlossParams params{};
-    params.eye = view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
+    params.eye = eye_of(view);
     params.pixel_count = static_cast<std::uint32_t>(picture.pixels());
     params.stride = picture.stride();
     params.directions = sample == 0 ? first_directions : more_directions;

@@ -10,6 +10,7 @@
 #include "core/opencl/check.hpp"
 #include "core/opencl/variants.hpp"
 #include "core/opencl/word.hpp"
+#include "shading/kit/eye.hpp"
 #include "shading/kit/without_sky.hpp"
 
 namespace clgi {
@@ -30,11 +31,6 @@ PictureOptions beside_environment(const PictureOptions& options,
     PictureOptions out = without_sky(options);
     out.emitters.directional = out.emitters.directional && !solver.options().directional;
     return out;
-}
-
-// Of the receivers that a view sees: a place, or with w 1 a direction.
-glm::vec4 to_eye(const View& view) {
-    return view.eye.w == 0.0f ? view.eye : glm::vec4(-glm::vec3(view.forward), 1.0f);
 }
 
 }  // namespace
@@ -191,7 +187,7 @@ struct DynamicTransferView::State {
         Recorder& record = picture.record();
         record("transfer.integrate_gloss", receivers.count, [&](const WaitList& wait) {
             return solver.passes().integrate_gloss(record.queue(), receivers, solver.weights(),
-                                                   solver.directions(), exponents, to_eye(view),
+                                                   solver.directions(), exponents, eye_of(view),
                                                    receivers.transfer, wait);
         });
         shade(shining);
@@ -212,7 +208,7 @@ struct DynamicTransferView::State {
 
     void show(const View& view, const cl::Buffer& light, const cl::Buffer& shown) {
         Recorder& record = picture.record();
-        const ShowVerticesParams params{to_eye(view), count(), probing.pixel_stride,
+        const ShowVerticesParams params{eye_of(view), count(), probing.pixel_stride,
                                         scene.info().triangle_count, solver.receivers().stride};
         record("transfer.show", count(), [&](const WaitList& wait) {
             return passes.show(record.queue(), params, scene, solver.other_side(),
@@ -270,7 +266,7 @@ struct DynamicTransferView::State {
     cl::Event render(const Camera& camera, const WaitList& wait) {
         WaitList ready = wait;
         if (solver.glossy())
-            solver.reflect(to_eye(make_view(camera, scene.frame(), picture.options().width,
+            solver.reflect(eye_of(make_view(camera, scene.frame(), picture.options().width,
                                             picture.options().height)),
                            wait);
         // Also of a queue out of order, where nothing else orders two recorders.
