@@ -197,10 +197,74 @@ TEST(Emitters, ShiftMapsWithinTheirTexels) {
                 }
             }
         }
-        // Even over the texel: mean 0, variance 1/12.
-        EXPECT_NEAR(sum / (4 * samples), 0.0, 0.05);
-        EXPECT_NEAR(squares / (4 * samples), 1.0 / 12.0, 0.02);
+        // Even over the texel: mean 0, variance 1/12, and nearer to it than independent shifts.
+        EXPECT_NEAR(sum / (4 * samples), 0.0, 0.008);
+        EXPECT_NEAR(squares / (4 * samples), 1.0 / 12.0, 0.004);
     }
+}
+
+// Two panels, tilted, of other colours, and functions over them: the mean over the points of 64
+// samples is nearer to the integral than that of as many independent points, and that of 256 nearer
+// still. Replicates have other points.
+TEST(Emitters, CoverSurfacesEvenlyOverAllSamples) {
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 2.0);
+    Material red, blue;
+    red.emission = {8.0f, 1.0f, 0.5f};
+    blue.emission = {0.2f, 0.6f, 3.0f};
+    test::add_quad(scene, {{{-1, 1, -1}, {0.2, 1.3, -1}, {0.2, 1.7, 0}, {-1, 1.4, 0}}},
+                   test::add_material(scene, red));
+    test::add_quad(scene, {{{0.5, 1, 0}, {1.5, 1, 0}, {1.5, 1.8, 0.9}, {0.5, 1.8, 0.9}}},
+                   test::add_material(scene, blue));
+    const DeviceScene device = test::on_device(scene);
+    const auto value = [](const glm::dvec3& p) {
+        return glm::dvec3(p.x, p.y * p.y, std::cos(3.0 * p.z) * p.x);
+    };
+    glm::dvec3 wanted(0.0), squares(0.0);
+    double power = 0.0;
+    constexpr int fine = 200;
+    for (const EmissiveTriangle& t : device.emissive()) {
+        const double weight = pi * t.area * luminance(t.radiance);
+        power += weight;
+        for (int i = 0; i < fine; ++i)
+            for (int j = 0; j < fine; ++j) {
+                const double root = std::sqrt((i + 0.5) / fine), v = (j + 0.5) / fine;
+                const glm::dvec3 f = value(glm::dvec3(t.corner[0]) * (1.0 - root) +
+                                           glm::dvec3(t.corner[1]) * (root * (1.0 - v)) +
+                                           glm::dvec3(t.corner[2]) * (root * v));
+                wanted += f * (weight / (fine * fine));
+                squares += f * f * (weight / (fine * fine));
+            }
+    }
+    wanted /= power;
+    const glm::dvec3 deviation = glm::sqrt(squares / power - wanted * wanted);
+    const auto apart = [&](std::uint32_t replicate, std::uint32_t samples) {
+        glm::dvec3 sum(0.0);
+        double all = 0.0;
+        for (std::uint32_t sample = 1; sample <= samples; ++sample)
+            for (const Emitter& one :
+                 make_emitters(device, {.replicate = replicate, .sample = sample}).emitters) {
+                if (one.kind != EMITTER_AREA) continue;
+                all += luminance(glm::dvec3(one.intensity));
+                sum += luminance(glm::dvec3(one.intensity)) * value(glm::dvec3(one.position));
+            }
+        EXPECT_NEAR(all / samples, power, 1e-5 * power);
+        return glm::length((sum / all - wanted) / deviation) / std::sqrt(3.0);
+    };
+    // Of independent points it would be 1.
+    for (const std::uint32_t samples : {16u, 64u, 256u}) {
+        double square = 0.0;
+        for (std::uint32_t replicate = 0; replicate < 8; ++replicate)
+            square += std::pow(apart(replicate, samples), 2) * 4.0 * samples / 8.0;
+        EXPECT_LT(std::sqrt(square), 0.5) << samples;
+    }
+    const auto place = [&](std::uint32_t replicate) {
+        return make_emitters(device, {.replicate = replicate, .sample = 3})
+            .emitters.back()
+            .position;
+    };
+    EXPECT_NE(place(0), place(1));
+    EXPECT_NE(place(1), place(2));
 }
 
 // Directions of later samples are drawn anew: the mean of what they bring to a plane is that of the

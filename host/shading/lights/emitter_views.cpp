@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shading/lights/emitter_views.hpp"
 
+#include <clgi/shared/halton.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,7 +39,10 @@ void shift_texels(View& view, const EmitterOptions& options) {
     view.right.w *= 1.0f + texel;
     view.up.w *= 1.0f + texel;
     const auto shift = [&](std::uint32_t dimension) {
-        return replicate_shift(seed_of(options), ShiftUse::texel, dimension) - 0.5f;
+        return shifted_radical_inverse(
+                   options.sample, dimension == 0 ? 2 : 3,
+                   replicate_shift(options.replicate + 1, ShiftUse::texel, dimension)) -
+               0.5f;
     };
     view.window.x += shift(0) * texel * view.right.w;
     view.window.y += shift(1) * texel * view.up.w;

@@ -136,6 +136,28 @@ std::vector<Source> environment_lights(const DeviceScene& scene, const EmitterOp
     return out;
 }
 
+// Of a point on emissive surfaces: where within its stratum of their power, and on a triangle.
+struct AreaPlace {
+    double within;
+    float u, v;
+};
+
+// The points of a picture run on from triangle to triangle, so that triangles picked often are
+// covered evenly. In later samples each stratum has a Halton sequence of its own, so that its
+// points of all samples together are even, too.
+AreaPlace area_place(std::uint32_t stratum, const EmitterOptions& options) {
+    const bool first = options.sample == 0;
+    const std::uint32_t index = first ? stratum + 1 : options.sample;
+    const std::uint32_t seed =
+        first ? options.replicate : 0x9e3779b9u * options.replicate + stratum + 1;
+    const float shift = replicate_shift(seed, ShiftUse::stratum, 0);
+    const float within =
+        first ? (seed == 0 ? 0.5f : shift) : shifted_radical_inverse(index, 5, shift);
+    return {double{within},
+            shifted_radical_inverse(index, 2, replicate_shift(seed, ShiftUse::area, 0)),
+            shifted_radical_inverse(index, 3, replicate_shift(seed, ShiftUse::area, 1))};
+}
+
 // Points on the emissive triangles, each standing for an equal share of their power.
 std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions& options) {
     const std::vector<EmissiveTriangle>& triangles = scene.emissive();
@@ -155,20 +177,12 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
         options.sample == 0 ? options.area_samples : std::max(options.area_samples / 4, 1);
     const double share = total / count;
     for (int k = 0; k < count; ++k) {
-        // Every replicate and sample moves the points within their strata.
-        const double within = seed_of(options) == 0
-                                  ? 0.5
-                                  : double{replicate_shift(seed_of(options), ShiftUse::stratum, 0)};
-        const double target = (k + within) * share;
+        const AreaPlace place = area_place(static_cast<std::uint32_t>(k), options);
+        const double target = (k + place.within) * share;
         const std::size_t pick = static_cast<std::size_t>(
             std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
         const EmissiveTriangle& t = triangles[std::min(pick, triangles.size() - 1)];
-        // Uniform on the triangle; the index runs on, so triangles picked often are covered evenly.
-        const auto index = static_cast<std::uint32_t>(k) + 1;
-        const float root = std::sqrt(shifted_radical_inverse(
-            index, 2, replicate_shift(seed_of(options), ShiftUse::area, 0)));
-        const float v =
-            shifted_radical_inverse(index, 3, replicate_shift(seed_of(options), ShiftUse::area, 1));
+        const float root = std::sqrt(place.u), v = place.v;  // uniform on the triangle
         const glm::vec3 on = t.corner[0] * (1.0f - root) + t.corner[1] * (root * (1.0f - v)) +
                              t.corner[2] * (root * v);
         const float lift = 1e-4f * frame.detail;
