@@ -6,10 +6,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <optional>
 
 #include "reference/interval.hpp"
@@ -30,27 +32,70 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// A pixel and the samples that were taken of it.
+// A pixel and the samples that were taken of it, in turn by groups: those of a group are even
+// together, and independent of the other groups'.
 struct Traced {
+    static constexpr std::size_t groups = 8;
+
     DrawnPixel drawn;
     double picture = 0.0;     // luminance
     std::uint32_t taken = 0;  // samples, those left out included
     std::uint32_t non_finite = 0;
-    double sum = 0.0;     // of picture - sample
-    double square = 0.0;  // of their squares
+    std::array<double, groups> sums{};  // of picture - sample
+    std::array<std::uint32_t, groups> counts{};
+
+    // luminance_of(group, number within it)
+    template <typename Luminance>
+    void add(const Luminance& luminance_of) {
+        const std::size_t group = taken % groups;
+        const double difference =
+            picture - luminance_of(group, taken++ / static_cast<std::uint32_t>(groups));
+        if (!std::isfinite(difference)) {
+            ++non_finite;
+            return;
+        }
+        sums[group] += difference;
+        ++counts[group];
+    }
 
     double count() const { return double(taken) - double(non_finite); }
-    double light() const { return count() > 0.0 ? picture - sum / count() : picture; }
-    double variance() const {  // of one sample
-        return count() > 1.0 ? std::max(square - sum * sum / count(), 0.0) / (count() - 1.0) : 0.0;
+    double light() const {
+        const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+        return count() > 0.0 ? picture - sum / count() : picture;
     }
-    // The mean of (x - a)(x - b) over all pairs of different samples.
+    // Of one sample, as if all were independent.
+    double variance() const {
+        const Means all = means();
+        if (all.used < 2.0) return 0.0;
+        const double between = std::max(all.square - all.sum * all.sum / all.used, 0.0);
+        return between / (all.used - 1.0) * count() / all.used;
+    }
+    // The mean of (x - a)(x - b), a and b the means of different groups.
     double squared_error() const {
-        return count() > 1.0 ? (sum * sum - square) / (count() * (count() - 1.0)) : 0.0;
+        const Means all = means();
+        if (all.used < 2.0) return 0.0;
+        return (all.sum * all.sum - all.square) / (all.used * (all.used - 1.0));
     }
     Draw weighted() const {
         return {drawn.stratum, drawn.weight * squared_error(), drawn.weight * light(),
                 drawn.weight * picture};
+    }
+
+private:
+    struct Means {
+        double used = 0.0, sum = 0.0, square = 0.0;
+    };
+
+    Means means() const {
+        Means out;
+        for (std::size_t g = 0; g < groups; ++g) {
+            if (counts[g] == 0) continue;
+            const double mean = sums[g] / counts[g];
+            out.used += 1.0;
+            out.sum += mean;
+            out.square += mean * mean;
+        }
+        return out;
     }
 };
 
@@ -109,24 +154,20 @@ private:
     // pass: 1 or 2; 0 and 3 are those of drawn().
     void trace(std::vector<Traced>& pixels, std::uint64_t pass,
                const std::function<int(std::size_t stratum)>& samples) const {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, pixels.size(), 4),
-            [&](const tbb::blocked_range<std::size_t>& range) {
-                for (std::size_t k = range.begin(); k < range.end(); ++k) {
-                    Traced& pixel = pixels[k];
-                    for (int s = samples(pixel.drawn.stratum); s > 0; --s) {
-                        Random random(options_.seed ^ own_seed, (k << 2) + pass, pixel.taken++);
-                        const glm::vec3 light = light_(pixel.drawn.pixel, random);
-                        const double difference = pixel.picture - luminance(glm::dvec3(light));
-                        if (!std::isfinite(difference)) {
-                            ++pixel.non_finite;
-                            continue;
-                        }
-                        pixel.sum += difference;
-                        pixel.square += difference * difference;
-                    }
-                }
-            });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 4),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t k = range.begin(); k < range.end(); ++k) {
+                                  Traced& pixel = pixels[k];
+                                  for (int s = samples(pixel.drawn.stratum); s > 0; --s)
+                                      pixel.add([&](std::size_t group, std::uint32_t index) {
+                                          Random random = Random::even(
+                                              options_.seed ^ own_seed,
+                                              ((k << 2) + pass) * Traced::groups + group, index);
+                                          const glm::vec3 light = light_(pixel.drawn.pixel, random);
+                                          return luminance(glm::dvec3(light));
+                                      });
+                              }
+                          });
     }
 
     // The first pass: two pixels of each of a few strata, with a time limit for a tenth of it. It
@@ -213,10 +254,12 @@ private:
         return estimate(weighted, draws_.mean());
     }
 
-    bool decided(const std::vector<Traced>& pixels) const {
-        if (!(options_.decide > 0.0)) return false;
+    // 1: below, -1: above, 0: neither
+    int side(const std::vector<Traced>& pixels) const {
+        if (!(options_.decide > 0.0)) return 0;
         const Estimate error = estimate_of(pixels).error;
-        return error.high <= options_.decide || error.low > options_.decide;
+        if (error.high <= options_.decide) return 1;
+        return error.low > options_.decide ? -1 : 0;
     }
 
     // False if cancelled.
@@ -230,7 +273,7 @@ private:
             round = static_cast<double>(pixels.size());
         }
         const int all = static_cast<int>(std::min(most / round, 1e9));
-        int done = 0;
+        int done = 0, before = 0;
         int next = std::min(timed() ? 4 : std::max(all / 8, 2), all);
         while (next > 0) {
             const Clock::time_point begin = Clock::now();
@@ -245,10 +288,15 @@ private:
                 next = std::min(
                     static_cast<int>(std::min(std::max(left, 0.0) / std::max(one, 1e-9), 1e9)),
                     all - done);
-                // In parts, so that it can be cancelled and times may change.
-                next = std::min(next, std::max(4, static_cast<int>(std::max(done, next / 3))));
+                // In parts, so that it can be cancelled and times may change; where it may end
+                // early, each is no more than all before it.
+                const int part = options_.decide > 0.0 ? done : std::max(done, next / 3);
+                next = std::min(next, std::max(4, part));
             }
-            if (next > 0 && decided(pixels)) next = 0;
+            // Each look may be wrong by chance: two in a row seldom are.
+            const int now = next > 0 ? side(pixels) : 0;
+            if (now != 0 && now == before) next = 0;
+            before = now;
             if (progress_ && !progress_(next > 0 ? share : 1.0)) return false;
         }
         return true;

@@ -101,7 +101,9 @@ struct VerifyOptions {
     Effects effects;         // of the truth
     Filter filter = Filter::center;  // of pixels
     double seconds = 0.0;    // time limit; 0: none. A first pass and 200 pixels take what they take
-    double decide = 0.0;     // > 0: ends when the interval lies above this error or below it
+    // > 0: ends when the interval lies above this error, or below it, at two looks in a row, the
+    // second after twice as many samples.
+    double decide = 0.0;
     int pixels = 1000;       // that are path-traced, at most; 16 to 2^20
     int samples = 64;        // paths of one of them, at most, as a mean of all; 8 to 2^20
     std::uint64_t seed = 1;  // without a time limit the same seed gives the same result
