@@ -2,7 +2,7 @@
 #include "renderer/samples.hpp"
 
 #include <clgi/shared/halton.h>
-#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -10,6 +10,14 @@
 #include "scene/luminance.hpp"
 
 namespace clgi::renderer {
+namespace {
+
+// Of the mean of so many samples, a power of two.
+std::uint32_t plane_before(std::uint32_t count) {
+    return MEAN_BEFORE + static_cast<std::uint32_t>(std::countr_zero(count)) % 2;
+}
+
+}  // namespace
 
 Camera sampled(const Camera& camera, std::uint32_t index) {
     Camera out = camera;
@@ -17,8 +25,8 @@ Camera sampled(const Camera& camera, std::uint32_t index) {
         const float at = radical_inverse(index, axis == 0 ? 2 : 3);
         out.offset[axis] += at < 0.5f ? at : at - 1.0f;
     }
-    // The first picture stands alone. The mean of many has what each of them looks up: it is blurred by
-    // no more than a quarter of a pixel.
+    // The first picture stands alone. The mean of many has what each of them looks up: it is
+    // blurred by no more than a quarter of a pixel.
     if (index > 0) out.footprint = camera.footprint / 16.0f;
     return out;
 }
@@ -41,27 +49,34 @@ void Samples::keep(const Radiance& first, std::size_t pixels, cl::Event& last) {
 }
 
 PassEvent Samples::add(const Radiance& sample, std::size_t pixels, const cl::Event& after) {
+    const std::uint32_t kept = std::has_single_bit(count_) ? plane_before(count_) : 0;
     ++count_;
     const AccumulateParams params{static_cast<std::uint32_t>(pixels), sample.stride,
-                                  1.0f / static_cast<float>(count_), 0};
+                                  1.0f / static_cast<float>(count_), kept};
     return {"image.accumulate", pixels,
             passes_->accumulate(queue_, params, sample.planes, mean_, {after})};
 }
 
+// Of n samples with an error e, independent of each other, the mean differs from that of the first
+// h by e sqrt(n / h - 1); where errors fall as 1 / n, by e (n / h - 1).
 double Samples::error(std::size_t pixels, const cl::Event& last) const {
+    const std::uint32_t before = std::bit_floor(count_ / 2);
     const std::size_t stride = bytes_ / (MEAN_PLANES * sizeof(float));
+    const std::size_t earlier = plane_before(before) * stride;
     std::vector<float> planes(MEAN_PLANES * stride);
     const WaitList wait{last};
     queue_.enqueueReadBuffer(mean_, CL_TRUE, 0, bytes_, planes.data(), &wait);
-    double variance = 0.0, sum = 0.0;
+    double square = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < pixels; ++i) {
         const double mean =
             luminance(glm::dvec3(planes[i], planes[stride + i], planes[2 * stride + i]));
-        variance += std::max(0.0, double{planes[MEAN_SQUARE * stride + i]} - mean * mean);
+        square += (mean - planes[earlier + i]) * (mean - planes[earlier + i]);
         sum += mean;
     }
+    if (!(sum > 0.0)) return 0.0;
     const auto count = static_cast<double>(pixels);
-    return sum > 0.0 ? std::sqrt(variance / (count * (count_ - 1.0))) / (sum / count) : 0.0;
+    const double more = static_cast<double>(count_) / before - 1.0;
+    return std::sqrt(square / (count * more)) / (sum / count);
 }
 
 }  // namespace clgi::renderer

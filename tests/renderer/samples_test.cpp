@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "apart.hpp"
-#include "coverage.hpp"
 #include "device.hpp"
 #include "scenes.hpp"
 #include "skies.hpp"
@@ -263,44 +262,6 @@ TEST(Samples, LeaveASinglePictureAsItIs) {
         EXPECT_TRUE(draw(renderer, viewpoint()) == before) << name_of(method);
         EXPECT_EQ(renderer.samples(), 1u);
     }
-}
-
-// Edges against the exact area of what pixels show: the error falls faster than 1 / sqrt(N).
-TEST(Samples, SmoothEdgesToTheirArea) {
-    const std::vector<glm::dvec2> polygon = {{5.3, 4.1}, {37.7, 7.9}, {33.2, 24.6}, {11.9, 21.3}};
-    const Scene scene = test::glowing_quad(polygon, {1.0f, 2.0f, 4.0f});
-    const std::vector<double> exact = test::coverage(polygon, width, height);
-    Renderer renderer(test::programs(), test::device().queue, scene, options_of(Method::direct));
-    double first = 0.0;
-    for (const int samples : {1, 4, 16, 64}) {
-        if (samples == 1) renderer.render(test::pixel_camera(width, height));
-        while (renderer.samples() < static_cast<std::uint32_t>(samples)) renderer.refine();
-        const Radiance found = read(renderer);
-        double squares = 0.0;
-        for (std::size_t i = 0; i < found.size(); ++i)
-            for (int c = 0; c < 3; ++c) {
-                const double off = found[i][c] / scene.materials[0].emission[c] - exact[i];
-                squares += off * off / 3.0;
-            }
-        const double error = std::sqrt(squares);
-        if (samples == 1)
-            first = error;
-        else
-            EXPECT_LT(error, 1.1 * first / std::sqrt(samples)) << samples;
-    }
-    EXPECT_GT(first, 0.5);  // there are edges
-    // In each sample a pixel shows all or nothing, so that the mean m of n has the variance
-    // m (1 - m) / (n - 1).
-    const Radiance found = read(renderer);
-    double variance = 0.0, mean = 0.0;
-    for (const glm::vec3& pixel : found) {
-        variance += double{pixel.x} * (1.0 - double{pixel.x}) / 63.0;
-        mean += double{pixel.x};
-    }
-    const double count = static_cast<double>(found.size());
-    EXPECT_NEAR(renderer.sampling_error(), std::sqrt(variance / count) / (mean / count), 1e-5);
-    renderer.render(test::pixel_camera(width, height));
-    EXPECT_TRUE(std::isinf(renderer.sampling_error()));
 }
 
 // Shadows of a sun, a spot and a panel against the path tracer: each sample has its own maps and

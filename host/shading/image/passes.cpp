@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "core/opencl/check.hpp"
 #include "core/opencl/launch.hpp"
 #include "core/opencl/planes.hpp"
 #include "core/opencl/program.hpp"
@@ -200,6 +201,9 @@ cl::Event ImagePasses::accumulate(const cl::CommandQueue& queue, const Accumulat
     need_stride(accumulate_, "stride", params.stride, params.pixels);
     need(accumulate_, "radiance", radiance, plane_bytes(RADIANCE_PLANES, params.stride));
     need(accumulate_, "mean", mean, plane_bytes(MEAN_PLANES, params.stride));
+    if (params.kept != 0)
+        need_range<int>("image.accumulate", "kept", static_cast<int>(params.kept), MEAN_BEFORE,
+                        MEAN_PLANES - 1);
     return launch(accumulate_, queue, packets(accumulate_, params.pixels), wait, params, radiance,
                   mean);
 }

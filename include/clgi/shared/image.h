@@ -64,15 +64,16 @@ typedef struct {
     float turn;   // rotation of the picture in the world, in turns, [0,1)
 } EnvironmentParams;
 
-// The mean of samples of a picture: radiance, and the mean of the squared luminance.
-enum { MEAN_SQUARE = RADIANCE_PLANES, MEAN_PLANES };
+// The mean of samples of a picture: radiance, and the luminance of the means of fewer samples: of
+// 1, 4, 16, ... in the first of two planes, of 2, 8, 32, ... in the second.
+enum { MEAN_BEFORE = RADIANCE_PLANES, MEAN_PLANES = MEAN_BEFORE + 2 };
 
 // One more sample of a picture.
 typedef struct {
     uint pixels;
     uint stride;  // of the radiance planes, both
     float share;  // of the sample in the mean: 1 / samples with it
-    uint pad_;
+    uint kept;    // plane for the luminance of the mean without it; 0: none
 } AccumulateParams;
 
 typedef struct {

@@ -1,0 +1,102 @@
+// Edges of pictures of several samples, against the exact area of what pixels show.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <clgi/clgi.hpp>
+#include <cmath>
+
+#include "coverage.hpp"
+#include "device.hpp"
+#include "scene/luminance.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+// A glowing polygon whose edges run aslant of the pixels.
+struct Edges {
+    static constexpr int width = 43, height = 29;  // no multiples of a packet's
+    static RendererOptions options() {
+        RendererOptions out;
+        out.method = Method::direct;
+        out.picture.width = width;
+        out.picture.height = height;
+        out.picture.build = test::usual_build();
+        return out;
+    }
+
+    std::vector<glm::vec3> read() const {
+        const auto planes = renderer.read_radiance();
+        std::vector<glm::vec3> out;
+        for (std::size_t i = 0; i < planes[0].size(); ++i)
+            out.emplace_back(planes[0][i], planes[1][i], planes[2][i]);
+        return out;
+    }
+
+    const std::vector<glm::dvec2> polygon{{5.3, 4.1}, {37.7, 7.9}, {33.2, 24.6}, {11.9, 21.3}};
+    const Scene scene = test::glowing_quad(polygon, {1.0f, 2.0f, 4.0f});
+    const std::vector<double> exact = test::coverage(polygon, width, height);
+    const Camera camera = test::pixel_camera(width, height);
+    Renderer renderer{test::programs(), test::device().queue, scene, options()};
+};
+
+// Against the difference of the means themselves, for each number of samples; where the error is
+// known it is the larger one, within a factor.
+TEST(Samples, KnowHowFarTheyAre) {
+    Edges edges;
+    Renderer& renderer = edges.renderer;
+    renderer.render(edges.camera);
+    std::vector<std::vector<double>> means(1);  // luminance by the number of samples
+    for (int samples = 1; samples <= 17; ++samples) {
+        if (samples > 1) renderer.refine();
+        double sum = 0.0, wrong = 0.0, apart = 0.0;
+        int earlier = 1;
+        while (4 * earlier <= samples) earlier *= 2;
+        means.emplace_back();
+        const std::vector<glm::vec3> found = edges.read();
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            means.back().push_back(luminance(glm::dvec3(found[i])));
+            sum += means.back()[i];
+            wrong += std::pow(
+                means.back()[i] - luminance(glm::dvec3(1.0, 2.0, 4.0)) * edges.exact[i], 2);
+            apart += std::pow(means.back()[i] - means[earlier][i], 2);
+        }
+        if (samples == 1) continue;
+        const auto count = static_cast<double>(found.size());
+        const double error = renderer.sampling_error();
+        const double more = static_cast<double>(samples) / earlier - 1.0;
+        EXPECT_NEAR(error, std::sqrt(apart / count / more) / (sum / count), 1e-5) << samples;
+        EXPECT_GT(error, 0.8 * std::sqrt(wrong / count) / (sum / count)) << samples;
+        EXPECT_LT(error, 4.0 * std::sqrt(wrong / count) / (sum / count)) << samples;
+    }
+}
+
+// Edges against the exact area of what pixels show: the error falls faster than 1 / sqrt(N).
+TEST(Samples, SmoothEdgesToTheirArea) {
+    Edges edges;
+    Renderer& renderer = edges.renderer;
+    double first = 0.0;
+    for (const int samples : {1, 4, 16, 64}) {
+        if (samples == 1) renderer.render(edges.camera);
+        while (renderer.samples() < static_cast<std::uint32_t>(samples)) renderer.refine();
+        const std::vector<glm::vec3> found = edges.read();
+        double squares = 0.0;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            for (int c = 0; c < 3; ++c) {
+                const double off =
+                    found[i][c] / edges.scene.materials[0].emission[c] - edges.exact[i];
+                squares += off * off / 3.0;
+            }
+        const double error = std::sqrt(squares);
+        if (samples == 1)
+            first = error;
+        else
+            EXPECT_LT(error, 1.1 * first / std::sqrt(samples)) << samples;
+    }
+    EXPECT_GT(first, 0.5);  // there are edges
+    renderer.render(edges.camera);
+    EXPECT_TRUE(std::isinf(renderer.sampling_error()));
+}
+
+}  // namespace
+}  // namespace clgi
