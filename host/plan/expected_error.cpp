@@ -13,6 +13,8 @@ namespace {
 
 // Of direct light where no probe was taken: about what closed rooms have.
 constexpr double usual_direct_error = 0.03;
+// What some hundred samples leave of it: 0.15 to 0.3 (docs/results/plans.md).
+constexpr double after_samples = 0.3;
 
 // Geometry that moves through a bake casts no indirect shadow and is lit by a few points of a
 // volume: by how much that changes a picture, as measured (docs/results/plans.md). What closes an
@@ -22,7 +24,8 @@ constexpr double moving_error = 0.05;
 double direct_error(const Plan& plan) {
     if (has_exact_direct_light(plan)) return 0.0;
     const double usual = plan.probe ? plan.probe->direct_error : usual_direct_error;
-    return usual / std::sqrt(fineness_of(plan));
+    const double left = plan.request.refined ? after_samples : 1.0;
+    return left * usual / std::sqrt(fineness_of(plan));
 }
 
 // Methods whose error is that of the whole picture, the sky's light with it.

@@ -161,8 +161,9 @@ Plan trial_plan(const cl::Device& device, const Plan& plan, double seconds) {
 
 std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, const PlanOutcome& found,
                               std::optional<double> seconds) {
-    constexpr double less = 0.95;     // of the error; otherwise it does not pay
-    constexpr double patience = 1e4;  // ms, where no time was requested
+    constexpr double less = 0.95;        // of the error; otherwise it does not pay
+    constexpr double surely_less = 0.7;  // what is asked for
+    constexpr double patience = 1e4;     // ms, where no time was requested
     const auto is_amount = [](std::optional<double> value) {
         return !value || (*value >= 0.0 && std::isfinite(*value));
     };
@@ -173,6 +174,8 @@ std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, const 
     std::optional<double> expected = plan.error;
     if (expected) *expected /= error_factor(plan);
     out.checks.push_back({plan.method, expected, plan.cost.total_ms() / pace_of(plan), found});
+    if (out.request.error && found.error)
+        out.request.error = std::min(*out.request.error, surely_less * *found.error);
     if (!choose_method(device, out)) return std::nullopt;
     price(device, out);
     const double most = out.request.seconds ? 1e3 * *out.request.seconds : patience;
@@ -183,6 +186,7 @@ std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, const 
         out.error && error ? *out.error <= less * *error : found.error || out.method == plan.method;
     if (!better) return std::nullopt;
     out.request.seconds = plan.request.seconds;
+    out.request.error = plan.request.error;
     return out;
 }
 

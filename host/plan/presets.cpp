@@ -14,6 +14,11 @@ constexpr std::size_t many_triangles = 20000;
 // nothing shadows in the probe, no more is there.
 constexpr double all_bounces = 1.5, most_share = 2.0;
 
+// Of what the picture reaches; of the whole scene, where that is not known.
+double open_share(const Plan& plan) {
+    return plan.reach && plan.reach->points > 0 ? plan.reach->open : plan.analysis.openness;
+}
+
 }  // namespace
 
 double indirect_share(const Plan& plan) {
@@ -28,7 +33,7 @@ SceneKind kind_of(const Plan& plan) {
     if (!plan.on(Effect::indirect_occlusion)) return SceneKind::convex;
     if (sees_little(plan)) return SceneKind::furnished;  // what is open lies elsewhere
     if (plan.probe && indirect_share(plan) > 1.0) return SceneKind::indirect;
-    if (analysis.openness > much_open) return SceneKind::open;
+    if (open_share(plan) > much_open) return SceneKind::open;
     if (fine) return SceneKind::fine;
     return SceneKind::furnished;
 }

@@ -57,6 +57,7 @@ double at(std::size_t i, std::uint32_t base) {
 struct Met {
     std::vector<Place> places;
     std::size_t shown = 0;
+    double open = 0.0;  // share of the directions followed from them that leave the scene
 };
 
 Met met(const LocalScene& local, const Camera& camera, int width, int height) {
@@ -68,6 +69,7 @@ Met met(const LocalScene& local, const Camera& camera, int width, int height) {
     Met out;
     std::vector<Place> places;
     std::vector<glm::dvec3> along;
+    std::size_t followed = 0, left = 0;
     for (std::size_t i = 0; i < paths; ++i) {
         const double x = 2.0 * at(i, 2) - 1.0, y = 2.0 * at(i, 3) - 1.0;
         const glm::dvec3 across = x * double{view.right.w} * glm::dvec3(camera.right) +
@@ -80,8 +82,14 @@ Met met(const LocalScene& local, const Camera& camera, int width, int height) {
     }
     for (std::size_t depth = 0; depth < surfaces && !places.empty(); ++depth) {
         Rays rays;
+        const std::size_t from = places.size();
         places = ends(rays, places, along, local);
-        if (depth == 0) out.shown = places.size();
+        if (depth == 0) {
+            out.shown = places.size();
+        } else {
+            followed += from;
+            left += from - places.size();
+        }
         along.clear();
         for (std::size_t i = 0; i < places.size(); ++i) {
             out.places.push_back(places[i]);
@@ -89,6 +97,7 @@ Met met(const LocalScene& local, const Camera& camera, int width, int height) {
                 about(places[i].normal, at(i, depth == 0 ? 5 : 11), at(i, depth == 0 ? 7 : 13)));
         }
     }
+    if (followed > 0) out.open = static_cast<double>(left) / static_cast<double>(followed);
     return out;
 }
 
@@ -257,6 +266,7 @@ Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera
     const std::vector<Place>& places = found.places;
     out.pixel = pixel_size(found, camera, frame, height) / frame.scale;
     out.points = places.size();
+    out.open = found.open;
     out.gloss = shown_gloss(scene, found);
     out.sphere = {frame.origin, frame.radius / frame.scale};
     if (places.empty()) return out;

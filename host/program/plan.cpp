@@ -42,6 +42,7 @@ PlanRequest request_of(const PlanCommand& flags) {
     if (!flags.frame_time.empty())
         out.seconds = 1e-3 * parse_milliseconds("plan", "--frame-time", flags.frame_time);
     out.animated = flags.animated;
+    out.refined = !flags.animated;
     out.build = build_of(flags.device);
     out.method = method_of(flags.method);
     return out;

@@ -204,6 +204,7 @@ ordered_json plan_json(const Plan& plan) {
                         {"power", plan.reach->power},
                         {"emissive_area", plan.reach->emissive_area},
                         {"hidden", plan.reach->hidden},
+                        {"open", plan.reach->open},
                         {"gloss", plan.reach->gloss},
                         {"points", plan.reach->points},
                         {"ms", plan.reach->milliseconds}};

@@ -163,7 +163,7 @@ double RenderAttempt::seconds() const {
 }
 
 void RenderAttempt::check(const Scene& truth, double decide) {
-    constexpr double least = 1.0, share = 2.0;  // seconds, and of the picture's, to decide
+    constexpr double least = 4.0, share = 2.0;  // seconds, and of the picture's, to decide
     const double spent = 1e-3 * record_.build_ms + seconds();
     record_.verified =
         verify(truth, flags_.verify, spent,

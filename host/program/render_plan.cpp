@@ -136,6 +136,7 @@ PlanRequest plan_request(const RenderFlags& flags) {
     out.animated = flags.fps.has_value();
     out.lights_change = flags.spin_light;
     out.camera_moves = flags.orbit;
+    out.refined = is_still(flags) && !is_given(flags, "samples");
     for (const OptionRow* row : flags.given) {
         if (row->name == "shadow-size") out.shadow_size = picture.emitters.shadow_size;
         if (row->name == "face-size") out.face_size = picture.emitters.face_size;

@@ -58,6 +58,7 @@ struct Painter::State {
         out.height = options.height;
         out.seconds = seconds;
         out.method = method;
+        out.refined = true;
         out.build = options.build;
         return out;
     }

@@ -31,6 +31,9 @@ struct PlanRequest {
     bool animated = false;
     bool lights_change = false;  // set_light() will be called: nothing is proven of lights, and
                                  // dark ones count as lights
+    // Many samples follow the picture (Renderer::refine), which take most of the error of direct
+    // light away: settings are chosen for the rest.
+    bool refined = false;
     bool camera_moves = false;   // no probe: it would hold for one picture alone
     std::vector<Effect> with, without;  // overrule what is decided; no effect is in both
     std::optional<Method> method;       // overrules the choice

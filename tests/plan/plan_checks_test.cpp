@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <clgi/plan.hpp>
+#include <cmath>
 #include <limits>
 
 #include "device.hpp"
+#include "plan/expected_error.hpp"
+#include "plan/settings.hpp"
 #include "rooms.hpp"
 
 namespace clgi {
@@ -40,6 +43,33 @@ TEST(PlanChecks, GoOnToSettingsThatTakeLonger) {
     ASSERT_TRUE(second->error);
     EXPECT_LE(*second->error, 0.1);
     EXPECT_TRUE(second->meets_error);
+}
+
+// A little above what is asked for, or below it but not surely: what follows is expected to err
+// clearly less than was measured.
+TEST(PlanChecks, AimBelowWhatWasMeasured) {
+    const Plan first = plan_of(0.1, std::nullopt);
+    for (const double measured : {0.105, 0.09, 0.085}) {
+        const std::optional<Plan> second = next(first, measured);
+        ASSERT_TRUE(second) << measured;
+        EXPECT_LE(*second->error, 0.7 * measured + 1e-9);
+        EXPECT_EQ(second->request.error, 0.1);
+    }
+}
+
+// Samples take most of the error of direct light away, and settings are chosen for the rest.
+TEST(PlanChecks, LeaveDirectLightToSamples) {
+    Plan plan = plan_of(0.1, std::nullopt, Method::direct);
+    EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
+    first.on = false;
+    first.bound = 0.0;
+    plan.probe = ProbeResult{};
+    plan.probe->direct_error = 0.4;
+    const Preset direct{Method::direct, 0, 0, {}};
+    const double usual = expected_error(plan, direct).value();
+    plan.request.refined = true;
+    EXPECT_NEAR(expected_error(plan, direct).value(), 0.3 * usual, 1e-9);
+    EXPECT_NEAR(usual, 0.4 / std::sqrt(fineness_of(plan)), 1e-9);
 }
 
 // A method that errs a thousand times more than expected is not the next one, if others suit.

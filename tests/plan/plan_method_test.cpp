@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "device.hpp"
+#include "plan/presets.hpp"
 #include "rooms.hpp"
 
 namespace clgi {
@@ -314,6 +315,21 @@ TEST(Plan, KnowsTheKindOfAScene) {
     EXPECT_TRUE(stands_on(evidence(), "open scenes"));
     analysis.proof.surfaces_open = true;
     EXPECT_TRUE(stands_on(evidence(), "convex scenes"));
+}
+
+// What the picture reaches counts, and not the outer sides of walls.
+TEST(Plan, KnowsTheKindOfWhatThePictureReaches) {
+    Plan plan;
+    for (EffectChoice& effect : plan.effects) effect.on = true;
+    plan.analysis.openness = 0.4;
+    EXPECT_EQ(kind_of(plan), SceneKind::open);
+    plan.reach = Reach();
+    EXPECT_EQ(kind_of(plan), SceneKind::open);  // it has no points
+    plan.reach->points = 200;
+    EXPECT_EQ(kind_of(plan), SceneKind::furnished);
+    plan.analysis.openness = 0.0;
+    plan.reach->open = 0.31;
+    EXPECT_EQ(kind_of(plan), SceneKind::open);
 }
 
 // The bake is before the first picture, whatever moves, and nobody waits for it for long.

@@ -77,7 +77,6 @@ TEST(Reach, KnowsWhatAPixelCovers) {
     EXPECT_NEAR(reached(scene).pixel, 2.0 * std::tan(0.4) * 2.29 / 120, 4e-4);
 }
 
-// Of twenty equal rooms, one: a twentieth of area and power; the sphere is that of the room alone.
 // Half of a wall is glossy, and all that lies behind the camera.
 TEST(Reach, KnowsHowGlossyWhatIsShownIs) {
     Scene scene = test::plain_scene({0.5f, 0.25f, 0.75f});
@@ -99,6 +98,27 @@ TEST(Reach, KnowsHowGlossyWhatIsShownIs) {
     EXPECT_EQ(reached(scene).gloss, 0.0);
 }
 
+// Walls with outer sides are closed from within, wherever the room stands. Where two large walls
+// meet, half of what each sees is the other.
+TEST(Reach, KnowsHowOpenItIs) {
+    Scene room = rooms(1);
+    test::add_box(room, glm::dvec3(-0.1), glm::dvec3(4.1, 3.1, 5.1), 1);
+    EXPECT_GT(scene_analysis(room).openness, 0.3);
+    EXPECT_EQ(reached(room).open, 0.0);
+    test::add_quad(room, {{{-50, -1, 50}, {50, -1, 50}, {50, -1, -50}, {-50, -1, -50}}});
+    EXPECT_EQ(reached(room).open, 0.0);
+
+    Scene corner = test::plain_scene({0.5f, 0.5f, 0.5f});
+    test::add_quad(corner, {{{-900, 0, 0}, {-900, 0, 900}, {900, 0, 900}, {900, 0, 0}}});
+    test::add_quad(corner, {{{-900, 0, 0}, {900, 0, 0}, {900, 900, 0}, {-900, 900, 0}}});
+    corner.cameras = {test::camera_at({0, 1, 1}, {0, 0, 0}, 0.5f)};
+    EXPECT_NEAR(reached(corner).open, 0.5, 0.06);
+    corner.triangles.resize(2);  // the floor alone
+    corner.cameras = {test::camera_at({0, 1, 1}, {0, 0, 1.5}, 0.5f)};
+    EXPECT_EQ(reached(corner).open, 1.0);
+}
+
+// Of twenty equal rooms, one: a twentieth of area and power; the sphere is that of the room alone.
 TEST(Reach, IsOneRoomOfMany) {
     const Scene one = rooms(1), many = rooms(20);
     const Reach alone = reached(one);

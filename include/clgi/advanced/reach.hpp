@@ -22,6 +22,10 @@ struct Reach {
     double size = 1.0;
     // Metres that a pixel covers, across, of what is seen at first hand: a quarter covers less.
     double pixel = 0.0;
+    // Share of cosine-weighted directions in which nothing is seen, from what is seen at first and
+    // at second hand; by 64 to 512 rays, fewer from what leaves no second hand. Unlike
+    // SceneAnalysis::openness it knows nothing of the outer sides of walls; [0,1].
+    double open = 0.0;
     // Root of the mean square, over what is seen at first hand, of the share of gloss in what
     // materials reflect of even light, without their textures; [0,1].
     double gloss = 0.0;
