@@ -32,7 +32,31 @@ glm::vec3 reflected(const Bsdf& bsdf, bool glossy, const glm::vec3& light) {
     return glossy ? bsdf.reflected(light) : bsdf.diffuse();
 }
 
+// A direction that a path took.
+struct Step {
+    glm::vec3 place, direction;
+    float weight;  // luminance of the path for unit radiance from there, times the density
+    float before;  // luminance of the path until then
+};
+
+void learn(const std::vector<Step>& steps, const glm::vec3& sum, std::vector<Met>& met) {
+    for (const Step& step : steps)
+        if (step.weight > 0.0f)
+            met.push_back(
+                {step.place, step.direction, (luminance(sum) - step.before) / step.weight});
+}
+
 }  // namespace
+
+glm::vec3 Paths::Scatter::sample(Random& random) const {
+    if (learnt && random() < 0.5f) return learnt->sample(random);
+    return bsdf.sample(random, glossy);
+}
+
+float Paths::Scatter::density(const glm::vec3& direction) const {
+    const float own = bsdf.density(direction, glossy);
+    return learnt ? 0.5f * (own + learnt->density(direction)) : own;
+}
 
 bool Paths::counts(int bounces) const {
     if (bounces == 0) return effects_.direct;
@@ -64,8 +88,8 @@ std::optional<Arrival> Paths::from_sky(const glm::vec3& point, Random& random) c
     return out;
 }
 
-// Direct light. also_met: emissive surfaces and sky are met by sampled directions as well.
-glm::vec3 Paths::lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool also_met,
+// Direct light. also: directions are drawn by it as well, which meet emissive surfaces and sky.
+glm::vec3 Paths::lit(const Surface& surface, const Bsdf& bsdf, bool glossy, const Scatter* also,
                      Random& random) const {
     glm::vec3 sum(0.0f);
     const std::size_t lamps = lights_.lamp_count();
@@ -79,15 +103,14 @@ glm::vec3 Paths::lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool
         sum += sent_on(lights_.from_lamp(lamp, surface.position), static_cast<float>(lamps),
                        surface, bsdf, glossy, random);
     }
-    const bool lobe_drawn = effects_.direct_gloss || effects_.indirect_gloss;
     const auto add = [&](Sampling ways, const std::optional<Arrival>& light) {
         if (!light) return;
-        const float share = also_met ? share_of(Sampling::lights, ways, light->density,
-                                                bsdf.density(light->direction, lobe_drawn))
-                                     : 1.0f;
+        const float share =
+            also ? share_of(Sampling::lights, ways, light->density, also->density(light->direction))
+                 : 1.0f;
         sum += sent_on(light, share, surface, bsdf, glossy, random);
     };
-    const auto drawn = [&](Sampling ways) { return !also_met || ways != Sampling::lobes; };
+    const auto drawn = [&](Sampling ways) { return !also || ways != Sampling::lobes; };
     if (lights_.has_surfaces() && drawn(sampling_))
         add(sampling_, lights_.from_surface(surface.position, random));
     if (sky_.shines() && drawn(sky_sampling_))
@@ -96,20 +119,29 @@ glm::vec3 Paths::lit(const Surface& surface, const Bsdf& bsdf, bool glossy, bool
 }
 
 // Reflections 0 to last, shadowed.
-glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& random) const {
+glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& random,
+                      std::vector<Met>* met) const {
     glm::vec3 sum(0.0f);
     glm::vec3 weight(1.0f);
+    thread_local std::vector<Step> steps;
+    steps.clear();
     const bool lobe_drawn = effects_.direct_gloss || effects_.indirect_gloss;
     for (int k = 0; k <= last && surface.reflects; ++k) {
         const Bsdf bsdf(surface, -direction);
+        const Scatter scatter{bsdf, lobe_drawn, guide_ ? guide_->at(surface.position) : nullptr};
         const bool counted = counts(k);
-        if (counted) sum += weight * lit(surface, bsdf, glossy(k), true, random);
+        if (counted) sum += weight * lit(surface, bsdf, glossy(k), &scatter, random);
         if (k == last && !(counted && (lights_.has_surfaces() || sky_.shines()))) break;
 
-        const glm::vec3 onward = bsdf.sample(random, lobe_drawn);
-        const float density = bsdf.density(onward, lobe_drawn);
+        const glm::vec3 onward = scatter.sample(random);
+        const float density = scatter.density(onward);
         if (!above(surface, onward) || !(density > 0.0f)) break;
         const float cosine = glm::dot(surface.normal, onward);
+        if (met)
+            steps.push_back(
+                {surface.position, onward,
+                 luminance(weight * reflected(bsdf, effects_.indirect_gloss, onward)) * cosine,
+                 luminance(sum)});
         Ray ray{off_surface(surface.position, surface.geometric), onward};
         ray.chance = chance(geometry_, random);
         const std::optional<Hit> hit = tracer_.first(ray);
@@ -136,6 +168,7 @@ glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& ra
         surface = next;
         direction = onward;
     }
+    if (met) learn(steps, sum, *met);
     return sum;
 }
 
@@ -159,16 +192,17 @@ glm::vec3 Paths::unshadowed(const Surface& surface, const glm::vec3& direction,
     for (const Hit& hit : hits) {
         const Surface other = surface_at(geometry_, hit, onward);
         if (other.reflects)
-            sum += lit(other, Bsdf(other, -onward), effects_.indirect_gloss, false, random);
+            sum += lit(other, Bsdf(other, -onward), effects_.indirect_gloss, nullptr, random);
     }
     return sum * reflected(bsdf, effects_.indirect_gloss, onward) *
            (glm::dot(surface.normal, onward) / density);
 }
 
-glm::vec3 Paths::sample(const Surface& seen, const glm::vec3& direction, Random& random) const {
+glm::vec3 Paths::sample(const Surface& seen, const glm::vec3& direction, Random& random,
+                        std::vector<Met>* met) const {
     glm::vec3 sum = effects_.emission ? seen.emission : glm::vec3(0.0f);
-    if (effects_.shadowed) return sum + walk(seen, direction, effects_.last_bounce, random);
-    if (effects_.direct) sum += walk(seen, direction, 0, random);
+    if (effects_.shadowed) return sum + walk(seen, direction, effects_.last_bounce, random, met);
+    if (effects_.direct) sum += walk(seen, direction, 0, random, met);
     return sum + unshadowed(seen, direction, random);
 }
 

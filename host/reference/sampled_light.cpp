@@ -26,7 +26,7 @@ Hit PixelLight::texture_place(float x, float y, const Hit& seen, Random& random)
     return seen;
 }
 
-glm::vec3 PixelLight::operator()(std::size_t pixel, Random& random) const {
+glm::vec3 PixelLight::operator()(std::size_t pixel, Random& random, std::vector<Met>* met) const {
     const auto x = static_cast<float>(pixel % width_);
     const auto y = static_cast<float>(pixel / width_);
     const bool whole = filter_ == Filter::box;
@@ -37,11 +37,11 @@ glm::vec3 PixelLight::operator()(std::size_t pixel, Random& random) const {
     const glm::vec3 direction = glm::normalize(ray.direction);
     if (!hit) return paths_.background(direction);
     const Hit place = whole ? *hit : texture_place(x, y, *hit, random);
-    return paths_.sample(surface_at(geometry_, *hit, direction, place), direction, random);
+    return paths_.sample(surface_at(geometry_, *hit, direction, place), direction, random, met);
 }
 
-glm::vec3 light_at(const Place& place, const Geometry& geometry, const Paths& paths,
-                   Random& random) {
+glm::vec3 light_at(const Place& place, const Geometry& geometry, const Paths& paths, Random& random,
+                   std::vector<Met>* met) {
     // Reflects all, evenly, pi times over: radiance is irradiance.
     Surface surface{};
     surface.position = geometry.to_local(place.position);
@@ -50,7 +50,7 @@ glm::vec3 light_at(const Place& place, const Geometry& geometry, const Paths& pa
     surface.albedo = surface.base = glm::vec3(pi);
     surface.alpha = 1.0;
     surface.reflects = true;
-    return paths.sample(surface, -surface.normal, random);
+    return paths.sample(surface, -surface.normal, random, met);
 }
 
 }  // namespace clgi::reference

@@ -19,8 +19,8 @@ public:
           width_(static_cast<std::size_t>(width)),
           filter_(filter) {}
 
-    // pixel: row * width + column.
-    glm::vec3 operator()(std::size_t pixel, Random& random) const;
+    // pixel: row * width + column. met: as of Paths::sample().
+    glm::vec3 operator()(std::size_t pixel, Random& random, std::vector<Met>* met = nullptr) const;
 
 private:
     Hit texture_place(float x, float y, const Hit& seen, Random& random) const;
@@ -34,8 +34,8 @@ private:
 };
 
 // A sample of the irradiance of a place, lux.
-glm::vec3 light_at(const Place& place, const Geometry& geometry, const Paths& paths,
-                   Random& random);
+glm::vec3 light_at(const Place& place, const Geometry& geometry, const Paths& paths, Random& random,
+                   std::vector<Met>* met = nullptr);
 
 // Throws Error for options out of range.
 void check_options(const Options& options);

@@ -6,24 +6,23 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <clgi/error.hpp>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <optional>
 
 #include "reference/interval.hpp"
 #include "reference/pixel_draws.hpp"
 #include "reference/sampled_light.hpp"
+#include "reference/traced_pixel.hpp"
 #include "reference/world.hpp"
 
 namespace clgi::reference {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using LightOf = std::function<glm::vec3(std::size_t pixel, Random& random)>;
+using LightOf = std::function<glm::vec3(std::size_t pixel, Random& random, std::vector<Met>* met)>;
 
 constexpr int fewest_pixels = 200;                       // whatever the time
 constexpr std::uint64_t own_seed = 0x7665726966790000u;  // no stream of render() or irradiance()
@@ -31,73 +30,6 @@ constexpr std::uint64_t own_seed = 0x7665726966790000u;  // no stream of render(
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-// A pixel and the samples that were taken of it, in turn by groups: those of a group are even
-// together, and independent of the other groups'.
-struct Traced {
-    static constexpr std::size_t groups = 8;
-
-    DrawnPixel drawn;
-    double picture = 0.0;     // luminance
-    std::uint32_t taken = 0;  // samples, those left out included
-    std::uint32_t non_finite = 0;
-    std::array<double, groups> sums{};  // of picture - sample
-    std::array<std::uint32_t, groups> counts{};
-
-    // luminance_of(group, number within it)
-    template <typename Luminance>
-    void add(const Luminance& luminance_of) {
-        const std::size_t group = taken % groups;
-        const double difference =
-            picture - luminance_of(group, taken++ / static_cast<std::uint32_t>(groups));
-        if (!std::isfinite(difference)) {
-            ++non_finite;
-            return;
-        }
-        sums[group] += difference;
-        ++counts[group];
-    }
-
-    double count() const { return double(taken) - double(non_finite); }
-    double light() const {
-        const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
-        return count() > 0.0 ? picture - sum / count() : picture;
-    }
-    // Of one sample, as if all were independent.
-    double variance() const {
-        const Means all = means();
-        if (all.used < 2.0) return 0.0;
-        const double between = std::max(all.square - all.sum * all.sum / all.used, 0.0);
-        return between / (all.used - 1.0) * count() / all.used;
-    }
-    // The mean of (x - a)(x - b), a and b the means of different groups.
-    double squared_error() const {
-        const Means all = means();
-        if (all.used < 2.0) return 0.0;
-        return (all.sum * all.sum - all.square) / (all.used * (all.used - 1.0));
-    }
-    Draw weighted() const {
-        return {drawn.stratum, drawn.weight * squared_error(), drawn.weight * light(),
-                drawn.weight * picture};
-    }
-
-private:
-    struct Means {
-        double used = 0.0, sum = 0.0, square = 0.0;
-    };
-
-    Means means() const {
-        Means out;
-        for (std::size_t g = 0; g < groups; ++g) {
-            if (counts[g] == 0) continue;
-            const double mean = sums[g] / counts[g];
-            out.used += 1.0;
-            out.sum += mean;
-            out.square += mean * mean;
-        }
-        return out;
-    }
-};
 
 // How many pixels of each stratum are traced, and with how many samples.
 struct Design {
@@ -108,10 +40,11 @@ struct Design {
 class Verifier {
 public:
     Verifier(const Brightness& brightness, const VerifyOptions& options, const Progress& progress,
-             LightOf light)
+             Paths& paths, LightOf light)
         : brightness_(brightness),
           options_(options),
           progress_(progress),
+          paths_(paths),
           light_(std::move(light)),
           draws_(brightness) {}
 
@@ -120,8 +53,10 @@ public:
         if (options_.threads > 0)
             limit.emplace(tbb::global_control::max_allowed_parallelism,
                           static_cast<std::size_t>(options_.threads));
+        learn();
+        const double learnt = seconds_since(start_);
         std::vector<Traced> first = look();
-        const double first_seconds = seconds_since(start_);
+        const double first_seconds = seconds_since(start_) - learnt;
         const Design design = design_of(first, first_seconds);
         std::vector<Traced> pixels = drawn(design.counts, 3);
         if (rounds(design, pixels)) {
@@ -151,41 +86,80 @@ private:
         return out;
     }
 
-    // pass: 1 or 2; 0 and 3 are those of drawn().
+    // pass: 1, 2, 5 or 6; 0, 3 and 4 are those of drawn(). met: [pixels], what their paths meet.
     void trace(std::vector<Traced>& pixels, std::uint64_t pass,
-               const std::function<int(std::size_t stratum)>& samples) const {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 4),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t k = range.begin(); k < range.end(); ++k) {
-                                  Traced& pixel = pixels[k];
-                                  for (int s = samples(pixel.drawn.stratum); s > 0; --s)
-                                      pixel.add([&](std::size_t group, std::uint32_t index) {
-                                          Random random = Random::even(
-                                              options_.seed ^ own_seed,
-                                              ((k << 2) + pass) * Traced::groups + group, index);
-                                          const glm::vec3 light = light_(pixel.drawn.pixel, random);
-                                          return luminance(glm::dvec3(light));
-                                      });
-                              }
-                          });
+               const std::function<int(std::size_t stratum)>& samples,
+               std::vector<std::vector<Met>>* met = nullptr) const {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, pixels.size(), 4),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                for (std::size_t k = range.begin(); k < range.end(); ++k) {
+                    Traced& pixel = pixels[k];
+                    for (int s = samples(pixel.drawn.stratum); s > 0; --s)
+                        pixel.add([&](std::size_t group, std::uint32_t index) {
+                            Random random =
+                                Random::even(options_.seed ^ own_seed,
+                                             ((k << 3) + pass) * Traced::groups + group, index);
+                            const glm::vec3 light =
+                                light_(pixel.drawn.pixel, random, met ? &(*met)[k] : nullptr);
+                            return luminance(glm::dvec3(light));
+                        });
+                }
+            });
     }
 
-    // The first pass: two pixels of each of a few strata, with a time limit for a tenth of it. It
-    // decides where pixels and samples go. It is not part of the result, so that the result is
-    // unbiased.
-    std::vector<Traced> look() {
+    // Two pixels of each of a few strata.
+    std::vector<Traced> few(std::uint64_t pass) const {
         const auto strata = static_cast<std::size_t>(std::clamp(options_.pixels / 8, 2, 64));
-        std::vector<Traced> out = drawn(std::vector<int>(strata, 2), 0);
-        const auto add = [&](int samples) {
-            trace(out, 1, [&](std::size_t) { return samples; });
-            first_samples_ += samples;
-        };
-        add(8);
-        for (int k = 0; k < 8 && seconds_since(start_) < 0.1 * options_.seconds; ++k) {
-            const double more =
-                first_samples_ * (0.1 * options_.seconds / seconds_since(start_) - 1.0);
-            add(std::clamp(static_cast<int>(more), 1, 3 * first_samples_));
+        return drawn(std::vector<int>(strata, 2), pass);
+    }
+
+    // Calls add(samples) for `fewest`, and with a time limit until `end` of it, at most eight times
+    // more. Returns the samples of a pixel.
+    int take(int fewest, double end, const std::function<void(int samples)>& add) const {
+        const double begin = seconds_since(start_), limit = end * options_.seconds;
+        int taken = fewest;
+        add(fewest);
+        for (int k = 0; k < 8 && seconds_since(start_) < limit; ++k) {
+            const double spent = seconds_since(start_) - begin;
+            const double more = taken * (limit - seconds_since(start_)) / std::max(spent, 1e-9);
+            const int next = std::clamp(static_cast<int>(more), 1, 3 * taken);
+            add(next);
+            taken += next;
         }
+        return taken;
+    }
+
+    // What paths of a few pixels meet guides others, and what those meet all that follow, if there
+    // is less noise with a guide. It is not part of the result.
+    void learn() {
+        std::vector<std::vector<Met>> met;
+        const auto traced = [&](std::uint64_t pass, double end) {
+            std::vector<Traced> pixels = few(4);
+            met.resize(pixels.size());
+            take(8, end, [&](int samples) {
+                trace(
+                    pixels, pass, [&](std::size_t) { return samples; }, &met);
+            });
+            std::vector<Met> all;
+            for (const std::vector<Met>& one : met) all.insert(all.end(), one.begin(), one.end());
+            guide_ = Guide(std::move(all));
+            paths_.follow(&guide_);
+            add_counts(pixels);
+            double noise = 0.0;
+            for (const Traced& pixel : pixels) noise += pixel.drawn.weight * pixel.variance();
+            return noise;
+        };
+        const double alone = traced(5, 0.04), guided = traced(6, 0.12);
+        if (guided > alone) paths_.follow(nullptr);
+    }
+
+    // The first pass decides where pixels and samples go. It is not part of the result, so that the
+    // result is unbiased.
+    std::vector<Traced> look() {
+        std::vector<Traced> out = few(0);
+        first_samples_ =
+            take(8, 0.2, [&](int samples) { trace(out, 1, [&](std::size_t) { return samples; }); });
         return out;
     }
 
@@ -202,7 +176,7 @@ private:
         const auto count = static_cast<double>(first.size());
         square -= variance * std::sqrt(2.0 / count) / first_samples_;  // which noise may have made
         const double paths =
-            (options_.seconds - first_seconds) * count * first_samples_ / first_seconds;
+            (options_.seconds - seconds_since(start_)) * count * first_samples_ / first_seconds;
         const double best =
             variance > 0.0 ? std::max(square, 0.0) / variance * paths : double(options_.pixels);
         const double most = std::min(paths / 16.0, double(options_.pixels));
@@ -313,7 +287,9 @@ private:
     const Brightness& brightness_;
     const VerifyOptions& options_;
     const Progress& progress_;
+    Paths& paths_;
     const LightOf light_;
+    Guide guide_{{}};
     const PixelDraws draws_;
     const Clock::time_point start_ = Clock::now();
     int first_samples_ = 0;  // of a pixel of the first pass
@@ -365,11 +341,13 @@ Verification PathTracer::verify(const Camera& camera, int width, int height,
                     std::to_string(height) + ", 1x1 to 16384x16384 needed");
     const Brightness brightness =
         brightness_of(radiance, static_cast<std::size_t>(width), static_cast<std::size_t>(height));
-    const Paths paths = world_->paths(tracing);
+    Paths paths = world_->paths(tracing);
     const PixelLight light(world_->geometry, world_->tracer, paths, camera, width, height,
                            options.filter);
-    return Verifier(brightness, options, progress,
-                    [&](std::size_t pixel, Random& random) { return light(pixel, random); })
+    return Verifier(brightness, options, progress, paths,
+                    [&](std::size_t pixel, Random& random, std::vector<Met>* met) {
+                        return light(pixel, random, met);
+                    })
         .run();
 }
 
@@ -378,10 +356,10 @@ Verification PathTracer::verify(const std::vector<Place>& places,
                                 const VerifyOptions& options, const Progress& progress) const {
     const Options tracing = tracing_of(options);
     const Brightness brightness = brightness_of(irradiance, places.size(), 1);
-    const Paths paths = world_->paths(tracing);
-    return Verifier(brightness, options, progress,
-                    [&](std::size_t place, Random& random) {
-                        return light_at(places[place], world_->geometry, paths, random);
+    Paths paths = world_->paths(tracing);
+    return Verifier(brightness, options, progress, paths,
+                    [&](std::size_t place, Random& random, std::vector<Met>* met) {
+                        return light_at(places[place], world_->geometry, paths, random, met);
                     })
         .run();
 }

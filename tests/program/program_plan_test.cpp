@@ -51,8 +51,10 @@ TEST_F(Program, UsesATimeByWhatItsFirstPictureTook) {
     const auto& budget = stats.at("time_budget");
     EXPECT_EQ(budget.at("seconds"), 2.0);
     const auto& attempts = budget.at("attempts");
-    // On a GPU the first one has the finest settings already.
-    ASSERT_GE(attempts.size(), run("devices").out.find("    CPU, ") != std::string::npos ? 2u : 1u);
+    // On a GPU the first one has the finest settings already; on a busy CPU it may take it all.
+    const bool gpu = run("devices").out.find("    CPU, ") == std::string::npos;
+    const bool room = attempts[0].at("seconds").get<double>() < 0.5;
+    ASSERT_GE(attempts.size(), !gpu && room ? 2u : 1u);
     double sum = 1e-3 * stats.at("plan").at("ms").get<double>();
     for (std::size_t i = 0; i < attempts.size(); ++i) {
         sum += attempts[i].at("seconds").get<double>() +
