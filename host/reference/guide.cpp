@@ -8,7 +8,7 @@
 namespace clgi::reference {
 namespace {
 
-constexpr std::size_t enough = 1000;  // of a cell: what paths met
+constexpr std::size_t enough = 400;  // of a cell: what paths met
 constexpr float whole_turn = 2.0f * std::numbers::pi_v<float>;
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reference/material.hpp"
 #include "reference/tracer.hpp"
@@ -15,6 +16,37 @@ double area(const Geometry& geometry, std::uint32_t index) {
     const glm::dvec3 a(geometry.positions[triangle.vertex[0]]);
     return 0.5 * glm::length(glm::cross(glm::dvec3(geometry.positions[triangle.vertex[1]]) - a,
                                         glm::dvec3(geometry.positions[triangle.vertex[2]]) - a));
+}
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+double power(const Geometry& geometry, std::uint32_t index) {
+    const Material& material = geometry.materials[geometry.triangles[index].material];
+    return area(geometry, index) * double{luminance(material.emission)} *
+           (material.double_sided ? 2.0 : 1.0);
+}
+
+std::vector<std::uint32_t> emissive(const Geometry& geometry) {
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t)
+        if (static_cast<float>(power(geometry, t)) > 0.0f) out.push_back(t);
+    return out;
+}
+
+std::vector<LightTree::Item> items(const Geometry& geometry,
+                                   const std::vector<std::uint32_t>& triangles) {
+    std::vector<LightTree::Item> out;
+    for (const std::uint32_t t : triangles) {
+        glm::vec3 corners[3];
+        for (int k = 0; k < 3; ++k)
+            corners[k] = geometry.positions[geometry.triangles[t].vertex[k]];
+        const glm::vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0f;
+        float radius = 0.0f;
+        for (const glm::vec3& corner : corners)
+            radius = std::max(radius, glm::distance(centre, corner));
+        out.push_back({centre, radius, static_cast<float>(power(geometry, t))});
+    }
+    return out;
 }
 
 // KHR_lights_punctual: linear in the cosine between the two angles, then squared.
@@ -30,20 +62,14 @@ double cone_share(const Light& light, double cosine) {
 }  // namespace
 
 Lights::Lights(const Scene& scene, const Geometry& geometry)
-    : geometry_(geometry), lamps_(scene.lights), share_(geometry.triangles.size(), 0.0f) {
+    : geometry_(geometry),
+      lamps_(scene.lights),
+      areas_(emissive(geometry)),
+      emissive_(geometry.triangles.size(), none),
+      tree_(items(geometry, areas_)) {
     for (Light& lamp : lamps_) lamp.direction = glm::normalize(lamp.direction);
     for (const Light& lamp : lamps_) lamp_positions_.push_back(geometry.to_local(lamp.position));
-    double total = 0.0;
-    for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-        const Material& material = geometry.materials[geometry.triangles[t].material];
-        const double power = area(geometry, t) * double{luminance(material.emission)} *
-                             (material.double_sided ? 2.0 : 1.0);
-        if (!(power > 0.0)) continue;
-        areas_.push_back(t);
-        cumulative_.push_back(total += power);
-        share_[t] = static_cast<float>(power);
-    }
-    for (float& share : share_) share = static_cast<float>(total > 0.0 ? share / total : 0.0);
+    for (std::uint32_t k = 0; k < areas_.size(); ++k) emissive_[areas_[k]] = k;
 }
 
 std::optional<Arrival> Lights::from_lamp(std::size_t index, const glm::vec3& point) const {
@@ -71,9 +97,7 @@ std::optional<Arrival> Lights::from_lamp(std::size_t index, const glm::vec3& poi
 }
 
 std::optional<Arrival> Lights::from_surface(const glm::vec3& point, Random& random) const {
-    const double at = double{random()} * cumulative_.back();
-    const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), at);
-    const std::size_t place = std::min<std::size_t>(found - cumulative_.begin(), areas_.size() - 1);
+    const std::uint32_t place = tree_.sample(point, random);
     const float root = std::sqrt(random());
     const float along = random();
     const Hit hit{areas_[place], root * (1.0f - along), root * along};
@@ -96,8 +120,8 @@ std::optional<Arrival> Lights::from_surface(const glm::vec3& point, Random& rand
 }
 
 float Lights::density(const Hit& hit, const glm::vec3& point) const {
-    const float share = share_[hit.triangle];
-    if (share == 0.0f) return 0.0f;
+    if (emissive_[hit.triangle] == none) return 0.0f;
+    const float share = tree_.probability(emissive_[hit.triangle], point);
     const SceneTriangle& triangle = geometry_.triangles[hit.triangle];
     const glm::vec3 position = geometry_.positions[triangle.vertex[0]] * (1.0f - hit.b1 - hit.b2) +
                                geometry_.positions[triangle.vertex[1]] * hit.b1 +

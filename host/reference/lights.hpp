@@ -1,4 +1,4 @@
-// What shines: lamps without extent, and emissive triangles drawn by their power.
+// What shines: lamps without extent, and emissive triangles drawn by what they may bring.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/geometry.hpp"
+#include "reference/light_tree.hpp"
 #include "reference/random.hpp"
 
 namespace clgi::reference {
@@ -43,8 +44,8 @@ private:
     std::vector<Light> lamps_;
     std::vector<glm::vec3> lamp_positions_;  // local
     std::vector<std::uint32_t> areas_;       // triangle of each emissive one
-    std::vector<double> cumulative_;         // of their powers
-    std::vector<float> share_;               // of each triangle of the scene in the whole power
+    std::vector<std::uint32_t> emissive_;    // number of each triangle of the scene in these; none
+    LightTree tree_;                         // of these
 };
 
 }  // namespace clgi::reference

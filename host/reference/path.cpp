@@ -123,6 +123,7 @@ glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& ra
                       std::vector<Met>* met) const {
     glm::vec3 sum(0.0f);
     glm::vec3 weight(1.0f);
+    float kept = 1.0f;  // weight, about, of paths that roulette leaves
     thread_local std::vector<Step> steps;
     steps.clear();
     const bool lobe_drawn = effects_.direct_gloss || effects_.indirect_gloss;
@@ -160,9 +161,11 @@ glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& ra
         }
         weight *= reflected(bsdf, effects_.indirect_gloss, onward) * (cosine / density);
         if (k >= roulette_depth_) {
-            const float survival = std::min(greatest(weight), 0.95f);
+            const float survival = std::min(greatest(weight) / kept, 0.95f);
             if (!(random() < survival)) break;
             weight /= survival;
+        } else if (k + 1 == roulette_depth_) {
+            kept = greatest(weight);
         }
         if (!(greatest(weight) > 0.0f)) break;
         surface = next;

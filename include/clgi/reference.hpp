@@ -54,7 +54,7 @@ struct Options {
     int samples = 64;         // per pixel, at most; 1 to 2^24
     double target = 0.0;      // stop at this relative error (below); 0: never
     std::uint64_t seed = 1;   // the same seed gives the same picture with any threads
-    int roulette_depth = 16;  // surfaces on a path before Russian roulette may end it
+    int roulette_depth = 4;  // surfaces on a path before Russian roulette may end it
     int threads = 0;          // 0: all
     Sampling sampling = Sampling::both;
     Filter filter = Filter::center;

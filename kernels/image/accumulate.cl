@@ -24,6 +24,5 @@ kernel void image_accumulate(
         packet_store(fma(sample - before, share, before), out);
         luminance = fma(before, packet_splat(c == 0 ? 0.2126f : c == 1 ? 0.7152f : 0.0722f), luminance);
     }
-    if (params.kept == 0) return;
-    packet_store(min(luminance, packet_splat(FLT_MAX)), mean + params.kept * params.stride + pixel);
+    if (params.kept != 0) packet_store(luminance, mean + params.kept * params.stride + pixel);
 }

@@ -300,7 +300,8 @@ TEST(Accumulate, IsTheMean) {
     }
 }
 
-// All channels as large as numbers get: what is kept of their mean is a number.
+// All channels as large as numbers get: what is kept of their mean is a number, as the weights of
+// luminance are 1 together.
 TEST(Accumulate, KeepsFiniteNumbers) {
     constexpr std::uint32_t stride = 16;
     const float most = std::numeric_limits<float>::max();
