@@ -68,31 +68,6 @@ void add_disc(Scene& scene, double radius, double y, std::uint32_t material) {
         test::add_triangle(scene, {0, y, 0}, corner(k), corner(k + 1), material);
 }
 
-TEST(Reference, LightsAFurnaceAtEveryOrder) {
-    for (const float albedo : {0.2f, 0.5f, 0.8f}) {
-        Scene scene = test::plain_scene();
-        test::add_box(scene, {-1, -1, -1}, {1, 1, 1}, -1, add_glowing(scene, 3.0f, albedo));
-        const PathTracer tracer(scene);
-        reference::Options options = options_for("all", 64);
-        options.width = options.height = 24;
-        options.roulette_depth = 16;  // until then the box has no noise
-        const auto expect = [&](const std::string& effects, double wanted) {
-            options.effects = parse_effects(effects);
-            const Picture picture =
-                tracer.render(test::camera_at({0.2, 0.1, 0.3}, {1, 0.4, -0.2}), options);
-            for (std::size_t p = 0; p < picture.radiance.size(); ++p)
-                EXPECT_NEAR(picture.radiance[p].x, wanted, 5.0 * picture.error[p] + 2e-5 * wanted)
-                    << effects << ", albedo " << albedo;
-        };
-        expect("all", 3.0 / (1 - albedo));
-        expect("emission", 3.0);
-        expect("direct", 3.0 * albedo);
-        expect("one-bounce", 3.0 * albedo * albedo);
-        expect("bounces=4", 3.0 * std::pow(albedo, 5));
-        expect("emission,indirect", 3.0 / (1 - albedo) - 3.0 * albedo);
-    }
-}
-
 TEST(Reference, KnowsViewFactorsOfEmissiveSurfaces) {
     const double light = 2.0;
     const auto lit = [&](const std::array<glm::dvec3, 4>& corners) {
