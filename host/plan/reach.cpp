@@ -255,6 +255,17 @@ Lamps lamps_of(const Scene& scene, const LocalScene& local, const std::vector<Pl
     return out;
 }
 
+// Metres; of spots that are nearly half-spaces, as of narrower ones.
+double widest_cone(const Scene& scene, const glm::dvec3& centre) {
+    constexpr double most = 1.3;  // radians
+    double out = 0.0;
+    for (const Light& light : scene.lights)
+        if (light.kind == Light::Kind::spot && luminance(light.intensity) > 0.0f)
+            out = std::max(out, 2.0 * glm::distance(light.position, centre) *
+                                    std::tan(std::min(double{light.outer_angle}, most)));
+    return out;
+}
+
 }  // namespace
 
 Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera, int width,
@@ -285,6 +296,7 @@ Reach reach_of(const Scene& scene, const LocalScene& local, const Camera& camera
     const double radius = std::max(radius_of_share(places, centre, held), 2.0 * same_place);
     out.sphere = {frame.origin + centre / frame.scale, radius / frame.scale};
     out.size = radius / double{frame.radius};
+    out.cone = widest_cone(scene, out.sphere.centre);
     out.area = share_of_area(local.triangles, centre, beyond * radius);
     const Lamps lamps = lamps_of(scene, local, places, centre, beyond * radius);
     out.power = share(lamps.reached, lamps.power);

@@ -76,8 +76,8 @@ bool lamps_are_large(const Plan& plan) {
     return reach.hidden > few || (reach.points > 0 && point > small * reach.sphere.radius);
 }
 
-// Side of shadow maps. Of few lights with a sun, a texel is a third of what a pixel covers: edges
-// are two texels wide.
+// Side of shadow maps. Of few suns and spots, a texel is a third of what a pixel covers: edges are
+// two texels wide.
 int map_side(const Plan& plan, int fineness) {
     constexpr int step = 256;
     constexpr double texels = 3.0;           // a pixel
@@ -87,14 +87,16 @@ int map_side(const Plan& plan, int fineness) {
     const Reach reach = plan.reach.value_or(Reach());
     const LightAnalysis& lights = plan.analysis.lights;
     const bool suns = plan.on(Effect::directional_light) && lights.directional > 0;
+    const bool spots = plan.on(Effect::spot_light) && lights.spots > 0;
     const bool many =
         (has_sky(plan) && has_sky_lights(plan.method)) || lights.directional + lights.spots > few;
     const bool frames = plan.request.animated || plan.request.lights_change;
-    if (!suns || many || frames || !(reach.pixel > 0.0)) return usual;
+    if ((!suns && !spots) || many || frames || !(reach.pixel > 0.0)) return usual;
     const SunMaps suns_have = sun_maps(reach);
     const auto maps = static_cast<double>(suns_have.count * lights.directional + lights.spots);
     const double most = std::min(4096.0, step * std::floor(std::sqrt(most_pixels / maps) / step));
-    const double wanted = texels * 2.0 * suns_have.radius / reach.pixel;
+    const double across = std::max(suns ? 2.0 * suns_have.radius : 0.0, spots ? reach.cone : 0.0);
+    const double wanted = texels * across / reach.pixel;
     return std::max(usual, step * static_cast<int>(std::ceil(std::min(wanted, most) / step)));
 }
 

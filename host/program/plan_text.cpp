@@ -205,6 +205,7 @@ ordered_json plan_json(const Plan& plan) {
                         {"emissive_area", plan.reach->emissive_area},
                         {"hidden", plan.reach->hidden},
                         {"open", plan.reach->open},
+                        {"cone", plan.reach->cone},
                         {"gloss", plan.reach->gloss},
                         {"points", plan.reach->points},
                         {"ms", plan.reach->milliseconds}};

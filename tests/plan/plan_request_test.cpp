@@ -254,6 +254,14 @@ TEST(Plan, HasShadowMapsAsFineAsThePicture) {
     EXPECT_EQ(side(), 2560);
     plan.analysis.lights.directional = 0;
     EXPECT_EQ(side(), usual);
+    reach.cone = 20.0;
+    EXPECT_EQ(side(), 1280);  // 1200 texels of the widest spot
+    plan.analysis.lights.directional = 1;
+    EXPECT_EQ(side(), 2560);  // the sun's are more
+    reach.cone = 50.0;
+    EXPECT_EQ(side(), 2816);  // four maps of 2^25 pixels in all
+    reach.cone = 0.0;
+    plan.analysis.lights.directional = 0;
     plan.analysis.lights.directional = 1;
     plan.request.animated = true;
     EXPECT_EQ(side(), usual);

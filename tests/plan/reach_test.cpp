@@ -98,6 +98,20 @@ TEST(Reach, KnowsHowGlossyWhatIsShownIs) {
     EXPECT_EQ(reached(scene).gloss, 0.0);
 }
 
+// The cone of the widest spot that shines, where the picture is.
+TEST(Reach, KnowsWhatSpotsCover) {
+    Scene scene = rooms(1);
+    EXPECT_EQ(reached(scene).cone, 0.0);
+    const glm::dvec3 centre = reached(scene).sphere.centre;
+    scene.lights = {test::spot_light(centre + glm::dvec3(0, 1.2, 0), {0, -1, 0}, 0.5, 3.0f),
+                    test::spot_light(centre + glm::dvec3(0, 0, 2), {0, 0, -1}, 0.4, 3.0f),
+                    test::spot_light(centre + glm::dvec3(0, 0, 2), {0, 0, -1}, 1.0, 0.0f),
+                    test::point_light(centre + glm::dvec3(1, 0, 0), 5.0f)};
+    EXPECT_NEAR(reached(scene).cone, 2.0 * 2.0 * std::tan(0.4), 1e-4);
+    scene.lights[0].outer_angle = 1.5f;  // nearly a half-space
+    EXPECT_NEAR(reached(scene).cone, 2.0 * 1.2 * std::tan(1.3), 1e-4);
+}
+
 // Walls with outer sides are closed from within, wherever the room stands. Where two large walls
 // meet, half of what each sees is the other.
 TEST(Reach, KnowsHowOpenItIs) {

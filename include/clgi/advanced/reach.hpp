@@ -20,6 +20,9 @@ struct Reach {
     double hidden = 0.0;
     // Radius of the sphere over that of the scene.
     double size = 1.0;
+    // Metres that the cone of a spot covers, across, at the distance of the sphere's centre: that of
+    // the widest.
+    double cone = 0.0;
     // Metres that a pixel covers, across, of what is seen at first hand: a quarter covers less.
     double pixel = 0.0;
     // Share of cosine-weighted directions in which nothing is seen, from what is seen at first and
