@@ -10,6 +10,7 @@
 #include <clgi/error.hpp>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <optional>
 
 #include "reference/interval.hpp"
@@ -25,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 using LightOf = std::function<glm::vec3(std::size_t pixel, Random& random, std::vector<Met>* met)>;
 
 constexpr int fewest_pixels = 200;                       // whatever the time
+constexpr std::size_t enough_met = 1 << 20;              // at a time, to learn from
 constexpr std::uint64_t own_seed = 0x7665726966790000u;  // no stream of render() or irradiance()
 
 double seconds_since(Clock::time_point start) {
@@ -137,7 +139,14 @@ private:
         const auto traced = [&](std::uint64_t pass, double end) {
             std::vector<Traced> pixels = few(4);
             met.resize(pixels.size());
+            const auto count = [&] {
+                return std::accumulate(
+                    met.begin(), met.end(), std::size_t{0},
+                    [](std::size_t sum, const auto& one) { return sum + one.size(); });
+            };
+            const std::size_t enough = count() + enough_met;
             take(8, end, [&](int samples) {
+                if (count() >= enough) return;
                 trace(
                     pixels, pass, [&](std::size_t) { return samples; }, &met);
             });
