@@ -130,6 +130,7 @@ SeenLight seen(const Scene& scene, const std::string& effects) {
     options.width = 96;
     options.height = 72;
     options.samples = 32;
+    options.roulette_depth = 16;  // few samples that shall find whether there is light
     options.effects = reference::parse_effects(effects);
     const reference::Picture picture = tracer.render(scene.cameras[0], options);
     SeenLight out;
