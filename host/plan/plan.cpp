@@ -187,6 +187,7 @@ std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, const 
     if (!better) return std::nullopt;
     out.request.seconds = plan.request.seconds;
     out.request.error = plan.request.error;
+    out.meets_error = !out.request.error || (out.error && *out.error <= *out.request.error);
     return out;
 }
 

@@ -10,7 +10,7 @@ namespace {
 double weight(const LightTree::Item& item, const glm::vec3& point) {
     const glm::dvec3 apart(item.centre - point);
     const double radius = std::max(double{item.radius}, 1e-9);
-    return double{item.power} / std::max(glm::dot(apart, apart), radius * radius);
+    return item.power / std::max(glm::dot(apart, apart), radius * radius);
 }
 
 }  // namespace
@@ -38,13 +38,13 @@ void LightTree::divide(const std::vector<Item>& items, std::uint32_t* first, std
     for (const std::uint32_t* at = first; at != last; ++at) {
         low = glm::min(low, items[*at].centre);
         high = glm::max(high, items[*at].centre);
-        power += double{items[*at].power};
+        power += items[*at].power;
     }
     const glm::vec3 centre = 0.5f * (low + high), size = high - low;
     float radius = 0.0f;
     for (const std::uint32_t* at = first; at != last; ++at)
         radius = std::max(radius, glm::distance(centre, items[*at].centre) + items[*at].radius);
-    nodes_[here].all = {centre, radius, static_cast<float>(power)};
+    nodes_[here].all = {centre, radius, power};
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     std::uint32_t* middle = first + (last - first) / 2;
     std::nth_element(first, middle, last, [&](std::uint32_t a, std::uint32_t b) {

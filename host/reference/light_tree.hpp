@@ -17,7 +17,7 @@ public:
     struct Item {
         glm::vec3 centre;  // local
         float radius;      // of a sphere that holds it
-        float power;       // above 0
+        double power;      // above 0
     };
 
     explicit LightTree(const std::vector<Item>& items);

@@ -29,7 +29,7 @@ double power(const Geometry& geometry, std::uint32_t index) {
 std::vector<std::uint32_t> emissive(const Geometry& geometry) {
     std::vector<std::uint32_t> out;
     for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t)
-        if (static_cast<float>(power(geometry, t)) > 0.0f) out.push_back(t);
+        if (power(geometry, t) > 0.0) out.push_back(t);
     return out;
 }
 
@@ -44,7 +44,7 @@ std::vector<LightTree::Item> items(const Geometry& geometry,
         float radius = 0.0f;
         for (const glm::vec3& corner : corners)
             radius = std::max(radius, glm::distance(centre, corner));
-        out.push_back({centre, radius, static_cast<float>(power(geometry, t))});
+        out.push_back({centre, radius, power(geometry, t)});
     }
     return out;
 }

@@ -54,6 +54,7 @@ TEST(PlanChecks, AimBelowWhatWasMeasured) {
         ASSERT_TRUE(second) << measured;
         EXPECT_LE(*second->error, 0.7 * measured + 1e-9);
         EXPECT_EQ(second->request.error, 0.1);
+        EXPECT_TRUE(second->meets_error);
     }
 }
 

@@ -13,7 +13,7 @@ std::vector<LightTree::Item> lamps(int count) {
     for (int k = 0; k < count; ++k) {
         Random random(3, 0, static_cast<std::uint64_t>(k));
         const float x = random(), y = random(), z = random();
-        out.push_back({{4.0f * x, 2.0f * y, z}, 0.01f + 0.1f * random(), 0.1f + 10.0f * random()});
+        out.push_back({{4.0f * x, 2.0f * y, z}, 0.01f + 0.1f * random(), 0.1 + 10.0 * random()});
     }
     return out;
 }
@@ -49,6 +49,24 @@ TEST(LightTree, WeighsPowerAndDistance) {
     EXPECT_NEAR(tree.probability(1, {1, 0, 0}), far / (near + far), 1e-6);
     const double inside = 3.0 / 0.01, outside = 2.0 / 16.0;
     EXPECT_NEAR(tree.probability(1, {0, 0, 0}) / (outside / (inside + outside)), 1.0, 1e-5);
+}
+
+// As bright and as dim as numbers get: what is drawn is told its probability, and none is not a
+// number.
+TEST(LightTree, HoldsAnyPower) {
+    const LightTree tree(
+        {{{0, 0, 0}, 0.0f, 3e40}, {{1, 0, 0}, 0.1f, 1e-40}, {{0, 1, 0}, 0.1f, 2e40}});
+    for (const glm::vec3& point : {glm::vec3(0.0f), glm::vec3(1, 0, 0), glm::vec3(0, 0.5f, 0)}) {
+        double sum = 0.0;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            EXPECT_TRUE(tree.probability(k, point) >= 0.0f) << k;
+            sum += double{tree.probability(k, point)};
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-5);
+        Random random(1, 0, 0);
+        for (int k = 0; k < 100; ++k)
+            EXPECT_GT(tree.probability(tree.sample(point, random), point), 0.0f);
+    }
 }
 
 // The lamp of each of two hundred rooms is found there many times as often as one in two hundred.
