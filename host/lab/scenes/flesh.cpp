@@ -11,12 +11,17 @@
 
 namespace clgi::generated {
 
-double Bone::distance(const glm::dvec3& p) const {
+Slope Bone::slope(const glm::dvec3& p) const {
     const glm::dvec3 axis = to - from;
     const double square = glm::dot(axis, axis);
-    const double share =
-        square > 0.0 ? std::clamp(glm::dot(p - from, axis) / square, 0.0, 1.0) : 0.0;
-    return glm::length(p - from - share * axis) - glm::mix(from_radius, to_radius, share);
+    const double along = square > 0.0 ? glm::dot(p - from, axis) / square : 0.0;
+    const double share = std::clamp(along, 0.0, 1.0);
+    const glm::dvec3 beside = p - from - share * axis;
+    const double length = glm::length(beside);
+    Slope out{length - glm::mix(from_radius, to_radius, share),
+              length > 0.0 ? beside / length : glm::dvec3(0.0)};
+    if (square > 0.0 && along == share) out.gradient -= (to_radius - from_radius) / square * axis;
+    return out;
 }
 
 void Flesh::add_pair(std::uint32_t left, std::uint32_t right, const glm::dvec3& from,
@@ -26,37 +31,35 @@ void Flesh::add_pair(std::uint32_t left, std::uint32_t right, const glm::dvec3& 
     bones.push_back({right, from * mirror, to * mirror, from_radius, to_radius});
 }
 
-double Flesh::distance(const glm::dvec3& p) const {
+Slope Flesh::slope(const glm::dvec3& p) const {
+    std::vector<Slope> each;
+    each.reserve(bones.size());
     double least = INFINITY;
-    for (const Bone& bone : bones) least = std::min(least, bone.distance(p));
-    double sum = 0.0;
     for (const Bone& bone : bones) {
-        const double beyond = (bone.distance(p) - least) / blend;
-        if (beyond < 30.0) sum += std::exp(-beyond);
+        each.push_back(bone.slope(p));
+        least = std::min(least, each.back().distance);
     }
-    return least - blend * std::log(sum);
-}
-
-glm::dvec3 Flesh::gradient(const glm::dvec3& p) const {
-    const double step = 1e-3 * blend;
-    glm::dvec3 out;
-    for (int i = 0; i < 3; ++i) {
-        glm::dvec3 aside(0.0);
-        aside[i] = step;
-        out[i] = (distance(p + aside) - distance(p - aside)) / (2.0 * step);
+    double sum = 0.0;
+    glm::dvec3 gradient(0.0);
+    for (const Slope& one : each) {
+        const double beyond = (one.distance - least) / blend;
+        if (beyond >= 30.0) continue;
+        const double weight = std::exp(-beyond);
+        sum += weight;
+        gradient += weight * one.gradient;
     }
-    return out;
+    return {least - blend * std::log(sum), gradient / sum};
 }
 
 glm::dvec3 Flesh::leave(const glm::dvec3& from, const glm::dvec3& direction, double gap) const {
     double inside = 0.0, outside = 0.0;
-    while (distance(from + outside * direction) < gap) {
+    while (slope(from + outside * direction).distance < gap) {
         inside = outside;
         outside += 0.25 * blend;
     }
     for (int i = 0; i < 40; ++i) {
         const double middle = 0.5 * (inside + outside);
-        (distance(from + middle * direction) < gap ? inside : outside) = middle;
+        (slope(from + middle * direction).distance < gap ? inside : outside) = middle;
     }
     return from + outside * direction;
 }
@@ -84,7 +87,8 @@ FleshMesh march(const Flesh& flesh, double cell) {
     std::vector<double> values;
     for (int z = 0; z < size.z; ++z)
         for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x) values.push_back(flesh.distance(place({x, y, z})));
+            for (int x = 0; x < size.x; ++x)
+                values.push_back(flesh.slope(place({x, y, z})).distance);
 
     FleshMesh mesh;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> crossings;
@@ -147,8 +151,8 @@ FleshMesh mesh_of(const Flesh& flesh, std::size_t vertices) {
     const auto project = [&](const glm::dvec3& p) {
         glm::dvec3 at = p;
         for (int i = 0; i < 2; ++i) {
-            const glm::dvec3 slope = flesh.gradient(at);
-            at -= slope * (flesh.distance(at) / std::max(glm::dot(slope, slope), 0.1));
+            const auto [distance, gradient] = flesh.slope(at);
+            at -= gradient * (distance / std::max(glm::dot(gradient, gradient), 0.1));
         }
         return at;
     };
@@ -180,7 +184,7 @@ std::vector<std::vector<double>> weights_of(const Flesh& flesh, const FleshMesh&
     for (const glm::dvec3& p : mesh.positions) {
         std::vector<double> distances(joints, INFINITY);
         for (const Bone& bone : flesh.bones)
-            distances[bone.joint] = std::min(distances[bone.joint], bone.distance(p));
+            distances[bone.joint] = std::min(distances[bone.joint], bone.slope(p).distance);
         const auto nearest = static_cast<std::size_t>(
             std::min_element(distances.begin(), distances.end()) - distances.begin());
         std::vector<double> shares(joints, 0.0);

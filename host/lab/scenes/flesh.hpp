@@ -10,13 +10,19 @@
 
 namespace clgi::generated {
 
+// A distance to a surface, below 0 inside, and how it grows with the place.
+struct Slope {
+    double distance;
+    glm::dvec3 gradient;
+};
+
 // A cone with round ends that follows a joint.
 struct Bone {
     std::uint32_t joint;
     glm::dvec3 from, to;
     double from_radius, to_radius;
 
-    double distance(const glm::dvec3& p) const;
+    Slope slope(const glm::dvec3& p) const;
 };
 
 struct Flesh {
@@ -27,9 +33,8 @@ struct Flesh {
     void add_pair(std::uint32_t left, std::uint32_t right, const glm::dvec3& from,
                   const glm::dvec3& to, double from_radius, double to_radius);
 
-    // d = -k log(sum of exp(-d_i / k)) over all bones: below 0 inside. [derived: smooth minimum]
-    double distance(const glm::dvec3& p) const;
-    glm::dvec3 gradient(const glm::dvec3& p) const;
+    // d = -k log(sum of exp(-d_i / k)) over all bones. [derived: smooth minimum]
+    Slope slope(const glm::dvec3& p) const;
     // Where a ray from inside first leaves the surface by `gap`.
     glm::dvec3 leave(const glm::dvec3& from, const glm::dvec3& direction, double gap) const;
 };
