@@ -128,7 +128,8 @@ TEST_P(AntiradianceGloss, HasTheAlbedoOfTheLobeInEveryBin) {
                         if (cosine > 0.0) {
                             EXPECT_NEAR(leaves, wanted, within * wanted)
                                 << exponents[k] << ", " << count << " bins";
-                            EXPECT_LE(leaves, 1.7);  // of a mean of 0.38: the roughest, on the horizon
+                            EXPECT_LE(leaves,
+                                      1.7);  // of a mean of 0.38: the roughest, on the horizon
                         } else if (cosine < 0.0) {
                             most = std::max(most, arrives / wanted);
                             least = std::min(least, arrives / wanted);
@@ -271,7 +272,7 @@ TEST_P(AntiradianceGloss, KeepsWhatArrivesInFront) {
 TEST_P(AntiradianceGloss, DoesNotDependOnPackets) {
     const HandElements scene = glossy_elements(5, 64);
     std::vector<glm::vec4> wanted;
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         test::LightOnDevice found(scene, {.math = GetParam(),
                                           .packet_width = width,
                                           .local_size = static_cast<std::size_t>(width)});

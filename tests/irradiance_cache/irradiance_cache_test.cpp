@@ -134,7 +134,7 @@ TEST_P(IrradianceCachePictures, HaveLampsWhoseSamplesTakeTurns) {
     options.picture.direct = false;
     // Emission by hemicubes is no direct light; so the lamp's own light is taken away.
     options.emission = true;
-    options.face = 64;
+    options.face = 48;
     const glm::dvec3 by_hemicubes = mean_radiance(pictured(scene, options).radiance);
     SecondOrderOptions direct;
     direct.width = cache_width;

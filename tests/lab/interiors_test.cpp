@@ -127,8 +127,8 @@ struct SeenLight {
 SeenLight seen(const Scene& scene, const std::string& effects) {
     const reference::PathTracer tracer(scene);
     reference::Options options;
-    options.width = 96;
-    options.height = 72;
+    options.width = 48;
+    options.height = 36;
     options.samples = 32;
     options.roulette_depth = 16;  // few samples that shall find whether there is light
     options.effects = reference::parse_effects(effects);

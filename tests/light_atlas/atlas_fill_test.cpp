@@ -20,7 +20,7 @@ using test::nan;
 
 TEST(Nearest, IsTheReachOfTheNearestVplThatFacesTheSameWay) {
     test::Random random(33);
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         std::vector<SitePlace> places;
         std::vector<float> reach;
         for (int i = 0; i < 40; ++i) {
@@ -96,7 +96,7 @@ TEST(Complete, BringsFormFactorsToTheReachOfSurfaces) {
                        {1.0f, 0.1f, 1.5f},  {0.5f, 2.0f, 0.5f},  {1.0f, 0.7f, 1.0f / 0.7f},
                        {1.0f, 0.0f, 1.0f},  {0.0f, 0.5f, 1.0f},  {0.0f, 0.0f, 1.0f},
                        {1.0f, 1.25f, 0.8f}, {1.0f, 1e-30f, 1.5f}};
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         const std::uint32_t count = 61, stride = 64;
         std::vector<float> reach(stride, nan), filled(stride, nan), light(3 * stride, nan);
         for (std::uint32_t t = 0; t < count; ++t) {
@@ -127,7 +127,7 @@ TEST(Complete, BringsFormFactorsToTheReachOfSurfaces) {
 
 TEST(Complete, CountsPacketsThatAreNotFinite) {
     const float infinity = std::numeric_limits<float>::infinity();
-    for (const int width : {1, 4, 16})
+    for (const int width : test::widths())
         for (const float value : {nan, infinity, -infinity, 3e38f})
             for (std::uint32_t c = 0; c < 3; ++c) {
                 std::vector<float> light(3 * 64, 1.0f);

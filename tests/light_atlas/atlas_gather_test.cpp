@@ -229,7 +229,7 @@ TEST(Gather, WithoutOcclusionIsTheSameForEveryWidthGroupAndPart) {
     Crowd crowd;
     for (SurfacePlace& texel : crowd.texels) texel.geometric = texel.normal;
     const Filled usual = gather(crowd, 23, FILL_FORM_FACTORS, test::atlas_passes(), 0, true);
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         BuildOptions build;
         build.packet_width = width;
         build.local_size = width == 4 ? 1 : 0;
@@ -298,7 +298,7 @@ TEST(Gather, IsTheSameForEveryWidthGroupAndPart) {
     for (const std::uint32_t flags :
          {std::uint32_t{FILL_FORM_FACTORS}, std::uint32_t{FILL_FORM_FACTORS | FILL_KEPT}}) {
         const Filled usual = gather(crowd, 23, flags);
-        for (const int width : {1, 4, 8, 16}) {
+        for (const int width : test::widths()) {
             BuildOptions build;
             build.packet_width = width;
             build.local_size = width == 4 ? 1 : 0;

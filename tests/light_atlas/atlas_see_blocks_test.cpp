@@ -234,7 +234,7 @@ TEST(SeeBlocks, AreTheSameForEveryWidthAndGroup) {
     const World in = furnished();
     for (const int step : {2, 4}) {
         const AtlasBlocks blocks = some_flat(in, step);
-        for (const int width : {1, 4, 8, 16}) {
+        for (const int width : test::widths()) {
             BuildOptions build;
             build.packet_width = width;
             build.local_size = width == 4 ? 1 : 0;

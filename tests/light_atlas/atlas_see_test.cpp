@@ -149,7 +149,7 @@ TEST(See, IsTheSameForEveryWidthGroupAndPart) {
     const std::uint32_t stride = test::padded(texels);
     const SeenBatch batch{3, 13, 1}, late{3, 13, 1, 96};
     const auto usual = see(in, batch, test::atlas_passes());
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         BuildOptions build;
         build.packet_width = width;
         build.local_size = width == 4 ? 1 : 0;

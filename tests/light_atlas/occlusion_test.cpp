@@ -84,7 +84,7 @@ TEST(Occlusion, ChangesNoWord) {
     const DeviceScene scene = test::on_device(walls_and_heap());
     ASSERT_GT(scene.info().cluster_count, 150u);
     const std::vector<View> views = views_of(scene);
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         BuildOptions build;
         build.packet_width = width;
         build.textures = false;

@@ -240,7 +240,7 @@ TEST(Transport, IsTheSameForEveryWidthGroupAndBatch) {
     options = {};
     options.lift = 2e-5f;
     const auto cubes = test::hemicubes(sites, &cabin.scene, options);
-    for (const auto& [width, group] : {std::pair(1, 16u), {4, 1u}, {8, 16u}, {16, 1u}}) {
+    for (const auto& [width, group] : {std::pair(1, 16u), {4, 1u}, {0, 16u}}) {
         BuildOptions build;
         build.packet_width = width;
         build.local_size = group;
@@ -255,7 +255,7 @@ TEST(Transport, IsTheSameForEveryWidthGroupAndBatch) {
         build.packet_width = 1;
         const auto one = test::transport_rows(sites, cubes, true, 1.0f,
                                               VplPasses(test::programs(), build), most);
-        for (const int width : {4, 8, 16}) {
+        for (const int width : {4, 0}) {
             build.packet_width = width;
             EXPECT_EQ(test::transport_rows(sites, cubes, true, 1.0f,
                                            VplPasses(test::programs(), build), most),

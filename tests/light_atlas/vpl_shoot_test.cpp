@@ -128,10 +128,10 @@ TEST(Shoot, AddsWhatEveryShooterSendsInEveryChannel) {
 TEST(Shoot, IsTheSameForEveryWidthAndGroup) {
     const ShootInput e;
     const Shot usual = shoot(e, 16, true);
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         BuildOptions build;
         build.packet_width = width;
-        build.local_size = width == 8 ? 1 : 0;
+        build.local_size = width == 4 ? 1 : 0;
         const Shot other = shoot(e, 16, true, VplPasses(test::programs(), build));
         for (std::uint32_t j = 0; j < e.n; ++j) {
             for (int plane = 0; plane < SITE_LIGHT_PLANES; ++plane)
@@ -145,7 +145,7 @@ TEST(Shoot, IsTheSameForEveryWidthAndGroup) {
 // Of shooter, transport and receiver; in each channel; in the last packet too.
 TEST(Shoot, CountsNumbersThatAreNotFinite) {
     const float infinity = std::numeric_limits<float>::infinity();
-    for (const int width : {1, 4, 16}) {
+    for (const int width : test::widths()) {
         const VplPasses passes(test::programs(), {.packet_width = width});
         const auto packets = static_cast<cl_uint>((61 + width - 1) / width);
         for (int c = 0; c < 3; ++c)
@@ -238,7 +238,7 @@ struct Clamped {
 };
 
 TEST(Balance, OfReceiversBringsTheirSumToTheirReach) {
-    for (const int width : {1, 4, 16}) {
+    for (const int width : test::widths()) {
         ShootInput e = uneven();
         VplPasses(test::programs(), {.packet_width = width})
             .balance_receivers(test::device().queue, e.params(0, e.n, true), e.buffers,
@@ -261,7 +261,7 @@ TEST(Balance, OfReceiversBringsTheirSumToTheirReach) {
 }
 
 TEST(Balance, OfShootersBringsTheirSumToTheirReach) {
-    for (const int width : {1, 4, 16})
+    for (const int width : test::widths())
         for (const bool kept : {true, false}) {
             ShootInput e = uneven();
             const VplPasses passes(test::programs(), {.packet_width = width});

@@ -167,8 +167,8 @@ TEST_F(VerifyProgram, JudgesAPictureOfAnyOrigin) {
 TEST_F(VerifyProgram, GoesOnUntilTheErrorIsReached) {
     const std::string scene = make("cornell --light spot");
     const auto target = [&](const std::string& error) {
-        const Outcome outcome = run("render " + scene + " --size 48x36 --full --target-error " +
-                                    error + " --verify 0.4s -o " + file("a.exr").string() +
+        const Outcome outcome = run("render " + scene + " --size 32x24 --full --target-error " +
+                                    error + " --verify 0.2s -o " + file("a.exr").string() +
                                     " --stats " + file("s.json").string());
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         json out = json::parse(read("s.json"));
@@ -204,7 +204,7 @@ TEST_F(VerifyProgram, JudgesPicturesOfSeveralSamplesByWholePixels) {
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         return json::parse(read("s.json")).at("samples");
     };
-    const json still = stats("--verify 0.2s");
+    const json still = stats("--time-budget 0.2s --verify 0.2s");
     EXPECT_GE(still.at("count"), 4);
     EXPECT_LE(still.at("count"), 1024);
     EXPECT_GT(still.at("refine_ms"), 0.0);
@@ -222,7 +222,8 @@ TEST_F(VerifyProgram, JudgesPicturesOfSeveralSamplesByWholePixels) {
     EXPECT_LT(error(""), 0.5 * by_centers);
     EXPECT_LT(many.at("measured_error").at("value").get<double>(), 0.5 * by_centers);
 
-    for (const char* flags : {"--frames 2", "--orbit --frames 2", "--method direct"}) {
+    for (const char* flags : {"--time-budget 0.1s --frames 2",
+                              "--time-budget 0.1s --orbit --frames 2", "--method direct"}) {
         EXPECT_EQ(stats(flags).at("count"), 1) << flags;
         EXPECT_EQ(clgi::io::load_image(exr).attributes.at("clgi:filter"), "center") << flags;
     }

@@ -55,6 +55,9 @@ RendererOptions quick(Method method) {
     out.antiradiance.bins = 32;
     out.antiradiance.elements.requested = 200;
     out.transfer.masks.size = 16;
+    out.cache.seen = out.cache.met = 60;
+    out.cache.refined = 20;
+    out.cache.face = 16;
     return out;
 }
 

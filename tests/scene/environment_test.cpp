@@ -92,7 +92,7 @@ TEST(Background, IsTheSameAtEveryPacketWidth) {
     const Scene scene = floor_and_box(numbered_sky());
     const Camera camera = test::camera_at({1, 1.5, 4}, {0, 0.3, 0}, 1.6f);
     std::vector<glm::vec3> first;
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         SecondOrderOptions options = options_for(21, 15);
         options.indirect = false;
         options.build.packet_width = width;

@@ -123,7 +123,7 @@ TEST(SurfaceSamples, OfNoTriangleAreNothing) {
         const std::uint32_t none[] = {count, ~0u, 0x80000000u};
         samples.push_back({i % 3 == 1 || i >= 16 ? none[i % 3] : i, 0.2f, 0.3f, 1e-4f});
     }
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         const Found found = surfaces(placed, samples, {.packet_width = width});
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const bool there = samples[i].triangle < count;

@@ -148,7 +148,7 @@ TEST(Points, ThatDoNotExistAreZerosAtEveryWidth) {
             EXPECT_EQ(usual.planes[plane * usual.stride + gone], 0.0f) << plane;
         EXPECT_EQ(usual.ids[GBUFFER_MATERIAL * usual.stride + gone], -1);
     }
-    for (const int width : {1, 4, 16}) {
+    for (const int width : test::widths()) {
         const GBufferPasses passes(test::programs(), {.packet_width = width});
         const Points other = points_of(scene, samples, passes);
         for (int plane = 0; plane < GBUFFER_PLANES; ++plane)

@@ -98,9 +98,8 @@ TEST(HalfStorage, IsTheSameForEveryWorkGroupAndPacket) {
     const Scene scene = cornell();
     const test::Frame usual = test::render(scene, scene.cameras[0], small_frame(halves));
     ASSERT_GT(usual.status.refined_pixels, 0u);
-    for (BuildOptions build : {BuildOptions{.packet_width = 1},
-                               {.packet_width = 4, .local_size = 7},
-                               {.local_size = 1}}) {
+    for (BuildOptions build :
+         {BuildOptions{.packet_width = 1, .local_size = 7}, {.packet_width = 4, .local_size = 1}}) {
         build.storage = Storage::half;
         const test::Frame frame = test::render(scene, scene.cameras[0], small_frame(build));
         EXPECT_TRUE(test::same_bits(frame.radiance, usual.radiance)) << build.packet_width;

@@ -254,7 +254,7 @@ TEST(Import, TakesWhatIsNotFiniteForBackgroundAndCountsIt) {
 TEST(Import, GivesTheSameBitsFromImagesAndBuffersAtEveryWidth) {
     const Picture picture = wall(33, 9);
     const Imported first = import(picture, everything, false, {.packet_width = 1});
-    for (const int width : {1, 4, 8, 16})
+    for (const int width : test::widths())
         for (const bool from_images : {false, true}) {
             const Imported other =
                 import(picture, everything, from_images, {.packet_width = width});

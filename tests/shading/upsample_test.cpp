@@ -180,7 +180,7 @@ TEST(Upsample, MarksWhatReachesTheThresholdExactly) {
 }
 
 TEST(Upsample, IsTheSameForEveryPacketWidth) {
-    for (const int lanes : {1, 4, 8, 16}) {
+    for (const int lanes : test::widths()) {
         const ImagePasses passes(test::programs(), {.packet_width = lanes});
         for (const auto& [width, height] : sizes)
             for (const std::uint32_t step : {2u, 4u}) {

@@ -34,6 +34,9 @@ inline const Programs& programs() {
     return shared;
 }
 
+// Lanes of packets: none, those of small vectors, and as many as the device prefers.
+inline std::vector<int> widths() { return {1, 4, packet_width(device().device)}; }
+
 inline DeviceScene on_device(const Scene& scene) {
     return DeviceScene(device().context, device().device, scene);
 }

@@ -199,7 +199,7 @@ private:
 template <typename Visit>
 void draw_at_every_width(const DeviceScene& placed, const View& view, const Visit& visit) {
     std::optional<Drawing> first;
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         const Drawing other =
             draw(placed, view,
                  GBufferPasses(device().context, device().device, {.packet_width = width}));

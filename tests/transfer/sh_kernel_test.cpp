@@ -65,7 +65,7 @@ double farthest_from_host(const std::vector<float>& planes, const std::vector<fl
 TEST(ShKernels, HaveTheBasisOfTheHostAtEveryWidth) {
     const std::vector<float> planes = directions();
     std::vector<float> first;
-    for (const int width : {1, 4, 8, 16}) {
+    for (const int width : test::widths()) {
         const auto found = on_device(planes, "", width, 25);
         EXPECT_LT(farthest_from_host(planes, found, 5), 6e-7) << width;
         if (first.empty()) first = found;

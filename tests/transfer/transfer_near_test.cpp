@@ -66,7 +66,7 @@ TEST_P(TransferNear, ListsGiveTheMasksOfClustersOfTheSameTriangles) {
         Blockers near = heap.blockers;
         clear_far(near);
         set_near(near, lists);
-        for (const int width : {1, 4, 8, 16}) {
+        for (const int width : test::widths()) {
             const BuildOptions how{.math = GetParam(), .packet_width = width};
             const Drawn drawn = test::draw_masks(near, heap.eyes, masks, how);
             for (std::size_t i = 0; i < lists.size(); ++i)

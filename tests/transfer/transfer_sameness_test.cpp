@@ -30,18 +30,15 @@ TEST(TransferSameness, OfEveryWidthAndGroup) {
             masks.planes = planes;
             masks.table_size = 32;
             masks.block = size == 64 ? 2 : 4;
-            const Drawn first =
-                test::draw_masks(heap.blockers, heap.eyes, masks, {.packet_width = 16});
-            const auto vectors =
-                test::transfer_vectors(first, CellIntegral::exact, {.packet_width = 16});
+            const Drawn first = test::draw_masks(heap.blockers, heap.eyes, masks, {});
+            const auto vectors = test::transfer_vectors(first, CellIntegral::exact, {});
             int blocked = 0;
             for (std::uint32_t i = 0; i < 37; ++i) blocked += first.count(i);
             EXPECT_GT(blocked, 37);
-            for (const int width : {1, 4, 8, 16})
+            for (const int width : test::widths())
                 for (const std::size_t group : {1u, 7u, 64u}) {
-                    // Masks of 32 pixels in all, others one and eight wide.
-                    const bool some = group == 7u && (width == 1 || width == 8);
-                    if (!some && (size != 32 || (group != 7u && width != 8))) continue;
+                    // Masks of 32 pixels at every width, and by one lane in groups of any size.
+                    if (group == 7u ? size != 32 && width != 1 : size != 32 || width != 1) continue;
                     const BuildOptions how{.packet_width = width, .local_size = group};
                     const Drawn other = test::draw_masks(heap.blockers, heap.eyes, masks, how);
                     expect_same_masks(first, other, std::to_string(width) + " lanes");

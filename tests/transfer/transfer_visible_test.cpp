@@ -142,7 +142,7 @@ TEST_P(TransferVisible, TrianglesDrawTheMasksOfAll) {
         MaskOptions masks;
         masks.size = size;
         std::vector<cl_uint> first;
-        for (const int width : {16, 8, 4, 1}) {
+        for (const int width : test::widths()) {
             if (size != 32 && width != 16) continue;
             const BuildOptions how{.math = GetParam(), .packet_width = width};
             const Drawn whole = test::draw_masks(heap.blockers, heap.eyes, masks, how);
@@ -161,7 +161,7 @@ TEST_P(TransferVisible, TrianglesDrawTheMasksOfAll) {
 // Singles are looked at like clusters: half of the triangles as these and half as those.
 TEST_P(TransferVisible, TrianglesMayBeSingles) {
     MaskHeap heap;
-    for (const int width : {1, 4, 16}) {
+    for (const int width : test::widths()) {
         const BuildOptions how{.math = GetParam(), .packet_width = width};
         heap.blockers.ranges.clear();
         heap.blockers.near_lists.clear();
