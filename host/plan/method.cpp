@@ -48,6 +48,12 @@ void drop_checked(std::vector<Candidate>& candidates) {
                      candidates.end());
 }
 
+// Fewer records than were measured in scenes of the kind.
+bool is_too_sparse(const Plan& plan, const Preset& preset) {
+    return plan.method == Method::irradiance_cache &&
+           !(preset.error[static_cast<std::size_t>(kind_of(plan))] > 0.0);
+}
+
 // Removes those that the device has no room for, unless it has none for any.
 void drop_too_large(const cl::Device& device, std::vector<Candidate>& candidates) {
     const auto large = [&](const Candidate& one) { return !fits(device, one.plan); };
@@ -104,6 +110,7 @@ bool choose_method(const cl::Device& device, Plan& plan) {
         for (const int fineness : {1, 2, 4, 8, 16}) {
             Candidate one{plan, std::nullopt};
             set(one.plan, preset, fineness);
+            if (is_too_sparse(one.plan, preset)) continue;
             one.plan.cost = paced_cost(device, one.plan);
             one.error = expected_error(one.plan, preset);
             if (one.error) *one.error *= error_factor(one.plan);

@@ -89,6 +89,7 @@ const std::vector<Preset>& presets() {
         {Method::light_atlas, 512, 1600, {0.00548, 0.0362, 0.161, 0.3, 0.0369}},
         {Method::light_atlas, 512, 6400, {0.00379, 0.0153, 0.134, 0.253, 0.0242}},
         {Method::dynamic_transfer, 0, 0, {0, 0, 0.05, 0.05, 0}},
+        {Method::irradiance_cache, 16, 50, {0, 0, 0, 0, 0, 0, 0.38}},
         {Method::irradiance_cache, 16, 100, {0.03, 0.125, 0.155, 0.24, 0.3, 0.1, 0.33}},
         {Method::irradiance_cache, 16, 200, {0.03, 0.08, 0.09, 0.16, 0.16, 0.07, 0.26}},
         {Method::irradiance_cache, 24, 200, {0.03, 0.075, 0.09, 0.145, 0.16, 0.065, 0.26}},

@@ -153,7 +153,6 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
         EXPECT_EQ(method([&](SceneAnalysis&, PlanRequest& w) { w.method = requested; }), requested);
 }
 
-// Whether by proof or by request, a light atlas draws no hemicubes then, and costs less.
 // What lobes reflect of indirect light is lost by some methods.
 TEST(Plan, CountsGlossThatAMethodLoses) {
     const SceneAnalysis room = scene_analysis(test::furnished_room(3));
@@ -175,6 +174,7 @@ TEST(Plan, CountsGlossThatAMethodLoses) {
     EXPECT_EQ(error(Method::irradiance_cache, 0.0), error(Method::irradiance_cache, 0.4));
 }
 
+// Whether by proof or by request, a light atlas draws no hemicubes then, and costs less.
 TEST(Plan, SwitchesTheOcclusionOfLightAtlasesOff) {
     const cl::Device& device = test::device().device;
     SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
