@@ -2,7 +2,7 @@
 """Whether pictures are as right as clgi says: scenes rendered and judged.
 
     samples/promises.py build/clgi out/ [--kinds room,window] [--seeds 1-10] [--truth 4s] [-- FLAG ...]
-    samples/promises.py build/clgi out/ --peer --plot plot.svg -- --time-budget 1s
+    samples/promises.py build/clgi out/ --peer --plot plot.svg --budgets 1s,10s
     samples/promises.py build/clgi out/ --kinds SCENE.glb --environment sky.hdr
 
 Each scene of each kind (clgi scene, drawn from a seed; or a file) is rendered by its plan with the
@@ -21,9 +21,9 @@ import time
 
 from commands import run
 
-KINDS = ["room", "window", "slit", "courtyard", "pit", "terrain", "many-rooms", "dim-room", "dim-plain",
-         "hidden-wall", "gloss"]
-SKY = {"window", "courtyard", "pit", "dim-plain"}  # those that nothing else lights
+KINDS = ["room", "window", "sunlit", "slit", "courtyard", "pit", "terrain", "many-rooms", "dim-room",
+         "dim-plain", "hidden-wall", "gloss"]
+SKY = {"window", "sunlit", "courtyard", "pit", "dim-plain"}  # those that a sky lights
 
 
 def percent(value):
@@ -33,6 +33,11 @@ def percent(value):
 def interval(found):
     """ "4.2 (3.5 to 4.9)" of a value with its ends; an end that is not limited is empty. """
     return f"{percent(found['value'])} ({percent(found['low'])} to {percent(found['high'])})"
+
+
+def used(stats):
+    """Seconds of the picture: of a time budget all that was used, else a sample of it."""
+    return stats["time_budget"]["used"] if "time_budget" in stats else stats["frame_ms"]["median"] / 1e3
 
 
 def timed(*command):
@@ -61,12 +66,12 @@ class Case:
             around = ["--extent", extent] if extent else []
             run(options.clgi, "scene", kind, "--seed", seed, "-o", self.scene, "--quiet", *around)
 
-    def render(self):
+    def render(self, flags):
         """The statistics of the render and the seconds of the whole command."""
         seconds = timed(self.options.clgi, "render", self.scene, "--quiet", "--full",
                         "--size", self.options.size, "-o", self.name + ".exr",
                         "--png", self.name + ".png", "--stats", self.name + ".json",
-                        *self.sky, *self.options.flags)
+                        *self.sky, *flags, *self.options.flags)
         with open(self.name + ".json") as file:
             return json.load(file), seconds
 
@@ -89,18 +94,25 @@ def seeds_of(text):
 
 
 def plot(path, rows):
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-    figure, axes = pyplot.subplots(figsize=(7, 4.5))
-    for k, name in enumerate(("clgi", "path tracer")):
-        axes.errorbar([row[0] for row in rows], [100 * row[1 + k]["value"] for row in rows], fmt="os"[k],
-                      label=name)
-    axes.set(xscale="log", yscale="log", xlabel="seconds of the whole command",
-             ylabel="error, % (relative root mean square)")
-    axes.grid(True, which="both", alpha=0.3)
-    axes.legend()
-    figure.savefig(path, bbox_inches="tight", metadata={"Date": None})
+    """Errors against seconds of the whole command, the budgets of a scene joined. rows: name of the
+    scene, seconds, errors of clgi and of the path tracer (0 to 1)."""
+    sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "host", "lab", "plots"))
+    from style import BASELINE, SERIES, canvas, save_svg
+    figure = canvas(800, 500)
+    axes = figure.add_axes((0.09, 0.11, 0.88, 0.85))
+    least = 1e-3  # of the axis; an error of 0 is one that the judge's noise hides
+    for column, label in ((2, "clgi"), (3, "the path tracer, on the same cores")):
+        color, marker = SERIES[0] if column == 2 else BASELINE
+        for name in dict.fromkeys(row[0] for row in rows):
+            of = sorted(row for row in rows if row[0] == name)
+            axes.plot([row[1] for row in of], [100 * max(row[column], least) for row in of], "-",
+                      color=color, marker=marker, label=label, linewidth=0.8)
+            label = None
+    axes.set(xscale="log", yscale="log", xlabel="time of the whole command, s", ylabel="error, %")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+    axes.legend(loc="upper right")
+    save_svg(figure, path)
 
 
 def main():
@@ -113,23 +125,25 @@ def main():
     parser.add_argument("--size", default="160x120")
     parser.add_argument("--environment", default="1,1.2,1.5", help="of kinds and files that need one")
     parser.add_argument("--truth", default="4s", help="how long the judge traces paths")
+    parser.add_argument("--budgets", default="", help="times with commas, each as --time-budget")
     parser.add_argument("--peer", action="store_true", help="the path tracer beside it")
-    parser.add_argument("--plot", help="with --peer: errors by time, .svg")
+    parser.add_argument("--plot", help="with --peer: errors by time, .svg; needs matplotlib")
     given = sys.argv[1:]
     end = given.index("--") if "--" in given else len(given)
     options = parser.parse_args(given[:end])
-    options.flags = given[end + 1:] or ["--target-error", "5%"]
+    options.flags = given[end + 1:] or ([] if options.budgets else ["--target-error", "5%"])
     os.makedirs(options.out, exist_ok=True)
     peer = " path tracer, % |" if options.peer else ""
-    print("| scene | method | said, % | judged, % | energy | picture, s | command, s |" + peer)
+    print("| scene | method | said, % | judged, % | energy | used, s | command, s |" + peer)
     print("| --- | --- | --- | --- | --- | --- | --- |" + (" --- |" if options.peer else ""))
     above = checked = 0
     rows = []
-    cases = [(kind, seed, extent) for kind in options.kinds.split(",")
+    cases = [(kind, seed, extent, budget) for kind in options.kinds.split(",")
              for seed in ([0] if "." in kind else seeds_of(options.seeds))
-             for extent in options.extents.split(",")]
-    for case in (Case(options, *each) for each in cases):
-        stats, seconds = case.render()
+             for extent in options.extents.split(",") for budget in options.budgets.split(",")]
+    for kind, seed, extent, budget in cases:
+        case = Case(options, kind, seed, extent)
+        stats, seconds = case.render(["--time-budget", budget] if budget else [])
         judged = case.judge(case.name + ".exr")
         said = stats.get("measured_error")
         if said and said["high"] is not None:
@@ -137,11 +151,11 @@ def main():
             above += judged["value"] > said["high"]
         row = (f"| {case.label} | {stats['method']} | {interval(said) if said else ''} "
                f"| {interval(judged)} | {judged['energy']['value']:.3f} "
-               f"| {stats['frame_ms']['median'] / 1e3:.2f} | {seconds:.1f} |")
+               f"| {used(stats):.2f} | {seconds:.1f} |")
         if options.peer:
             case.trace(seconds)
             traced = case.judge(case.name + "-peer.exr", "--filter", "box")
-            rows.append((seconds, judged, traced))
+            rows.append((case.label, seconds, judged["value"], traced["value"]))
             row += f" {interval(traced)} |"
         print(row, flush=True)
     print(f"\nAbove the end that was said: {above} of {checked}.")
