@@ -133,6 +133,8 @@ def main():
     options = parser.parse_args(given[:end])
     options.flags = given[end + 1:] or ([] if options.budgets else ["--target-error", "5%"])
     os.makedirs(options.out, exist_ok=True)
+    if options.plot:
+        import matplotlib  # noqa: F401: what is missing is told before all pictures, not after
     peer = " path tracer, % |" if options.peer else ""
     print("| scene | method | said, % | judged, % | energy | used, s | command, s |" + peer)
     print("| --- | --- | --- | --- | --- | --- | --- |" + (" --- |" if options.peer else ""))
