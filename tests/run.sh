@@ -21,6 +21,7 @@ case ${1:-} in
 esac
 [[ $part == default ]] && left_out+=(--label-exclude '^slow$')
 [[ $part == slow ]] && left_out+=(--label-regex '^slow$')
+[[ $part == default ]] || export CLGI_ALL_WIDTHS=1  # packets of all widths, not only the device's
 
 build=$clgi_root/build
 clgi_packages+=("${clgi_plot_packages[@]}")

@@ -128,8 +128,8 @@ TEST_P(AntiradianceGloss, HasTheAlbedoOfTheLobeInEveryBin) {
                         if (cosine > 0.0) {
                             EXPECT_NEAR(leaves, wanted, within * wanted)
                                 << exponents[k] << ", " << count << " bins";
-                            EXPECT_LE(leaves,
-                                      1.7);  // of a mean of 0.38: the roughest, on the horizon
+                            // Of a mean of 0.38: the roughest, on the horizon.
+                            EXPECT_LE(leaves, 1.7);
                         } else if (cosine < 0.0) {
                             most = std::max(most, arrives / wanted);
                             least = std::min(least, arrives / wanted);

@@ -255,7 +255,7 @@ TEST(Transport, IsTheSameForEveryWidthGroupAndBatch) {
         build.packet_width = 1;
         const auto one = test::transport_rows(sites, cubes, true, 1.0f,
                                               VplPasses(test::programs(), build), most);
-        for (const int width : {4, 0}) {
+        for (const int width : test::widths()) {
             build.packet_width = width;
             EXPECT_EQ(test::transport_rows(sites, cubes, true, 1.0f,
                                            VplPasses(test::programs(), build), most),

@@ -57,7 +57,7 @@ TEST(OpenTransport, IsTheSameForEveryWidthGroupAndBatch) {
                                    VplPasses(test::programs(), build), most);
         };
         const auto usual = rows_of(1, 0, 0, n, true);
-        for (const int width : {4, 0})
+        for (const int width : test::widths())
             for (const std::size_t group : {1u, 16u})
                 EXPECT_EQ(rows_of(width, group, 0, n, true), usual) << width;
         for (const std::uint32_t batch : {1u, 7u, 8u, 16u})

@@ -261,8 +261,6 @@ TEST(Plan, HasShadowMapsAsFineAsThePicture) {
     reach.cone = 50.0;
     EXPECT_EQ(side(), 2816);  // four maps of 2^25 pixels in all
     reach.cone = 0.0;
-    plan.analysis.lights.directional = 0;
-    plan.analysis.lights.directional = 1;
     plan.request.animated = true;
     EXPECT_EQ(side(), usual);
     plan.request = {};

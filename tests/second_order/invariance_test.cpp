@@ -198,7 +198,8 @@ TEST(Picture, IsTheSameForEveryWorkGroupAndPacket) {
     const Frame& usual = usual_frame(Light::Kind::spot);
     for (const BuildOptions& build :
          {BuildOptions{.packet_width = 1, .local_size = 7, .atomics64 = false},
-          {.packet_width = 4, .local_size = 1}}) {
+          {.packet_width = 4, .local_size = 1},
+          {.local_size = 256}}) {
         SecondOrderOptions options = small_frame();
         options.build = build;
         const Frame other = render(scene, options);

@@ -151,8 +151,9 @@ TEST(Gather, IsTheSameForEveryWorkGroupAndPacket) {
         receivers.push_back({0.5f * lobe_direction(random), lobe_direction(random)});
     }
     const auto usual = test::gather(receivers, lights, lights);
-    for (const BuildOptions& build :
-         {BuildOptions{.packet_width = 1, .local_size = 7}, {.packet_width = 4, .local_size = 1}}) {
+    for (const BuildOptions& build : {BuildOptions{.packet_width = 1, .local_size = 7},
+                                      {.packet_width = 4, .local_size = 1},
+                                      {.local_size = 256}}) {
         const ImagePasses passes(test::programs(), build);
         EXPECT_TRUE(test::same_bits(test::gather(receivers, lights, lights, passes), usual));
     }

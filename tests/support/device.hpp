@@ -3,6 +3,7 @@
 #pragma once
 
 #include <clgi/clgi.hpp>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -34,8 +35,17 @@ inline const Programs& programs() {
     return shared;
 }
 
-// Lanes of packets: none, those of small vectors, and as many as the device prefers.
-inline std::vector<int> widths() { return {1, 4, packet_width(device().device)}; }
+// Lanes of packets: none, those of small vectors, and as many as the device prefers, last. With
+// CLGI_ALL_WIDTHS, which tests/run.sh --all sets, those that it does not prefer as well.
+inline std::vector<int> widths() {
+    const int preferred = packet_width(device().device);
+    std::vector<int> out{1, 4};
+    if (std::getenv("CLGI_ALL_WIDTHS"))
+        for (const int other : {8, 16})
+            if (other != preferred) out.push_back(other);
+    out.push_back(preferred);
+    return out;
+}
 
 inline DeviceScene on_device(const Scene& scene) {
     return DeviceScene(device().context, device().device, scene);
