@@ -7,6 +7,8 @@
 //   share = 1 - V (1 + 4 / n) / B, 0 for one sample and where it were less      d: luminance
 //                                          [derived: the linear estimate of least mean square error]
 //
+// What lies outside the directions' shadow maps has no correction.
+//
 // Work size    1D, one work-item a block of CACHE_BLOCK x CACHE_BLOCK pixels; any local size; tail
 //              guarded
 // Writes       sums of its own pixels, its own share
@@ -14,9 +16,11 @@
 #include "clgi/shared/cache.h"
 #include "finite.clh"
 #include "luminance.clh"
+#include "planes.clh"
 
 kernel void cache_gauge(
     const CacheCorrectParams  params,
+    global const float*       restrict planes,  // [>= POINT_PLANES][stride]
     global const float*       restrict found,   // [3][stride] d of this sample, exposed lux
     global float*             restrict sums,    // [4][stride] of d, and of its luminance squared
     global float*             restrict shares)  // [blocks down][blocks across]
@@ -32,6 +36,8 @@ kernel void cache_gauge(
             uint at = y * params.width + x;
             float3 d = (float3)(found[at], found[stride + at], found[2 * stride + at]);
             if (!is_finite3(d)) d = (float3)(0.0f);  // counted where it came from (lights/direct.cl)
+            float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, at);
+            if (any(point < params.low.xyz || point > params.high.xyz)) d = (float3)(0.0f);
             float3 sum = d + (float3)(sums[at], sums[stride + at], sums[2 * stride + at]);
             float one = luminance(d.x, d.y, d.z), all = luminance(sum.x, sum.y, sum.z);
             float square = fma(one, one, sums[3 * stride + at]);

@@ -8,6 +8,7 @@
 #include "device.hpp"
 #include "math_modes.hpp"
 #include "methods/irradiance_cache/records.hpp"
+#include "patchwork.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -62,8 +63,8 @@ TEST(CacheTree, ListsARecordWhereItStands) {
     const std::vector<CacheRecord> records = in_a_box(1000);
     const RecordTree tree = make_tree(records);
     for (std::uint32_t i = 0; i < records.size(); ++i) {
-        const auto listed = listed_at(tree, records[i].position, records[i].normal);
-        EXPECT_TRUE(std::find(listed.begin(), listed.end(), i) != listed.end()) << i;
+        const auto near = listed_at(tree, records[i].position, records[i].normal);
+        EXPECT_TRUE(std::find(near.begin(), near.end(), i) != near.end()) << i;
     }
 }
 
@@ -84,17 +85,33 @@ TEST(CacheTree, ListsTheNearestRecord) {
                 nearest = i;
             }
         }
-        const auto listed = listed_at(tree, places[k].position, places[k].normal);
-        found += std::find(listed.begin(), listed.end(), nearest) != listed.end();
+        const auto near = listed_at(tree, places[k].position, places[k].normal);
+        found += std::find(near.begin(), near.end(), nearest) != near.end();
     }
     EXPECT_GE(found, 490);  // of 500; the list is that of the leaf's centre
+}
+
+// The library's walk and the one above, at corners of leaves and for normals of any length and way.
+TEST(CacheTree, IsWalkedAsKernelsDo) {
+    const std::vector<CacheRecord> records = in_a_box(400);
+    const RecordTree tree = make_tree(records);
+    test::Random random(8);
+    for (int i = 0; i < 2000; ++i) {
+        CacheRecord place = records[static_cast<std::size_t>(random.integer(0, 399))];
+        if (i % 3 == 0) place.position = tree.centre;
+        if (i % 3 == 1) place.position = test::random_vec3(random, -1.0, 41.0);
+        place.normal = test::random_vec3(random, -2.0, 2.0);
+        if (i % 4 == 0) place.normal = {1.0f, -1.0f, i % 8 == 0 ? 1.0f : -1.0f};
+        const auto wanted = listed_at(tree, place.position, place.normal);
+        EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), listed(tree, place))) << i;
+    }
 }
 
 TEST(CacheTree, TakesRecordsInOnePlace) {
     const std::vector<CacheRecord> records(40, {{1, 2, 3}, {0, 1, 0}, {0, 1, 0}});
     const RecordTree tree = make_tree(records);
-    const auto listed = listed_at(tree, {1, 2, 3}, {0, 1, 0});
-    EXPECT_NE(listed[CACHE_LISTED - 1], CACHE_NONE);
+    const auto near = listed_at(tree, {1, 2, 3}, {0, 1, 0});
+    EXPECT_NE(near[CACHE_LISTED - 1], CACHE_NONE);
     EXPECT_EQ(listed_at(tree, {1, 2, 3}, {0, -1, 0})[0], CACHE_NONE);
 }
 

@@ -73,6 +73,49 @@ TEST(SkyLights, FindShadowsBetweenRecords) {
     EXPECT_LT(found(16, false).error, 0.25 * without.error);
 }
 
+// Maps cover what the picture shows, however large the scene is.
+TEST(SkyLights, FindShadowsInALargeSceneToo) {
+    Scene scene = posts();
+    test::add_box(scene, {-20, -5, 900}, {20, -1, 910}, 1);  // behind the eye
+    reference::Options truth;
+    truth.width = cache_width;
+    truth.height = cache_height;
+    truth.samples = 256;
+    const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
+    const DeviceScene device = test::on_device(scene);
+    IrradianceCacheOptions options = cache_options(12, 100);
+    options.refined = 0;
+    options.sky_lights = 16;
+    options.picture.emitters.shadow_size = 128;
+    IrradianceCache cache(test::programs(), test::device().queue, device, options);
+    const test::Apart found = test::apart(sampled(cache, scene.cameras[0], 40), twice);
+    EXPECT_LT(found.error, 0.05);
+    EXPECT_NEAR(found.energy, 1.0, 0.02);
+}
+
+// Records beside what the picture shows stand in for it too: under a roof whose edge lies just out
+// of the picture they are dark.
+TEST(SkyLights, KnowRecordsBesideThePicture) {
+    Scene scene = test::plain_scene({0.7f, 0.5f, 0.3f});
+    test::add_quad(scene, {glm::dvec3(-4, 0, 4), {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}});
+    test::add_box(scene, {-4, 0.6, -4}, {-0.5, 0.7, 4}, 1);
+    scene.environment = posts().environment;
+    scene.cameras = {test::camera_at({0.3, 1.0, 0.01}, {0.0, 0.0, 0.0}, 0.6f)};
+    reference::Options truth;
+    truth.width = cache_width;
+    truth.height = cache_height;
+    truth.samples = 256;
+    const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
+    const DeviceScene device = test::on_device(scene);
+    IrradianceCacheOptions options = cache_options(4, 60);
+    options.refined = 0;
+    options.sky_lights = 16;
+    IrradianceCache cache(test::programs(), test::device().queue, device, options);
+    const test::Apart found = test::apart(sampled(cache, scene.cameras[0], 40), twice);
+    EXPECT_LT(found.error, 0.03);
+    EXPECT_NEAR(found.energy, 1.0, 0.01);
+}
+
 // Where hemicubes know the light, directions of the sky change next to nothing: of a convex ground
 // every part of the sky is seen as by the records.
 TEST(SkyLights, LeaveAloneWhatRecordsKnow) {

@@ -117,16 +117,18 @@ struct Blocks {
     std::vector<double> sums = std::vector<double>(4 * stride, 0.0);
     std::vector<double> shares = std::vector<double>(across * down, 0.0);
 
-    // A sample more, of count.
-    void add(const std::vector<float>& found, double count) {
+    // A sample more, of count. points: x, y and z of what pixels show.
+    void add(const std::vector<float>& points, const std::vector<float>& found, double count) {
         std::vector<double> together(shares.size(), 0.0), apart(shares.size(), 0.0);
         for (std::uint32_t p = 0; p < pixels; ++p) {
             double d = 0.0, sum = 0.0;
             const double weights[] = {0.2126, 0.7152, 0.0722};
             for (std::uint32_t c = 0; c < 3; ++c) {
                 const double value = found[c * stride + p];
-                const bool good = std::isfinite(found[p]) && std::isfinite(found[stride + p]) &&
-                                  std::isfinite(found[2 * stride + p]);
+                bool good = true;
+                for (std::uint32_t k = 0; k < 3; ++k)
+                    good = good && std::isfinite(found[k * stride + p]) &&
+                           std::abs(points[k * stride + p]) <= 1.0f + static_cast<float>(k);
                 sums[c * stride + p] += good ? value : 0.0;
                 d += good ? weights[c] * value : 0.0;
                 sum += weights[c] * sums[c * stride + p];
@@ -163,9 +165,17 @@ TEST_P(SkyPasses, TrustWhatSamplesAgreeAbout) {
             }
         if (sample == 2) found[B::stride + 40] = std::numeric_limits<float>::quiet_NaN();
         if (sample == 3) found[41] = std::numeric_limits<float>::infinity();
-        wanted.add(found, sample);
-        passes.gauge(queue, {B::width, B::height, B::stride, sample}, test::upload(found), sums,
-                     shares);
+        // A box of 1, 2 and 3; some lie on its sides, some beyond one of them.
+        std::vector<float> points(GBUFFER_PLANES * B::stride, 0.0f);
+        for (std::uint32_t p = 0; p < B::pixels; ++p) {
+            const std::uint32_t axis = p % 3;
+            const float side = 1.0f + static_cast<float>(axis);
+            const float beyond = (p + sample) % 7 == 0 ? 1.25f : 1.0f;
+            points[axis * B::stride + p] = (p % 2 == 0 ? side : -side) * beyond;
+        }
+        wanted.add(points, found, sample);
+        passes.gauge(queue, {B::width, B::height, B::stride, sample, {-1, -2, -3, 9}, {1, 2, 3, 9}},
+                     points_of(points, B::stride), test::upload(found), sums, shares);
         queue.finish();
         const auto got = test::download<float>(shares, B::across * B::down + 1);
         for (std::size_t k = 0; k < wanted.shares.size(); ++k) {
@@ -196,8 +206,8 @@ TEST_P(SkyPasses, CorrectByTheSharesAround) {
     const std::vector<float> shares = {0.1f, 0.9f, 0.4f, 0.6f, 0.0f, 1.0f};
     const cl::Buffer irradiance = test::upload(light);
     passes
-        .correct(test::device().queue, {B::width, B::height, B::stride, 5}, test::upload(sums),
-                 test::upload(shares), irradiance)
+        .correct(test::device().queue, {B::width, B::height, B::stride, 5, {}, {}},
+                 test::upload(sums), test::upload(shares), irradiance)
         .wait();
     const auto got = test::download<float>(irradiance, 3 * B::stride);
     const auto along = [](double pixel, std::uint32_t blocks) {
@@ -255,17 +265,20 @@ TEST(SkyPassChecks, RefuseBuffersThatAreTooSmall) {
     const cl::CommandQueue& queue = test::device().queue;
     using B = Blocks;
     const cl::Buffer planes = test::empty<float>(4 * B::stride), few = test::empty<float>(4);
-    const CacheCorrectParams of{B::width, B::height, B::stride, 1};
-    EXPECT_NO_THROW(passes.gauge(queue, of, planes, planes, planes));
+    const CacheCorrectParams of{B::width, B::height, B::stride, 1, {}, {}};
+    const GBuffer points{test::empty<float>(GBUFFER_PLANES * B::stride), {}};
+    EXPECT_NO_THROW(passes.gauge(queue, of, points, planes, planes, planes));
     EXPECT_NO_THROW(passes.correct(queue, of, planes, planes, planes));
     for (int k = 0; k < 3; ++k) {
         const auto at = [&](int i) { return i == k ? few : planes; };
-        EXPECT_THROW(passes.gauge(queue, of, at(0), at(1), at(2)), Error);
+        EXPECT_THROW(passes.gauge(queue, of, points, at(0), at(1), at(2)), Error);
         EXPECT_THROW(passes.correct(queue, of, at(0), at(1), at(2)), Error);
     }
     for (const CacheCorrectParams& wrong :
-         {CacheCorrectParams{B::width, B::height, B::stride, 0}, {B::width, B::height, 240, 1}})
-        EXPECT_THROW(passes.gauge(queue, wrong, planes, planes, planes), Error);
+         {CacheCorrectParams{B::width, B::height, B::stride, 0, {}, {}},
+          {B::width, B::height, 240, 1, {}, {}}})
+        EXPECT_THROW(passes.gauge(queue, wrong, points, planes, planes, planes), Error);
+    EXPECT_THROW(passes.gauge(queue, of, {few, {}}, planes, planes, planes), Error);
     CacheParams params{};
     params.count = 1;
     params.size = 8;

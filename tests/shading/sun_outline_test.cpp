@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <clgi/advanced/emitters.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "device.hpp"
+#include "patchwork.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -101,6 +103,38 @@ TEST(SunOutline, OfAFocusIsNoLargerThanTheScene) {
         ASSERT_EQ(two.views.size(), 2u);
         EXPECT_NEAR(two.views[0].right.w / beside.frame().scale, 2.0, 0.02);
         EXPECT_NEAR(two.views[0].up.w / beside.frame().scale, 2.0, 0.02);
+    }
+}
+
+// Instead of the scene and its focus: one map, which holds any box that is lit and ends with it,
+// and reaches as deep as the scene.
+TEST(SunOutline, IsThatOfTheReceivers) {
+    test::Random random(53);
+    for (int i = 0; i < 40; ++i) {
+        const DeviceScene scene = test::on_device(drawn(random));
+        const SceneFrame& frame = scene.frame();
+        const glm::vec3 middle = test::random_vec3(random, -0.5, 0.5);
+        const glm::vec3 half = test::random_vec3(random, 0.01, 0.3);
+        EmitterOptions options{.shadow_size = 64};
+        options.receivers = LocalBox{middle - half, middle + half};
+        const EmitterSet set = make_emitters(scene, options);
+        ASSERT_EQ(set.views.size(), 1u);
+        const View& view = set.views[0];
+        const glm::vec3 right(view.right), up(view.up), eye(view.eye);
+        float most[2] = {0.0f, 0.0f};
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 side(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+            const glm::vec3 from = middle + half * side - eye;
+            most[0] = std::max(most[0], std::abs(glm::dot(from, right) - view.window.x));
+            most[1] = std::max(most[1], std::abs(glm::dot(from, up) - view.window.y));
+        }
+        const float around = 1.1e-3f * frame.radius;
+        for (const auto& [extent, reached] :
+             {std::pair(view.right.w, most[0]), std::pair(view.up.w, most[1])}) {
+            EXPECT_LT(reached, extent) << i;
+            EXPECT_GT(reached, extent - around) << i;
+        }
+        EXPECT_GT(view.window.z, 2.0f * frame.radius) << i;
     }
 }
 

@@ -14,19 +14,19 @@ constexpr float rest = 1e-3f;
 
 }  // namespace
 
-void IrradianceCache::State::plant(CacheTree& planted, cl::Buffer& nodes, cl::Buffer& lists) {
-    const RecordTree made = make_tree(records);
-    planted = {};
-    for (int c = 0; c < 3; ++c) (&planted.centre.x)[c] = made.centre[c];
-    planted.centre.w = made.half_side;
-    planted.node_count = static_cast<std::uint32_t>(made.nodes.size());
-    planted.record_count = static_cast<std::uint32_t>(records.size());
-    planted.stride = stride;
+void IrradianceCache::State::plant(CacheTree& of, cl::Buffer& nodes, cl::Buffer& lists) {
+    planted = make_tree(records);
+    of = {};
+    for (int c = 0; c < 3; ++c) (&of.centre.x)[c] = planted.centre[c];
+    of.centre.w = planted.half_side;
+    of.node_count = static_cast<std::uint32_t>(planted.nodes.size());
+    of.record_count = static_cast<std::uint32_t>(records.size());
+    of.stride = stride;
     Recorder& record = picture.record();
-    grow(nodes, made.nodes.size() * sizeof(std::uint32_t));
-    grow(lists, made.lists.size() * sizeof(std::uint32_t));
-    record.write(nodes, made.nodes.data(), made.nodes.size() * sizeof(std::uint32_t));
-    record.write(lists, made.lists.data(), made.lists.size() * sizeof(std::uint32_t));
+    grow(nodes, planted.nodes.size() * sizeof(std::uint32_t));
+    grow(lists, planted.lists.size() * sizeof(std::uint32_t));
+    record.write(nodes, planted.nodes.data(), planted.nodes.size() * sizeof(std::uint32_t));
+    record.write(lists, planted.lists.data(), planted.lists.size() * sizeof(std::uint32_t));
 }
 
 void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {

@@ -263,11 +263,12 @@ cl::Event CachePasses::sight(const cl::CommandQueue& queue, const CacheParams& p
 }
 
 cl::Event CachePasses::gauge(const cl::CommandQueue& queue, const CacheCorrectParams& params,
-                             const cl::Buffer& found, const cl::Buffer& sums,
+                             const GBuffer& points, const cl::Buffer& found, const cl::Buffer& sums,
                              const cl::Buffer& shares, const WaitList& wait) const {
     const std::size_t blocks = need_pixels(gauge_, params, sums, shares);
+    need(gauge_, "points", points.planes, point_bytes(gauge_.storage, params.stride));
     need(gauge_, "found", found, 3 * word * params.stride);
-    return launch(gauge_, queue, blocks, wait, params, found, sums, shares);
+    return launch(gauge_, queue, blocks, wait, params, points.planes, found, sums, shares);
 }
 
 cl::Event CachePasses::correct(const cl::CommandQueue& queue, const CacheCorrectParams& params,

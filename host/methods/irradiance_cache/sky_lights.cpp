@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <clgi/advanced/planes.hpp>
 #include <cmath>
+#include <limits>
 
 #include "methods/irradiance_cache/state.hpp"
 #include "scene/environment.hpp"
@@ -75,6 +76,25 @@ std::shared_ptr<const SkyWeights> IrradianceCache::State::weigh_sky() {
     return out;
 }
 
+LocalBox IrradianceCache::State::lit_by_sky() const {
+    LocalBox out{glm::vec3(std::numeric_limits<float>::max()),
+                 glm::vec3(-std::numeric_limits<float>::max())};
+    const auto add = [&](const glm::vec3& place) {
+        out.low = glm::min(out.low, place);
+        out.high = glm::max(out.high, place);
+    };
+    std::vector<bool> stands_in(records.size());
+    for (const CacheRecord& pixel : shown) {
+        if (!(glm::dot(pixel.normal, pixel.normal) > 0.0f)) continue;
+        add(pixel.position);
+        const std::uint32_t* list = listed(planted, pixel);
+        for (int k = 0; k < CACHE_LISTED && list[k] != CACHE_NONE; ++k) stands_in[list[k]] = true;
+    }
+    for (std::size_t i = 0; i < records.size(); ++i)
+        if (stands_in[i]) add(records[i].position);
+    return out;
+}
+
 void IrradianceCache::State::forget_corrections() {
     sky_weights.reset();
     weighed = false;
@@ -99,11 +119,13 @@ bool IrradianceCache::State::light_by_sky(std::uint32_t of_sample) {
     if (!weighed) {
         weighed = true;
         sky_weights = weigh_sky();
+        receivers = lit_by_sky();
         record.fill(corrections, 0);
     }
     if (!sky_weights) return false;
     EmitterOptions wanted = sky_options(options, of_sample);
     wanted.sky_weights = sky_weights;
+    wanted.receivers = receivers;
     grown += sky_lights.follow(wanted, record, picture.passes());
     sky_lights.draw(record, picture.passes(), picture.lists());
     record.fill(b.next, 0);
@@ -115,11 +137,16 @@ void IrradianceCache::State::correct() {
     Recorder& record = picture.record();
     const std::size_t pixels = picture.pixels();
     light_by_sky(picture.gbuffer().planes, pixels, picture.stride(), found_light, DIRECT_ADD);
+    const glm::vec3 &low = receivers.low, &high = receivers.high;
     const CacheCorrectParams blocks{static_cast<std::uint32_t>(options.picture.width),
                                     static_cast<std::uint32_t>(options.picture.height),
-                                    picture.stride(), ++corrected};
+                                    picture.stride(),
+                                    ++corrected,
+                                    {low.x, low.y, low.z, 0.0f},
+                                    {high.x, high.y, high.z, 0.0f}};
     record("cache.gauge", pixels, [&](const WaitList& wait) {
-        return passes.gauge(record.queue(), blocks, found_light, corrections, shares, wait);
+        return passes.gauge(record.queue(), blocks, picture.gbuffer(), found_light, corrections,
+                            shares, wait);
     });
     record("cache.correct", pixels, [&](const WaitList& wait) {
         return passes.correct(record.queue(), blocks, corrections, shares, picture.irradiance(),

@@ -48,8 +48,8 @@ struct IrradianceCache::State {
     // What the records from `first` on see becomes up to `count` more records.
     void meet(std::size_t first, std::size_t count);
     void choose(const View& view);
-    // A tree of all records, for one of two uses.
-    void plant(CacheTree& planted, cl::Buffer& nodes, cl::Buffer& lists);
+    // A tree of all records, for one of two uses; the last is that of the picture.
+    void plant(CacheTree& of, cl::Buffer& nodes, cl::Buffer& lists);
     // More records where others see light that is in doubt and that reaches the picture.
     void weigh(std::size_t count);
     // The transport of the records from `first` on, from those that light goes between, by one
@@ -84,6 +84,7 @@ struct IrradianceCache::State {
     bool corrects() const { return sky_lights.casts_shadows(); }
     void forget_corrections();
     std::shared_ptr<const SkyWeights> weigh_sky();
+    LocalBox lit_by_sky() const;  // around what is shown and the records that stand in for it
     void light_by_sky(const cl::Buffer& planes, std::size_t points, std::uint32_t of_stride,
                       const cl::Buffer& irradiance, std::uint32_t add);
     // Rows of the buffers for VPLs in small lit places; finds these places, as the records see
@@ -114,12 +115,14 @@ struct IrradianceCache::State {
     std::uint32_t spot_stride = 0;  // of the planes of VPLs
     CacheAround surroundings{};
     CacheTree tree{}, all_tree{};  // of those that light goes between, of these and refined ones
+    RecordTree planted;            // the last of them
     CoarseSky sky;
     Emitters sky_lights;
     LightPasses lights;
     cl::Buffer around, sight, found_light, corrections, shares;
     bool weighed = false;  // whether the records of this picture see the sky is known
     std::shared_ptr<const SkyWeights> sky_weights;  // by these records; null: they do not
+    LocalBox receivers{};                           // of light of the sky
     std::size_t grown = 0;                          // bytes, of shadow maps
     std::uint32_t sample = 0, corrected = 0;        // samples, of which so many have been corrected
     cl::Buffer all_nodes, all_lists;                // of all_tree

@@ -28,6 +28,24 @@ struct Leaf {
     std::shared_ptr<const Candidates> candidates;
 };
 
+// Of a place in a cube around a centre.
+std::uint32_t octant(const glm::vec3& p, const glm::vec3& centre) {
+    return (p.x > centre.x ? 1u : 0u) | (p.y > centre.y ? 2u : 0u) | (p.z > centre.z ? 4u : 0u);
+}
+
+// From the centre of a cube to that of its octant.
+glm::vec3 toward(std::uint32_t octant, float half) {
+    return {(octant & 1u) ? half : -half, (octant & 2u) ? half : -half,
+            (octant & 4u) ? half : -half};
+}
+
+// As cache_way (kernels/cache/lookup.clh).
+std::uint32_t way_of(const glm::vec3& n) {
+    const glm::vec3 a = glm::abs(n);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    return static_cast<std::uint32_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
+}
+
 class TreeMaker {
 public:
     TreeMaker(const std::vector<CacheRecord>& records, RecordTree& out)
@@ -59,9 +77,8 @@ public:
             for (const std::uint32_t i : inside)
                 if (octant(records_[i].position, centre) == child) part.push_back(i);
             const float half = 0.5f * half_side;
-            const glm::vec3 side((child & 1u) ? half : -half, (child & 2u) ? half : -half,
-                                 (child & 4u) ? half : -half);
-            const std::uint32_t made = node(centre + side, half, part, fewer, depth + 1);
+            const std::uint32_t made =
+                node(centre + toward(child, half), half, part, fewer, depth + 1);
             out_.nodes[place + child] = made;
         }
         return place;
@@ -85,10 +102,6 @@ private:
     static float along(const glm::vec3& normal, std::uint32_t way) {
         const float value = normal[static_cast<int>(way / 2)];
         return way % 2 == 0 ? value : -value;
-    }
-
-    static std::uint32_t octant(const glm::vec3& p, const glm::vec3& centre) {
-        return (p.x > centre.x ? 1u : 0u) | (p.y > centre.y ? 2u : 0u) | (p.z > centre.z ? 4u : 0u);
     }
 
     // Square of a distance at which a record counts; farther off its own plane counts as farther
@@ -163,6 +176,20 @@ RecordTree make_tree(const std::vector<CacheRecord>& records) {
     out.nodes[0] = root;
     maker.list_all();
     return out;
+}
+
+const std::uint32_t* listed(const RecordTree& tree, const CacheRecord& place) {
+    glm::vec3 centre = tree.centre;
+    float half = tree.half_side;
+    std::uint32_t node = tree.nodes[0];
+    while (!(node & CACHE_LEAF)) {
+        const std::uint32_t child = octant(place.position, centre);
+        half *= 0.5f;
+        centre += toward(child, half);
+        node = tree.nodes[node + child];
+    }
+    const std::size_t list = std::size_t{node & ~CACHE_LEAF} * CACHE_WAYS + way_of(place.normal);
+    return &tree.lists[list * CACHE_LISTED];
 }
 
 }  // namespace clgi

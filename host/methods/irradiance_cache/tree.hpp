@@ -24,4 +24,7 @@ struct RecordTree {
 // Leaves hold few records, and list those nearest to their centres, of each way to face.
 RecordTree make_tree(const std::vector<CacheRecord>& records);
 
+// The list that the tree has for a place, CACHE_NONE after its last record.
+const std::uint32_t* listed(const RecordTree& tree, const CacheRecord& place);
+
 }  // namespace clgi

@@ -72,7 +72,7 @@ std::vector<View> hemicube(const glm::vec3& eye, const glm::vec3& normal, float 
     return views;
 }
 
-Outline outline(const SceneFrame& frame, const glm::vec3& axis, const glm::vec3& right) {
+Outline outline(const LocalBox& box, float radius, const glm::vec3& axis, const glm::vec3& right) {
     constexpr float around = 1e-3f;  // of the scene's radius
     constexpr float smaller = 0.99f, least_length = 1e-4f;
     std::vector<glm::vec3> turned = {right};
@@ -88,12 +88,12 @@ Outline outline(const SceneFrame& frame, const glm::vec3& axis, const glm::vec3&
         Outline next{one, glm::cross(one, axis), glm::vec2(std::numeric_limits<float>::max()),
                      glm::vec2(-std::numeric_limits<float>::max())};
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 at(corner & 1 ? frame.high.x : frame.low.x,
-                               corner & 2 ? frame.high.y : frame.low.y,
-                               corner & 4 ? frame.high.z : frame.low.z);
+            const glm::vec3 at(corner & 1 ? box.high.x : box.low.x,
+                               corner & 2 ? box.high.y : box.low.y,
+                               corner & 4 ? box.high.z : box.low.z);
             const glm::vec2 place(glm::dot(at, next.right), glm::dot(at, next.up));
-            next.low = glm::min(next.low, place - around * frame.radius);
-            next.high = glm::max(next.high, place + around * frame.radius);
+            next.low = glm::min(next.low, place - around * radius);
+            next.high = glm::max(next.high, place + around * radius);
         }
         const glm::vec2 size = next.high - next.low;
         if (!(size.x * size.y < smaller * least)) continue;

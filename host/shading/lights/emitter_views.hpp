@@ -26,14 +26,14 @@ std::vector<View> cube(const glm::vec3& eye, float near, int size);
 // The face along the normal and the outer halves of the four around it.
 std::vector<View> hemicube(const glm::vec3& eye, const glm::vec3& normal, float near, int size);
 
-// What a directional light sees of the scene's box: a rectangle across its axis.
+// What a directional light sees of a box: a rectangle across its axis.
 struct Outline {
     glm::vec3 right, up;
     glm::vec2 low, high;  // along right and up, from the origin
 };
 
-// Turned as one side of the box, or as `right` says, whichever is smallest. A little larger than
-// the box; a box without width has some.
-Outline outline(const SceneFrame& frame, const glm::vec3& axis, const glm::vec3& right);
+// Turned as one side of the box, or as `right` says, whichever is smallest. Larger than the box by
+// a little of the scene's radius; a box without width has some.
+Outline outline(const LocalBox& box, float radius, const glm::vec3& axis, const glm::vec3& right);
 
 }  // namespace clgi::shadow_views

@@ -89,7 +89,8 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
     e.kind = EMITTER_DIRECTIONAL;
     e.measure = static_cast<float>(pi) * radius * radius;
     out.power = luminance(lux) * e.measure;
-    const Outline all = outline(frame, axis, right);
+    const LocalBox box = options.receivers.value_or(LocalBox{frame.low, frame.high});
+    const Outline all = outline(box, frame.radius, axis, right);
     const auto add_view = [&](const glm::vec2& low, const glm::vec2& high) {
         const glm::vec2 extent = 0.5f * (high - low), middle = 0.5f * (high + low);
         View view = window(glm::vec3(e.position), all.right, all.up, axis, extent.x, extent.y, 0.0f,
@@ -100,7 +101,7 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
         out.views.push_back(view);
     };
     // The origin lies in the middle of the focus, if there is one.
-    if (frame.detail < static_cast<float>(small_focus) * radius) {
+    if (!options.receivers && frame.detail < static_cast<float>(small_focus) * radius) {
         const glm::vec2 around(frame.detail);
         const glm::vec2 low = glm::max(all.low, -around), high = glm::min(all.high, around);
         const bool some = low.x < high.x && low.y < high.y;

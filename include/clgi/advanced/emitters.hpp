@@ -7,9 +7,15 @@
 #include <clgi/advanced/export.hpp>
 #include <clgi/device_scene.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace clgi {
+
+// Of the local frame (DeviceScene::frame()).
+struct LocalBox {
+    glm::vec3 low, high;
+};
 
 struct EmitterOptions {
     int vpls = 300;         // virtual point lights (VPLs), of all emitters together
@@ -36,6 +42,9 @@ struct EmitterOptions {
     bool directional = true;  // false: the scene's directional lights are left out
     // true: lights are directions of the environment alone, none of the scene's
     bool environment_alone = false;
+    // Shadow maps of directional lights cover no more than this, and light all that lies outside;
+    // none: they cover the scene, and its focus once more.
+    std::optional<LocalBox> receivers;
     // By which directions of the environment are drawn; null: by luminance alone.
     std::shared_ptr<const SkyWeights> sky_weights;
 };

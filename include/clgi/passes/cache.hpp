@@ -116,9 +116,10 @@ public:
                     const WaitList& wait = {}) const;
 
     // Adds a sample's corrections, found [IRRADIANCE_PLANES][stride] float, to sums [4][stride],
-    // and finds the share of each block of CACHE_BLOCK x CACHE_BLOCK pixels, row by row.
+    // and finds the share of each block of CACHE_BLOCK x CACHE_BLOCK pixels, row by row. points:
+    // what the sample's pixels show.
     cl::Event gauge(const cl::CommandQueue& queue, const CacheCorrectParams& params,
-                    const cl::Buffer& found, const cl::Buffer& sums, const cl::Buffer& shares,
+                    const GBuffer& points, const cl::Buffer& found, const cl::Buffer& sums, const cl::Buffer& shares,
                     const WaitList& wait = {}) const;
 
     // By sums and shares corrects irradiance [IRRADIANCE_PLANES][stride] of all pixels.

@@ -105,6 +105,8 @@ typedef struct {
     uint height;
     uint stride;  // of the planes of pixels
     uint count;   // of corrections so far, at least 1
+    float4 low;   // xyz: what the directions' shadow maps cover, local frame
+    float4 high;
 } CacheCorrectParams;
 
 typedef struct {
