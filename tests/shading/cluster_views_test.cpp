@@ -53,6 +53,26 @@ Scene sheet() {
     return scene;
 }
 
+// Dense layers close to each other, of which each nearer one comes later, as seen from above.
+Scene layers() {
+    Scene scene = test::plain_scene();
+    constexpr int side = 40;
+    for (int layer = 0; layer < 4; ++layer) {
+        const auto at = [&](int column, int row) {
+            const double u = 2.0 * column / side - 1.0, v = 2.0 * row / side - 1.0;
+            return glm::dvec3(u, 0.01 * layer + 0.2 * u, -v);
+        };
+        for (int row = 0; row < side; ++row)
+            for (int column = 0; column < side; ++column) {
+                test::add_triangle(scene, at(column, row), at(column + 1, row),
+                                   at(column, row + 1));
+                test::add_triangle(scene, at(column + 1, row), at(column + 1, row + 1),
+                                   at(column, row + 1));
+            }
+    }
+    return scene;
+}
+
 // Eyes before, behind, beside and within what is seen; straight windows and windows aside.
 std::vector<View> views_of(const DeviceScene& scene, std::uint64_t seed) {
     std::vector<View> out;
@@ -75,6 +95,30 @@ std::vector<View> views_of(const DeviceScene& scene, std::uint64_t seed) {
         out.push_back(view);
     }
     return out;
+}
+
+// A cluster is hidden by what is nearer alone, not by what is nearly as near and was drawn before.
+TEST(ClusterViews, LoseNothingOfTheNearestLayer) {
+    const DeviceScene scene = test::on_device(layers());
+    test::Random random(5);
+    for (int i = 0; i < 12; ++i) {
+        Camera camera = test::camera_at({random(-0.2, 0.2), 1.2, random(-0.2, 0.2)},
+                                        {random(-0.1, 0.1), 0.0, random(-0.1, 0.1)}, 0.9f);
+        camera.near = static_cast<float>(random(0.1, 0.7));
+        if (i % 2 == 0) {
+            camera.kind = Camera::Kind::orthographic;
+            camera.half_height = 0.6f;
+        }
+        const View view = make_view(camera, scene.frame(), 97, 73);
+        const auto wanted = words<std::uint64_t>(scene, view, false);
+        EXPECT_TRUE(words<std::uint64_t>(scene, view, true) == wanted) << i;
+        EXPECT_TRUE(words<std::uint32_t>(scene, view, true) ==
+                    words<std::uint32_t>(scene, view, false))
+            << i;
+        EXPECT_GT(std::count_if(wanted.begin(), wanted.end(),
+                                [](std::uint64_t word) { return word != ~std::uint64_t{0}; }),
+                  5000);
+    }
 }
 
 TEST(ClusterViews, LoseNothing) {
