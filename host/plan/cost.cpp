@@ -9,6 +9,7 @@
 #include "core/kit/ranges.hpp"
 #include "methods/light_atlas/estimate.hpp"
 #include "plan/method.hpp"
+#include "plan/presets.hpp"
 #include "plan/reach.hpp"
 #include "plan/sky.hpp"
 #include "plan/static_part.hpp"
@@ -176,7 +177,9 @@ PlanCost dynamic_transfer(const Plan& plan) {
 // Each record has its hemicube drawn and looked up.
 PlanCost irradiance_cache(const Plan& plan) {
     const IrradianceCacheOptions& options = plan.cache;
-    const double shown = 1.5 * options.seen + options.refined, records = shown + options.met,
+    // A block of pixels has more than one record where what it shows is finely modelled.
+    const double planes = is_fine(plan) ? 3.0 : 1.5;
+    const double shown = planes * options.seen + options.refined, records = shown + options.met,
                  pixels = 3.0 * options.face * options.face;
     // A pixel of a hemicube is lit by all lamps, but by few of the samples of emissive surfaces.
     // Some pixels are looked up again while records are weighed.
@@ -187,9 +190,9 @@ PlanCost irradiance_cache(const Plan& plan) {
     const double lit = lamps.emitters - samples + std::min(samples, samples_at_once);
     const double look = (4e-5 + 1e-5 * lit) * pixels;
     Amount frame = picture(plan, false);
-    frame +=
-        {records * (0.1 + 1.2e-5 * triangles(plan) + weighed * look) + 2e-6 * records * records,
-         records * (8.0 * pixels + 12.0 * records)};
+    frame += {records * (0.08 + 2.8e-3 * std::sqrt(triangles(plan)) + weighed * look) +
+                  2e-6 * records * records,
+              records * (8.0 * pixels + 12.0 * records)};
     if (plan.on(Effect::gloss))  // what records have around them, and directions of lobes
         frame +=
             {shown * look + 8e-4 * plan.request.width * plan.request.height, 10.5 * shown * pixels};

@@ -21,13 +21,14 @@ double open_share(const Plan& plan) {
 
 }  // namespace
 
+bool is_fine(const Plan& plan) { return plan.analysis.surfaces.triangles > many_triangles; }
+
 double indirect_share(const Plan& plan) {
     return plan.probe ? std::min(all_bounces * plan.probe->first_bounce, most_share) : 1.0;
 }
 
 SceneKind kind_of(const Plan& plan) {
-    const SceneAnalysis& analysis = plan.analysis;
-    const bool fine = analysis.surfaces.triangles > many_triangles;
+    const bool fine = is_fine(plan);
     if (plan.method == Method::irradiance_cache && has_sky(plan))
         return fine && !sees_little(plan) ? SceneKind::fine_sky : SceneKind::skylit;
     if (!plan.on(Effect::indirect_occlusion)) return SceneKind::convex;
@@ -92,13 +93,14 @@ const std::vector<Preset>& presets() {
         {Method::irradiance_cache, 16, 50, {0, 0, 0, 0, 0, 0, 0.38}},
         {Method::irradiance_cache, 16, 100, {0.03, 0.125, 0.155, 0.24, 0.3, 0.1, 0.33}},
         {Method::irradiance_cache, 16, 200, {0.03, 0.08, 0.09, 0.16, 0.16, 0.07, 0.26}},
+        {Method::irradiance_cache, 16, 400, {0, 0, 0, 0, 0, 0, 0.24}},
         {Method::irradiance_cache, 24, 200, {0.03, 0.075, 0.09, 0.145, 0.16, 0.065, 0.26}},
-        {Method::irradiance_cache, 24, 300, {0.03, 0.07, 0.09, 0.13, 0.16, 0.06, 0.26}},
-        {Method::irradiance_cache, 32, 300, {0.03, 0.065, 0.09, 0.115, 0.16, 0.055, 0.26}},
-        {Method::irradiance_cache, 32, 400, {0.03, 0.06, 0.09, 0.1, 0.156, 0.05, 0.26}},
-        {Method::irradiance_cache, 32, 600, {0.03, 0.052, 0.075, 0.09, 0.134, 0.04, 0.255}},
-        {Method::irradiance_cache, 32, 1000, {0.03, 0.045, 0.06, 0.08, 0.075, 0.03, 0.253}},
-        {Method::irradiance_cache, 48, 1000, {0.03, 0.042, 0.055, 0.075, 0.075, 0.028, 0.253}},
+        {Method::irradiance_cache, 24, 300, {0.03, 0.07, 0.09, 0.13, 0.16, 0.06, 0.25}},
+        {Method::irradiance_cache, 32, 300, {0.03, 0.065, 0.09, 0.115, 0.16, 0.055, 0.25}},
+        {Method::irradiance_cache, 32, 400, {0.03, 0.06, 0.09, 0.1, 0.156, 0.05, 0.24}},
+        {Method::irradiance_cache, 32, 600, {0.03, 0.052, 0.075, 0.09, 0.134, 0.04, 0.235}},
+        {Method::irradiance_cache, 32, 1000, {0.03, 0.045, 0.06, 0.08, 0.075, 0.03, 0.225}},
+        {Method::irradiance_cache, 48, 1000, {0.03, 0.042, 0.055, 0.075, 0.075, 0.028, 0.22}},
     };
     return out;
 }

@@ -20,6 +20,7 @@ enum class SceneKind {
 };
 // Root mean square of indirect light over the mean of the picture, by the probe; 1 without one.
 double indirect_share(const Plan& plan);
+bool is_fine(const Plan& plan);  // of tens of thousands of triangles
 SceneKind kind_of(const Plan& plan);
 const char* name_of(SceneKind kind);
 
