@@ -1,7 +1,7 @@
 // Corrects the light that records bring to the pixels of a picture by what directions of the sky say,
 // as far as these are trusted (gauge.cl): by shares of the blocks around, linear between their middles.
 //
-//   E' = E + share (sum d) / n             [derived: control variate with a fitted factor]
+//   E' = E + share (sum m d) / M             [derived: control variate with a fitted factor]
 //
 // Work size    1D, one work-item a pixel; any local size; tail guarded
 // Writes       irradiance of its own pixel
@@ -27,7 +27,7 @@ kernel void cache_correct(
     float to_right = x - (float)left, to_bottom = y - (float)top;
     float above = mix(shares[top * across + left], shares[top * across + right], to_right);
     float below = mix(shares[bottom * across + left], shares[bottom * across + right], to_right);
-    float share = mix(above, below, to_bottom) / (float)params.count;
+    float share = mix(above, below, to_bottom) / params.total;
     for (uint c = 0; c < 3; ++c) {
         Row row = irradiance_row(irradiance, c, stride);
         row_store_one(fma(share, sums[c * stride + at], row_load_one(row, at)), row, at);

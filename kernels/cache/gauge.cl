@@ -1,10 +1,12 @@
 // How far to trust what the directions of the sky say about the pixels of a block, against what the
-// records between them say. Each sample of the picture brings a correction d of its own directions;
-// their mean is right, but noisy while there are few.
+// records between them say. Corrections d of m directions each have the right mean, but are noisy
+// while there are few.
 //
-//   B = sum over pixels ((sum d)^2 - sum d^2) / (n (n - 1))      the mean's square, without its noise
-//   V = sum over pixels (sum d^2 - (sum d)^2 / n) / (n (n - 1))  the noise of the mean
-//   share = 1 - V (1 + 4 / n) / B, 0 for one sample and where it were less      d: luminance
+//   B = sum over pixels ((sum m d)^2 - sum (m d)^2) / (M^2 - Q)     the mean's square, without noise
+//   V = sum over pixels (sum (m d)^2 - Q B) / M^2                   the noise of the mean
+//   share = 1 - V (1 + 4 / n) / B, 0 for one correction and where it were less
+//
+// d: luminance, M = sum m, Q = sum m^2, n = M^2 / Q: how many corrections of one size are worth as much.
 //                                          [derived: the linear estimate of least mean square error]
 //
 // What lies outside the directions' shadow maps has no correction.
@@ -22,7 +24,7 @@ kernel void cache_gauge(
     const CacheCorrectParams  params,
     global const float*       restrict planes,  // [>= POINT_PLANES][stride]
     global const float*       restrict found,   // [3][stride] d of this sample, exposed lux
-    global float*             restrict sums,    // [4][stride] of d, and of its luminance squared
+    global float*             restrict sums,    // [4][stride] of m d, and of its luminance squared
     global float*             restrict shares)  // [blocks down][blocks across]
 {
     uint item = (uint)get_global_id(0), stride = params.stride;
@@ -38,6 +40,7 @@ kernel void cache_gauge(
             if (!is_finite3(d)) d = (float3)(0.0f);  // counted where it came from (lights/direct.cl)
             float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, at);
             if (any(point < params.low.xyz || point > params.high.xyz)) d = (float3)(0.0f);
+            d *= params.weight;
             float3 sum = d + (float3)(sums[at], sums[stride + at], sums[2 * stride + at]);
             float one = luminance(d.x, d.y, d.z), all = luminance(sum.x, sum.y, sum.z);
             float square = fma(one, one, sums[3 * stride + at]);
@@ -48,8 +51,10 @@ kernel void cache_gauge(
             together = fma(all, all, together);
             apart += square;
         }
-    float n = (float)params.count;
-    float bias = together - apart, noise = (apart - together / n) * (1.0f + 4.0f / n);
-    int some = params.count > 1 && bias > fmax(noise, 0.0f);
-    shares[item] = some ? (bias - fmax(noise, 0.0f)) / bias : 0.0f;
+    float all = params.total * params.total, pairs = all - params.squares;
+    int some = pairs > 0.0f;
+    float mean = some ? (together - apart) / pairs : 0.0f;
+    float noise = (apart - params.squares * mean) / all * (1.0f + 4.0f * params.squares / all);
+    some = some && mean > fmax(noise, 0.0f);
+    shares[item] = some ? (mean - fmax(noise, 0.0f)) / mean : 0.0f;
 }

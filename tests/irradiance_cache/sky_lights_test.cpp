@@ -58,11 +58,11 @@ TEST(SkyLights, FindShadowsBetweenRecords) {
     const DeviceScene device = test::on_device(scene);
     IrradianceCacheOptions options = cache_options(12, 100);
     options.refined = 0;
-    const auto found = [&](int lights, bool direct) {
+    const auto found = [&](int lights, bool direct, std::uint32_t samples = 40) {
         options.sky_lights = lights;
         options.picture.emitters.shadows = direct;  // of the scene's lights, and there is none
         IrradianceCache cache(test::programs(), test::device().queue, device, options);
-        const test::Apart out = test::apart(sampled(cache, scene.cameras[0], 40), twice);
+        const test::Apart out = test::apart(sampled(cache, scene.cameras[0], samples), twice);
         EXPECT_EQ(cache.status().non_finite, 0u);
         return out;
     };
@@ -71,6 +71,9 @@ TEST(SkyLights, FindShadowsBetweenRecords) {
     EXPECT_LT(with.error, 0.25 * without.error);
     EXPECT_NEAR(with.energy, 1.0, 0.02);
     EXPECT_LT(found(16, false).error, 0.25 * without.error);
+    // The first sample has no correction; those after it have four each.
+    EXPECT_LT(found(16, true, 2).error, 0.75 * without.error);
+    EXPECT_LT(found(16, true, 3).error, 0.6 * without.error);
 }
 
 // Maps cover what the picture shows, however large the scene is.

@@ -114,11 +114,25 @@ TEST_P(SkyPasses, SeeNoSkyBehindWalls) {
 struct Blocks {
     static constexpr std::uint32_t width = 19, height = 13, stride = 272, across = 3, down = 2;
     static constexpr std::uint32_t pixels = width * height;
+    static CacheCorrectParams params(float weight, float total) {
+        CacheCorrectParams out{};
+        out.width = width;
+        out.height = height;
+        out.stride = stride;
+        out.weight = weight;
+        out.total = total;
+        return out;
+    }
+
     std::vector<double> sums = std::vector<double>(4 * stride, 0.0);
     std::vector<double> shares = std::vector<double>(across * down, 0.0);
 
-    // A sample more, of count. points: x, y and z of what pixels show.
-    void add(const std::vector<float>& points, const std::vector<float>& found, double count) {
+    double total = 0.0, squares = 0.0;
+
+    // One correction more, of so many directions. points: x, y and z of what pixels show.
+    void add(const std::vector<float>& points, const std::vector<float>& found, double weight) {
+        total += weight;
+        squares += weight * weight;
         std::vector<double> together(shares.size(), 0.0), apart(shares.size(), 0.0);
         for (std::uint32_t p = 0; p < pixels; ++p) {
             double d = 0.0, sum = 0.0;
@@ -129,8 +143,8 @@ struct Blocks {
                 for (std::uint32_t k = 0; k < 3; ++k)
                     good = good && std::isfinite(found[k * stride + p]) &&
                            std::abs(points[k * stride + p]) <= 1.0f + static_cast<float>(k);
-                sums[c * stride + p] += good ? value : 0.0;
-                d += good ? weights[c] * value : 0.0;
+                sums[c * stride + p] += good ? weight * value : 0.0;
+                d += good ? weights[c] * weight * value : 0.0;
                 sum += weights[c] * sums[c * stride + p];
             }
             sums[3 * stride + p] += d * d;
@@ -139,9 +153,12 @@ struct Blocks {
             apart[block] += sums[3 * stride + p];
         }
         for (std::size_t k = 0; k < shares.size(); ++k) {
-            const double bias = together[k] - apart[k],
-                         noise = (1 + 4 / count) * (apart[k] - together[k] / count);
-            shares[k] = bias > noise && bias > 0.0 ? 1 - noise / bias : 0.0;
+            // Of corrections with variances s / m: E sum m^2 d^2 = Q B + M s.
+            const double pairs = total * total - squares;
+            const double mean = pairs > 0.0 ? (together[k] - apart[k]) / pairs : 0.0;
+            const double of_one = (apart[k] - squares * mean) / total;
+            const double noise = of_one / total * (1.0 + 4.0 * squares / (total * total));
+            shares[k] = mean > noise && mean > 0.0 ? 1.0 - std::max(noise, 0.0) / mean : 0.0;
         }
     }
 };
@@ -173,9 +190,13 @@ TEST_P(SkyPasses, TrustWhatSamplesAgreeAbout) {
             const float beyond = (p + sample) % 7 == 0 ? 1.25f : 1.0f;
             points[axis * B::stride + p] = (p % 2 == 0 ? side : -side) * beyond;
         }
-        wanted.add(points, found, sample);
-        passes.gauge(queue, {B::width, B::height, B::stride, sample, {-1, -2, -3, 9}, {1, 2, 3, 9}},
-                     points_of(points, B::stride), test::upload(found), sums, shares);
+        const float weight = sample < 5 ? 2.0f : sample % 2 == 0 ? 8.0f : 3.0f;
+        wanted.add(points, found, double{weight});
+        CacheCorrectParams of = Blocks::params(weight, static_cast<float>(wanted.total));
+        of.squares = static_cast<float>(wanted.squares);
+        of.low = {-1, -2, -3, 9};
+        of.high = {1, 2, 3, 9};
+        passes.gauge(queue, of, points_of(points, B::stride), test::upload(found), sums, shares);
         queue.finish();
         const auto got = test::download<float>(shares, B::across * B::down + 1);
         for (std::size_t k = 0; k < wanted.shares.size(); ++k) {
@@ -206,8 +227,8 @@ TEST_P(SkyPasses, CorrectByTheSharesAround) {
     const std::vector<float> shares = {0.1f, 0.9f, 0.4f, 0.6f, 0.0f, 1.0f};
     const cl::Buffer irradiance = test::upload(light);
     passes
-        .correct(test::device().queue, {B::width, B::height, B::stride, 5, {}, {}},
-                 test::upload(sums), test::upload(shares), irradiance)
+        .correct(test::device().queue, B::params(2, 5), test::upload(sums), test::upload(shares),
+                 irradiance)
         .wait();
     const auto got = test::download<float>(irradiance, 3 * B::stride);
     const auto along = [](double pixel, std::uint32_t blocks) {
@@ -265,7 +286,7 @@ TEST(SkyPassChecks, RefuseBuffersThatAreTooSmall) {
     const cl::CommandQueue& queue = test::device().queue;
     using B = Blocks;
     const cl::Buffer planes = test::empty<float>(4 * B::stride), few = test::empty<float>(4);
-    const CacheCorrectParams of{B::width, B::height, B::stride, 1, {}, {}};
+    const CacheCorrectParams of = B::params(1, 1);
     const GBuffer points{test::empty<float>(GBUFFER_PLANES * B::stride), {}};
     EXPECT_NO_THROW(passes.gauge(queue, of, points, planes, planes, planes));
     EXPECT_NO_THROW(passes.correct(queue, of, planes, planes, planes));
@@ -274,9 +295,9 @@ TEST(SkyPassChecks, RefuseBuffersThatAreTooSmall) {
         EXPECT_THROW(passes.gauge(queue, of, points, at(0), at(1), at(2)), Error);
         EXPECT_THROW(passes.correct(queue, of, at(0), at(1), at(2)), Error);
     }
-    for (const CacheCorrectParams& wrong :
-         {CacheCorrectParams{B::width, B::height, B::stride, 0, {}, {}},
-          {B::width, B::height, 240, 1, {}, {}}})
+    CacheCorrectParams narrow = of;
+    narrow.stride = 240;
+    for (const CacheCorrectParams& wrong : {B::params(0, 1), B::params(2, 1), narrow})
         EXPECT_THROW(passes.gauge(queue, wrong, points, planes, planes, planes), Error);
     EXPECT_THROW(passes.gauge(queue, of, {few, {}}, planes, planes, planes), Error);
     CacheParams params{};

@@ -219,9 +219,7 @@ cl::Event IrradianceCache::render_again(const Camera& camera, const WaitList& wa
     if (s.shown.empty()) throw Error("irradiance-cache: render_again(): there is no picture yet");
     const View view = s.picture.begin(camera, wait);
     if (!s.records.empty()) {
-        const bool sky = s.corrects() && s.light_by_sky(s.sample);
-        s.show(sky);
-        if (sky) s.correct();
+        s.show_by_sky();
     }
     s.picture.combine(view);
     if (!s.records.empty()) s.add_gloss(view);

@@ -18,6 +18,9 @@ namespace {
 
 constexpr int most_map = 256;  // pixels a side: a direction is one of many
 constexpr int nearby = 1;      // texels by which what records see is spread, as they are few
+// The directions of so many samples are taken in parts, each with a correction of its own: how far
+// these agree is known before there are many samples.
+constexpr std::uint32_t parted = 4, most_parts = 4;
 // Of the most that is seen of any direction, how much counts as seen of those that no record sees.
 constexpr double unseen = 0.002;
 
@@ -98,7 +101,7 @@ LocalBox IrradianceCache::State::lit_by_sky() const {
 void IrradianceCache::State::forget_corrections() {
     sky_weights.reset();
     weighed = false;
-    corrected = 0;
+    gauged = {};
 }
 
 void IrradianceCache::State::light_by_sky(const cl::Buffer& planes, std::size_t points,
@@ -114,7 +117,7 @@ void IrradianceCache::State::light_by_sky(const cl::Buffer& planes, std::size_t 
     });
 }
 
-bool IrradianceCache::State::light_by_sky(std::uint32_t of_sample) {
+bool IrradianceCache::State::light_by_sky(std::uint32_t part, std::uint32_t parts) {
     Recorder& record = picture.record();
     if (!weighed) {
         weighed = true;
@@ -123,7 +126,8 @@ bool IrradianceCache::State::light_by_sky(std::uint32_t of_sample) {
         record.fill(corrections, 0);
     }
     if (!sky_weights) return false;
-    EmitterOptions wanted = sky_options(options, of_sample);
+    EmitterOptions wanted = sky_options(options, (sample + 1) * parts + part);
+    wanted.environment_lights /= static_cast<int>(parts);
     wanted.sky_weights = sky_weights;
     wanted.receivers = receivers;
     grown += sky_lights.follow(wanted, record, picture.passes());
@@ -133,23 +137,37 @@ bool IrradianceCache::State::light_by_sky(std::uint32_t of_sample) {
     return true;
 }
 
-void IrradianceCache::State::correct() {
+void IrradianceCache::State::gauge(std::uint32_t directions) {
     Recorder& record = picture.record();
-    const std::size_t pixels = picture.pixels();
-    light_by_sky(picture.gbuffer().planes, pixels, picture.stride(), found_light, DIRECT_ADD);
+    light_by_sky(picture.gbuffer().planes, picture.pixels(), picture.stride(), found_light,
+                 DIRECT_ADD);
     const glm::vec3 &low = receivers.low, &high = receivers.high;
-    const CacheCorrectParams blocks{static_cast<std::uint32_t>(options.picture.width),
-                                    static_cast<std::uint32_t>(options.picture.height),
-                                    picture.stride(),
-                                    ++corrected,
-                                    {low.x, low.y, low.z, 0.0f},
-                                    {high.x, high.y, high.z, 0.0f}};
-    record("cache.gauge", pixels, [&](const WaitList& wait) {
-        return passes.gauge(record.queue(), blocks, picture.gbuffer(), found_light, corrections,
+    gauged.width = static_cast<std::uint32_t>(options.picture.width);
+    gauged.height = static_cast<std::uint32_t>(options.picture.height);
+    gauged.stride = picture.stride();
+    gauged.weight = static_cast<float>(directions);
+    gauged.total += gauged.weight;
+    gauged.squares += gauged.weight * gauged.weight;
+    gauged.low = {low.x, low.y, low.z, 0.0f};
+    gauged.high = {high.x, high.y, high.z, 0.0f};
+    record("cache.gauge", picture.pixels(), [&](const WaitList& wait) {
+        return passes.gauge(record.queue(), gauged, picture.gbuffer(), found_light, corrections,
                             shares, wait);
     });
-    record("cache.correct", pixels, [&](const WaitList& wait) {
-        return passes.correct(record.queue(), blocks, corrections, shares, picture.irradiance(),
+}
+
+void IrradianceCache::State::show_by_sky() {
+    const auto directions = static_cast<std::uint32_t>(options.sky_lights);
+    const std::uint32_t parts = sample < parted && directions % most_parts == 0 ? most_parts : 1;
+    for (std::uint32_t part = 0; part < parts; ++part) {
+        const bool sky = corrects() && light_by_sky(part, parts);
+        show(sky);
+        if (!sky) return;
+        gauge(directions / parts);
+    }
+    Recorder& record = picture.record();
+    record("cache.correct", picture.pixels(), [&](const WaitList& wait) {
+        return passes.correct(record.queue(), gauged, corrections, shares, picture.irradiance(),
                               wait);
     });
 }

@@ -74,10 +74,12 @@ struct IrradianceCache::State {
     void show(bool sky = false);
     // Where the scene has a sky and options ask for its directions: light of the sky between the
     // records, by shadow maps of `sample`, other ones than those of samples before it.
-    // light_by_sky() draws them and finds what they bring to the records, false if no record sees
-    // the sky; show() interpolates that, and correct() follows.
-    bool light_by_sky(std::uint32_t sample);
-    void correct();
+    // show_by_sky() shows the light of the records, and corrects it unless none of them sees the
+    // sky: light_by_sky() draws directions and finds what they bring to the records, show()
+    // interpolates that, and gauge() finds what they bring to the pixels.
+    void show_by_sky();
+    bool light_by_sky(std::uint32_t part, std::uint32_t parts);
+    void gauge(std::uint32_t directions);
     // Where surfaces have lobes: what the records have around them, and what lobes reflect of it.
     void look_around();
     void add_gloss(const View& view);
@@ -124,7 +126,8 @@ struct IrradianceCache::State {
     std::shared_ptr<const SkyWeights> sky_weights;  // by these records; null: they do not
     LocalBox receivers{};                           // of light of the sky
     std::size_t grown = 0;                          // bytes, of shadow maps
-    std::uint32_t sample = 0, corrected = 0;        // samples, of which so many have been corrected
+    std::uint32_t sample = 0;
+    CacheCorrectParams gauged{};                    // the last of them
     cl::Buffer all_nodes, all_lists;                // of all_tree
     cl::Buffer chosen, places, worth, nearest, doubt;
     std::vector<CacheRecord> records;

@@ -103,9 +103,13 @@ CLGI_INLINE uint cache_blocks(uint pixels) { return (pixels + CACHE_BLOCK - 1) /
 typedef struct {
     uint width;   // pixels
     uint height;
-    uint stride;  // of the planes of pixels
-    uint count;   // of corrections so far, at least 1
-    float4 low;   // xyz: what the directions' shadow maps cover, local frame
+    uint stride;    // of the planes of pixels
+    float weight;   // of this correction, above 0: how many directions it has
+    float total;    // of all so far, with this one
+    float squares;  // sum of the squares of their weights
+    uint pad0_;
+    uint pad1_;
+    float4 low;  // xyz: what the directions' shadow maps cover, local frame
     float4 high;
 } CacheCorrectParams;
 
