@@ -123,14 +123,12 @@ TEST(Occlusion, PassesOverClustersBehindWhatIsSeen) {
         return count;
     };
     const View view = make_view(camera, scene.frame(), 80, 56);
-    // So far that the closeness of an orthographic view is more than 1 / z.
-    camera = test::camera_at({0.1, 0.05, 100.0}, {0.05, 0.1, 0.0});
+    camera = test::camera_at({0.1, 0.05, 1.0}, {0.1, 0.05, 0.0});
     camera.kind = Camera::Kind::orthographic;
     camera.half_height = 0.5f;
     const View flat = make_view(camera, scene.frame(), 80, 56);
     EXPECT_GT(shown(view), 2000u);
-    const std::size_t flat_before = shown(flat);
-    EXPECT_GT(flat_before, 2000u);
+    EXPECT_GT(shown(flat), 2000u);
     const float back = scene.frame().to_local(glm::dvec3(0, 0, -0.2)).z;
     for (std::size_t c = 0; c < clusters.size(); ++c)
         if (moved[c]) clusters[c].low.z = clusters[c].high.z = back;
@@ -138,7 +136,7 @@ TEST(Occlusion, PassesOverClustersBehindWhatIsSeen) {
                                             clusters.size() * sizeof(Cluster), clusters.data());
     // All but a few that hide behind what was drawn since the last look.
     EXPECT_LT(shown(view), 100u);
-    EXPECT_EQ(shown(flat), flat_before) << "only perspective views are judged";
+    EXPECT_LT(shown(flat), 100u);
 }
 
 TEST(Occlusion, GoesOnBeyondTheClustersThatAListHolds) {
