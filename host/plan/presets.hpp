@@ -28,8 +28,9 @@ struct Preset {
     Method method;
     int directions;  // bins; atlas: texels, side of a page; 0: none
     int places;      // leaves requested, or VPLs
-    // By kind: error of indirect light, over its share (expected_error.hpp); of transfer, of the
-    // whole picture. Measured; 0: was not.
+    // By kind: error of indirect light, over its share (expected_error.hpp); of transfer and of
+    // scenes with a sky, of the whole picture, of fine ones after four samples. Measured; 0: was
+    // not.
     double error[7];
 };
 

@@ -1,7 +1,7 @@
 // Corrects the light that records bring to the pixels of a picture by what directions of the sky say,
 // as far as these are trusted (gauge.cl): by shares of the blocks around, linear between their middles.
 //
-//   E' = E + share (sum m d) / M             [derived: control variate with a fitted factor]
+//   E' = E + share (sum m d) / M           [derived: control variate with a fitted factor]
 //
 // Work size    1D, one work-item a pixel; any local size; tail guarded
 // Writes       irradiance of its own pixel

@@ -104,14 +104,14 @@ TEST(Occlusion, ChangesNoWord) {
 TEST(Occlusion, PassesOverClustersBehindWhatIsSeen) {
     test::Random random(1);
     Scene world = test::plain_scene();
-    add_wall(world, random, 60, 0.0, 0);
-    const std::size_t wall = world.triangles.size();
     add_wall(world, random, 40, 0.3, 0);
+    const std::size_t sheet = world.triangles.size();
+    add_wall(world, random, 60, 0.0, 0);
     const DeviceScene scene = test::on_device(world);
     auto clusters = test::download<Cluster>(scene.clusters(), scene.info().cluster_count);
     std::vector<bool> moved(clusters.size(), true);
     for (std::size_t t = 0; t < world.triangles.size(); ++t)
-        if (scene.triangle_order()[t] < wall) moved[t / CLUSTER_TRIANGLES] = false;
+        if (scene.triangle_order()[t] >= sheet) moved[t / CLUSTER_TRIANGLES] = false;
     ASSERT_GT(std::count(moved.begin(), moved.end(), true), 20);
 
     Camera camera = test::camera_at({0.1, 0.05, 1.0}, {0.05, 0.1, 0.0}, 1.0f);

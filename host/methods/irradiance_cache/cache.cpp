@@ -218,9 +218,7 @@ cl::Event IrradianceCache::render_again(const Camera& camera, const WaitList& wa
     State& s = *state_;
     if (s.shown.empty()) throw Error("irradiance-cache: render_again(): there is no picture yet");
     const View view = s.picture.begin(camera, wait);
-    if (!s.records.empty()) {
-        s.show_by_sky();
-    }
+    if (!s.records.empty()) s.show_by_sky();
     s.picture.combine(view);
     if (!s.records.empty()) s.add_gloss(view);
     return s.picture.end(view);

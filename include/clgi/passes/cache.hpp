@@ -115,12 +115,12 @@ public:
                     const CacheBuffers& buffers, const cl::Buffer& sight,
                     const WaitList& wait = {}) const;
 
-    // Adds a sample's corrections, found [IRRADIANCE_PLANES][stride] float, to sums [4][stride],
+    // Adds corrections, found [IRRADIANCE_PLANES][stride] float, to sums [4][stride],
     // and finds the share of each block of CACHE_BLOCK x CACHE_BLOCK pixels, row by row. points:
     // what the sample's pixels show.
     cl::Event gauge(const cl::CommandQueue& queue, const CacheCorrectParams& params,
-                    const GBuffer& points, const cl::Buffer& found, const cl::Buffer& sums, const cl::Buffer& shares,
-                    const WaitList& wait = {}) const;
+                    const GBuffer& points, const cl::Buffer& found, const cl::Buffer& sums,
+                    const cl::Buffer& shares, const WaitList& wait = {}) const;
 
     // By sums and shares corrects irradiance [IRRADIANCE_PLANES][stride] of all pixels.
     cl::Event correct(const cl::CommandQueue& queue, const CacheCorrectParams& params,

@@ -101,7 +101,7 @@ enum { CACHE_BLOCK = 8 };
 CLGI_INLINE uint cache_blocks(uint pixels) { return (pixels + CACHE_BLOCK - 1) / CACHE_BLOCK; }
 
 typedef struct {
-    uint width;   // pixels
+    uint width;  // pixels
     uint height;
     uint stride;    // of the planes of pixels
     float weight;   // of this correction, above 0: how many directions it has
