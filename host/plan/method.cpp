@@ -48,8 +48,8 @@ void drop_checked(std::vector<Candidate>& candidates) {
                      candidates.end());
 }
 
-// Fewer records than were measured in scenes of the kind.
-bool is_too_sparse(const Plan& plan, const Preset& preset) {
+// Records that were not measured in scenes of the kind.
+bool is_not_measured(const Plan& plan, const Preset& preset) {
     return plan.method == Method::irradiance_cache &&
            !(preset.error[static_cast<std::size_t>(kind_of(plan))] > 0.0);
 }
@@ -110,7 +110,7 @@ bool choose_method(const cl::Device& device, Plan& plan) {
         for (const int fineness : {1, 2, 4, 8, 16}) {
             Candidate one{plan, std::nullopt};
             set(one.plan, preset, fineness);
-            if (is_too_sparse(one.plan, preset)) continue;
+            if (is_not_measured(one.plan, preset)) continue;
             one.plan.cost = paced_cost(device, one.plan);
             one.error = expected_error(one.plan, preset);
             if (one.error) *one.error *= error_factor(one.plan);

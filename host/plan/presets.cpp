@@ -65,7 +65,7 @@ const std::vector<Preset>& presets() {
     // Furnished: Cornell box, a furnished room, the corridor. Finely modelled: box with the bunny.
     // Open: a yard, the office, oriental-like. Lit indirectly: the dark one of two chambers, the
     // maze; of the irradiance cache the maze and drawn slits. Skylit: drawn windows and courtyards;
-    // finely modelled: Sponza, with many samples. Between measured settings of the cache some of
+    // finely modelled: Sponza, by four samples. Between measured settings of the cache some of
     // its errors are interpolated (docs/results/irradiance-cache.md).
     static const std::vector<Preset> out = {
         {Method::direct, 0, 0, {0, 0, 0, 0, 0}},

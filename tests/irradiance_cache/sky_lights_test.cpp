@@ -76,24 +76,33 @@ TEST(SkyLights, FindShadowsBetweenRecords) {
     EXPECT_LT(found(16, true, 3).error, 0.6 * without.error);
 }
 
-// Maps cover what the picture shows, however large the scene is.
+// Maps cover what the picture shows, however large the scene is, and its focus where the picture
+// shows much more.
 TEST(SkyLights, FindShadowsInALargeSceneToo) {
-    Scene scene = posts();
-    test::add_box(scene, {-20, -5, 900}, {20, -1, 910}, 1);  // behind the eye
-    reference::Options truth;
-    truth.width = cache_width;
-    truth.height = cache_height;
-    truth.samples = 256;
-    const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
-    const DeviceScene device = test::on_device(scene);
     IrradianceCacheOptions options = cache_options(12, 100);
     options.refined = 0;
-    options.sky_lights = 16;
     options.picture.emitters.shadow_size = 128;
-    IrradianceCache cache(test::programs(), test::device().queue, device, options);
-    const test::Apart found = test::apart(sampled(cache, scene.cameras[0], 40), twice);
-    EXPECT_LT(found.error, 0.05);
-    EXPECT_NEAR(found.energy, 1.0, 0.02);
+    const auto found = [&](const Scene& scene) {
+        reference::Options truth;
+        truth.width = cache_width;
+        truth.height = cache_height;
+        truth.samples = 256;
+        const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
+        const DeviceScene device = test::on_device(scene);
+        IrradianceCache cache(test::programs(), test::device().queue, device, options);
+        return test::apart(sampled(cache, scene.cameras[0], 40), twice);
+    };
+    Scene behind = posts();
+    test::add_box(behind, {-20, -5, 900}, {20, -1, 910}, 1);  // the eye
+    Scene before = posts();
+    test::add_quad(before,
+                   {glm::dvec3(-900, -9, 900), {900, -9, 900}, {900, -9, -900}, {-900, -9, -900}});
+    before.focus = Focus{{0.0, 0.3, 0.0}, 5.0};
+    for (const Scene& scene : {behind, before}) {
+        const test::Apart one = found(scene);
+        EXPECT_LT(one.error, 0.05);
+        EXPECT_NEAR(one.energy, 1.0, 0.02);
+    }
 }
 
 // Records beside what the picture shows stand in for it too: under a roof whose edge lies just out

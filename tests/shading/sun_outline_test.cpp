@@ -138,5 +138,29 @@ TEST(SunOutline, IsThatOfTheReceivers) {
     }
 }
 
+// A focus that is small beside them has a map of its own; one that is not, or lies elsewhere, has
+// none. However large the scene, a small box has a small map.
+TEST(SunOutline, OfReceiversHasThatOfTheFocusToo) {
+    Scene scene = test::plain_scene();
+    test::add_floor(scene, 50000.0);
+    scene.lights = {test::directional_light({0.3f, 1.0f, 0.2f})};
+    scene.focus = Focus{{0.0, 0.0, 0.0}, 2.0};
+    const DeviceScene device = test::on_device(scene);
+    const float detail = device.frame().detail;
+    const auto views = [&](const glm::vec3& low, const glm::vec3& high) {
+        EmitterOptions options{.shadow_size = 64};
+        options.receivers = LocalBox{low * detail, high * detail};
+        return make_emitters(device, options).views;
+    };
+    const auto wide = views({-40, 0, -30}, {40, 1, 50});
+    ASSERT_EQ(wide.size(), 2u);
+    EXPECT_LE(std::max(wide[0].right.w, wide[0].up.w), 1.01f * detail);
+    EXPECT_GT(std::max(wide[1].right.w, wide[1].up.w), 39.0f * detail);
+    const auto narrow = views({-1, 0, -1}, {1, 1, 1});
+    ASSERT_EQ(narrow.size(), 1u);
+    EXPECT_LT(std::max(narrow[0].right.w, narrow[0].up.w), 1.8f * detail);
+    EXPECT_EQ(views({100, 0, 100}, {150, 1, 150}).size(), 1u);
+}
+
 }  // namespace
 }  // namespace clgi

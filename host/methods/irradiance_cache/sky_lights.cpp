@@ -21,6 +21,8 @@ constexpr int nearby = 1;      // texels by which what records see is spread, as
 // The directions of so many samples are taken in parts, each with a correction of its own: how far
 // these agree is known before there are many samples.
 constexpr std::uint32_t parted = 4, most_parts = 4;
+constexpr float facing = 0.3f;   // as CACHE_FACING (kernels/cache/lookup.clh)
+constexpr float beyond = 0.01f;  // of a picture's size, that its later samples may see past it
 // Of the most that is seen of any direction, how much counts as seen of those that no record sees.
 constexpr double unseen = 0.002;
 
@@ -91,11 +93,13 @@ LocalBox IrradianceCache::State::lit_by_sky() const {
         if (!(glm::dot(pixel.normal, pixel.normal) > 0.0f)) continue;
         add(pixel.position);
         const std::uint32_t* list = listed(planted, pixel);
-        for (int k = 0; k < CACHE_LISTED && list[k] != CACHE_NONE; ++k) stands_in[list[k]] = true;
+        for (int k = 0; k < CACHE_LISTED && list[k] != CACHE_NONE; ++k)
+            if (glm::dot(records[list[k]].normal, pixel.normal) > facing) stands_in[list[k]] = true;
     }
     for (std::size_t i = 0; i < records.size(); ++i)
         if (stands_in[i]) add(records[i].position);
-    return out;
+    const float around = beyond * glm::length(out.high - out.low);
+    return {out.low - around, out.high + around};
 }
 
 void IrradianceCache::State::forget_corrections() {

@@ -72,8 +72,7 @@ std::vector<View> hemicube(const glm::vec3& eye, const glm::vec3& normal, float 
     return views;
 }
 
-Outline outline(const LocalBox& box, float radius, const glm::vec3& axis, const glm::vec3& right) {
-    constexpr float around = 1e-3f;  // of the scene's radius
+Outline outline(const LocalBox& box, float around, const glm::vec3& axis, const glm::vec3& right) {
     constexpr float smaller = 0.99f, least_length = 1e-4f;
     std::vector<glm::vec3> turned = {right};
     for (int side = 0; side < 3; ++side) {
@@ -92,8 +91,8 @@ Outline outline(const LocalBox& box, float radius, const glm::vec3& axis, const 
                                corner & 2 ? box.high.y : box.low.y,
                                corner & 4 ? box.high.z : box.low.z);
             const glm::vec2 place(glm::dot(at, next.right), glm::dot(at, next.up));
-            next.low = glm::min(next.low, place - around * radius);
-            next.high = glm::max(next.high, place + around * radius);
+            next.low = glm::min(next.low, place - around);
+            next.high = glm::max(next.high, place + around);
         }
         const glm::vec2 size = next.high - next.low;
         if (!(size.x * size.y < smaller * least)) continue;

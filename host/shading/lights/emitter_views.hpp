@@ -32,8 +32,8 @@ struct Outline {
     glm::vec2 low, high;  // along right and up, from the origin
 };
 
-// Turned as one side of the box, or as `right` says, whichever is smallest. Larger than the box by
-// a little of the scene's radius; a box without width has some.
-Outline outline(const LocalBox& box, float radius, const glm::vec3& axis, const glm::vec3& right);
+// Turned as one side of the box, or as `right` says, whichever is smallest. around: by how much it
+// is larger than the box.
+Outline outline(const LocalBox& box, float around, const glm::vec3& axis, const glm::vec3& right);
 
 }  // namespace clgi::shadow_views

@@ -89,8 +89,12 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
     e.kind = EMITTER_DIRECTIONAL;
     e.measure = static_cast<float>(pi) * radius * radius;
     out.power = luminance(lux) * e.measure;
+    // A little larger: of a box far smaller than the scene, by what rounding of the eye asks for.
     const LocalBox box = options.receivers.value_or(LocalBox{frame.low, frame.high});
-    const Outline all = outline(box, frame.radius, axis, right);
+    const float around = options.receivers
+                             ? 5e-4f * glm::length(box.high - box.low) + 1e-6f * radius
+                             : 1e-3f * frame.radius;
+    const Outline all = outline(box, around, axis, right);
     const auto add_view = [&](const glm::vec2& low, const glm::vec2& high) {
         const glm::vec2 extent = 0.5f * (high - low), middle = 0.5f * (high + low);
         View view = window(glm::vec3(e.position), all.right, all.up, axis, extent.x, extent.y, 0.0f,
@@ -101,11 +105,13 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
         out.views.push_back(view);
     };
     // The origin lies in the middle of the focus, if there is one.
-    if (!options.receivers && frame.detail < static_cast<float>(small_focus) * radius) {
-        const glm::vec2 around(frame.detail);
-        const glm::vec2 low = glm::max(all.low, -around), high = glm::min(all.high, around);
+    const glm::vec2 sides = 0.5f * (all.high - all.low);
+    const float reach = options.receivers ? std::max(sides.x, sides.y) : radius;
+    if (frame.detail < static_cast<float>(small_focus) * reach) {
+        const glm::vec2 most(frame.detail);
+        const glm::vec2 low = glm::max(all.low, -most), high = glm::min(all.high, most);
         const bool some = low.x < high.x && low.y < high.y;
-        add_view(some ? low : -around, some ? high : around);
+        if (some || !options.receivers) add_view(some ? low : -most, some ? high : most);
     }
     add_view(all.low, all.high);
     return out;

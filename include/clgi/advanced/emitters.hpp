@@ -43,7 +43,7 @@ struct EmitterOptions {
     // true: lights are directions of the environment alone, none of the scene's
     bool environment_alone = false;
     // Shadow maps of directional lights cover no more than this, and light all that lies outside;
-    // none: they cover the scene, and its focus once more.
+    // none: they cover the scene. A focus that is much smaller has a map of its own.
     std::optional<LocalBox> receivers;
     // By which directions of the environment are drawn; null: by luminance alone.
     std::shared_ptr<const SkyWeights> sky_weights;
