@@ -7,7 +7,9 @@
 //   share = 1 - V (1 + 4 / n) / B, 0 for one correction and where it were less
 //
 // d: luminance, M = sum m, Q = sum m^2, n = M^2 / Q: how many corrections of one size are worth as much.
-//                                          [derived: the linear estimate of least mean square error]
+// The linear estimate of least mean square error has B / (B + V), which trusts too much while n is
+// small (docs/results/irradiance-cache.md).
+//                              [derived: the linear estimate of least mean square error; 4: measured]
 //
 // What lies outside the directions' shadow maps has no correction.
 //
@@ -40,7 +42,7 @@ kernel void cache_gauge(
             if (!is_finite3(d)) d = (float3)(0.0f);  // counted where it came from (lights/direct.cl)
             float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, at);
             if (any(point < params.low.xyz || point > params.high.xyz)) d = (float3)(0.0f);
-            d *= params.weight;
+            d *= params.scale;
             float3 sum = d + (float3)(sums[at], sums[stride + at], sums[2 * stride + at]);
             float one = luminance(d.x, d.y, d.z), all = luminance(sum.x, sum.y, sum.z);
             float square = fma(one, one, sums[3 * stride + at]);

@@ -10,7 +10,7 @@
 
 kernel void lights_direct(
     const DirectParams      params,
-    global const Emitter*   restrict emitters,    // [emitter_count]
+    global const Emitter*   restrict emitters,    // [first_emitter + emitter_count]
     global const View*      restrict views,       // of all emitters
     global const uint*      restrict visibility,  // [pixels of all views] one or two words each
     global const float*     restrict planes,      // [> GBUFFER_GEOMETRIC + 2][stride]
@@ -29,7 +29,7 @@ kernel void lights_direct(
     worst = max(worst, direct_point_magnitude(&point));
     floatp sum[3] = {packet_zero, packet_zero, packet_zero};
     for (uint e = 0; e < params.emitter_count; ++e) {
-        global const Emitter* emitter = emitters + e;
+        global const Emitter* emitter = emitters + params.first_emitter + e;
         DirectRay ray = direct_ray(emitter, &point);
         floatp arriving = direct_arriving(emitter, views, &maps, &point, nx, ny, nz, &ray,
                                           params.texel_bias);

@@ -70,6 +70,23 @@ public:
                 out[scene_.triangle_order()[t]][c] = planes[c * stride_ + t] * exposure;
         return out;
     }
+    // Of the emitters before a number, and of those from it on, added to that.
+    std::vector<float> in_two(std::uint32_t parted) {
+        render().wait();
+        const auto emitters = static_cast<std::uint32_t>(emitters_.set().emitters.size());
+        for (const std::uint32_t first : {0u, parted}) {
+            const DirectParams params{stride_, count_, first == 0 ? parted : emitters - parted,
+                                      1.0f,    1,      first == 0 ? 0u : std::uint32_t{DIRECT_ADD},
+                                      first,   0};
+            lights_.direct(queue_, params, emitters_.buffers(), points_.planes, irradiance_,
+                           non_finite_);
+        }
+        const DirectParams past{stride_, count_, emitters, 1.0f, 1, 0, parted, 0};
+        EXPECT_THROW(lights_.direct(queue_, past, emitters_.buffers(), points_.planes, irradiance_,
+                                    non_finite_),
+                     Error);
+        return test::download<float>(irradiance_, IRRADIANCE_PLANES * stride_);
+    }
     // What is left of the light if twice of it is put there and once of it taken away.
     std::vector<float> twice_less_once() {
         render().wait();
@@ -96,6 +113,30 @@ private:
     GBuffer points_{{}, {}, stride_, Storage::full};
     cl::Buffer samples_, irradiance_, non_finite_;
 };
+
+TEST(Centroids, CanBeLitByAFewOfTheEmitters) {
+    Scene world = test::patchwork(20, 92, false);
+    const glm::vec3 places[] = {{-0.4f, 0.3f, 0.5f}, {0.6f, 0.2f, -0.3f}, {0.1f, -0.5f, 0.2f}};
+    for (int i = 0; i < 3; ++i) {
+        world.lights.push_back(test::point_light(glm::dvec3(places[i]), 6.0f));
+        world.lights.back().intensity *= glm::vec3(0.1f + 0.4f * i, 0.7f, 1.0f - 0.3f * i);
+    }
+    const DeviceScene scene = test::on_device(world);
+    CentroidSolver lit(test::device().queue, scene, {});
+    const std::vector<glm::vec3> all = lit.irradiance();
+    const float exposure = static_cast<float>(scene.frame().exposure);
+    for (const std::uint32_t parted : {1u, 2u}) {
+        const std::vector<float> two = lit.in_two(parted);
+        const std::size_t stride = two.size() / IRRADIANCE_PLANES;
+        for (std::size_t t = 0; t < all.size(); ++t)
+            for (int k = 0; k < 3; ++k) {
+                const float wanted = all[scene.triangle_order()[t]][k];
+                EXPECT_NEAR(two[static_cast<std::size_t>(k) * stride + t] * exposure, wanted,
+                            1e-5f * wanted)
+                    << parted << " " << t;
+            }
+    }
+}
 
 TEST(Centroids, CanBePutAndTaken) {
     Scene world = test::patchwork(20, 91, false);

@@ -30,13 +30,16 @@ Scene posts() {
     return scene;
 }
 
-// Mean of samples that look through the same places of pixels.
-std::vector<glm::vec3> sampled(IrradianceCache& cache, const Camera& camera,
-                               std::uint32_t samples) {
+// Mean of samples that look through the same places of pixels, or, where later samples look aside,
+// by so many pixels.
+std::vector<glm::vec3> sampled(IrradianceCache& cache, const Camera& camera, std::uint32_t samples,
+                               const glm::vec2& aside = glm::vec2(0.0f)) {
     std::vector<glm::dvec3> sum(std::size_t{cache_width} * cache_height, glm::dvec3(0.0));
     for (std::uint32_t index = 0; index < samples; ++index) {
         cache.sample(index);
-        (index == 0 ? cache.render(camera) : cache.render_again(camera)).wait();
+        Camera later = camera;
+        later.offset += aside;
+        (index == 0 ? cache.render(camera) : cache.render_again(later)).wait();
         const auto one = test::vectors(test::device().queue, cache.picture().radiance(),
                                        cache.picture().stride(), sum.size());
         for (std::size_t i = 0; i < sum.size(); ++i)
@@ -47,14 +50,18 @@ std::vector<glm::vec3> sampled(IrradianceCache& cache, const Camera& camera,
     return out;
 }
 
+test::Twice truth_of(const Scene& scene) {
+    reference::Options out;
+    out.width = cache_width;
+    out.height = cache_height;
+    out.samples = 256;
+    return test::render_twice(scene, scene.cameras[0], out);
+}
+
 // Few records stand far apart, so their light is a blur: directions of the sky find the shadows.
 TEST(SkyLights, FindShadowsBetweenRecords) {
     const Scene scene = posts();
-    reference::Options truth;
-    truth.width = cache_width;
-    truth.height = cache_height;
-    truth.samples = 256;
-    const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
+    const test::Twice twice = truth_of(scene);
     const DeviceScene device = test::on_device(scene);
     IrradianceCacheOptions options = cache_options(12, 100);
     options.refined = 0;
@@ -83,14 +90,9 @@ TEST(SkyLights, FindShadowsInALargeSceneToo) {
     options.refined = 0;
     options.picture.emitters.shadow_size = 128;
     const auto found = [&](const Scene& scene) {
-        reference::Options truth;
-        truth.width = cache_width;
-        truth.height = cache_height;
-        truth.samples = 256;
-        const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
         const DeviceScene device = test::on_device(scene);
         IrradianceCache cache(test::programs(), test::device().queue, device, options);
-        return test::apart(sampled(cache, scene.cameras[0], 40), twice);
+        return test::apart(sampled(cache, scene.cameras[0], 40), truth_of(scene));
     };
     Scene behind = posts();
     test::add_box(behind, {-20, -5, 900}, {20, -1, 910}, 1);  // the eye
@@ -105,19 +107,20 @@ TEST(SkyLights, FindShadowsInALargeSceneToo) {
     }
 }
 
-// Records beside what the picture shows stand in for it too: under a roof whose edge lies just out
-// of the picture they are dark.
-TEST(SkyLights, KnowRecordsBesideThePicture) {
+Scene beside_a_roof() {
     Scene scene = test::plain_scene({0.7f, 0.5f, 0.3f});
     test::add_quad(scene, {glm::dvec3(-4, 0, 4), {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}});
     test::add_box(scene, {-4, 0.6, -4}, {-0.5, 0.7, 4}, 1);
     scene.environment = posts().environment;
     scene.cameras = {test::camera_at({0.3, 1.0, 0.01}, {0.0, 0.0, 0.0}, 0.6f)};
-    reference::Options truth;
-    truth.width = cache_width;
-    truth.height = cache_height;
-    truth.samples = 256;
-    const test::Twice twice = test::render_twice(scene, scene.cameras[0], truth);
+    return scene;
+}
+
+// Records beside what the picture shows stand in for it too: under a roof whose edge lies just out
+// of the picture they are dark.
+TEST(SkyLights, KnowRecordsBesideThePicture) {
+    const Scene scene = beside_a_roof();
+    const test::Twice twice = truth_of(scene);
     const DeviceScene device = test::on_device(scene);
     IrradianceCacheOptions options = cache_options(4, 60);
     options.refined = 0;
@@ -126,6 +129,28 @@ TEST(SkyLights, KnowRecordsBesideThePicture) {
     const test::Apart found = test::apart(sampled(cache, scene.cameras[0], 40), twice);
     EXPECT_LT(found.error, 0.03);
     EXPECT_NEAR(found.energy, 1.0, 0.01);
+}
+
+// Later samples look past the outermost pixels of the first, and are corrected there too: towards
+// the roof, in whose shadow the picture's left edge lies.
+TEST(SkyLights, CorrectThePicturesBorder) {
+    const Scene scene = beside_a_roof();
+    const DeviceScene device = test::on_device(scene);
+    IrradianceCacheOptions options = cache_options(4, 0);
+    options.refined = 0;
+    const auto border = [&](const Camera& camera, const glm::vec2& aside) {
+        IrradianceCache cache(test::programs(), test::device().queue, device, options);
+        const auto picture = sampled(cache, camera, 24, aside);
+        double sum = 0.0;
+        for (std::size_t y = 0; y < cache_height; ++y) sum += double{picture[y * cache_width].y};
+        return sum;
+    };
+    for (const float aside : {-0.49f, 0.49f}) {
+        Camera shifted = scene.cameras[0];
+        shifted.offset.x += aside;
+        const double wanted = border(shifted, glm::vec2(0.0f));
+        EXPECT_NEAR(border(scene.cameras[0], {aside, 0.0f}) / wanted, 1.0, 0.02) << aside;
+    }
 }
 
 // Where hemicubes know the light, directions of the sky change next to nothing: of a convex ground

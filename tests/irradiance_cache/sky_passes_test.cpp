@@ -114,12 +114,12 @@ TEST_P(SkyPasses, SeeNoSkyBehindWalls) {
 struct Blocks {
     static constexpr std::uint32_t width = 19, height = 13, stride = 272, across = 3, down = 2;
     static constexpr std::uint32_t pixels = width * height;
-    static CacheCorrectParams params(float weight, float total) {
+    static CacheCorrectParams params(float scale, float total) {
         CacheCorrectParams out{};
         out.width = width;
         out.height = height;
         out.stride = stride;
-        out.weight = weight;
+        out.scale = scale;
         out.total = total;
         return out;
     }
@@ -130,7 +130,8 @@ struct Blocks {
     double total = 0.0, squares = 0.0;
 
     // One correction more, of so many directions. points: x, y and z of what pixels show.
-    void add(const std::vector<float>& points, const std::vector<float>& found, double weight) {
+    void add(const std::vector<float>& points, const std::vector<float>& found, double scale,
+             double weight) {
         total += weight;
         squares += weight * weight;
         std::vector<double> together(shares.size(), 0.0), apart(shares.size(), 0.0);
@@ -143,8 +144,8 @@ struct Blocks {
                 for (std::uint32_t k = 0; k < 3; ++k)
                     good = good && std::isfinite(found[k * stride + p]) &&
                            std::abs(points[k * stride + p]) <= 1.0f + static_cast<float>(k);
-                sums[c * stride + p] += good ? weight * value : 0.0;
-                d += good ? weights[c] * weight * value : 0.0;
+                sums[c * stride + p] += good ? scale * value : 0.0;
+                d += good ? weights[c] * scale * value : 0.0;
                 sum += weights[c] * sums[c * stride + p];
             }
             sums[3 * stride + p] += d * d;
@@ -191,8 +192,8 @@ TEST_P(SkyPasses, TrustWhatSamplesAgreeAbout) {
             points[axis * B::stride + p] = (p % 2 == 0 ? side : -side) * beyond;
         }
         const float weight = sample < 5 ? 2.0f : sample % 2 == 0 ? 8.0f : 3.0f;
-        wanted.add(points, found, double{weight});
-        CacheCorrectParams of = Blocks::params(weight, static_cast<float>(wanted.total));
+        wanted.add(points, found, 6.0, double{weight});
+        CacheCorrectParams of = Blocks::params(6.0f, static_cast<float>(wanted.total));
         of.squares = static_cast<float>(wanted.squares);
         of.low = {-1, -2, -3, 9};
         of.high = {1, 2, 3, 9};
@@ -297,7 +298,7 @@ TEST(SkyPassChecks, RefuseBuffersThatAreTooSmall) {
     }
     CacheCorrectParams narrow = of;
     narrow.stride = 240;
-    for (const CacheCorrectParams& wrong : {B::params(0, 1), B::params(2, 1), narrow})
+    for (const CacheCorrectParams& wrong : {B::params(0, 1), B::params(1, 0), narrow})
         EXPECT_THROW(passes.gauge(queue, wrong, points, planes, planes, planes), Error);
     EXPECT_THROW(passes.gauge(queue, of, {few, {}}, planes, planes, planes), Error);
     CacheParams params{};

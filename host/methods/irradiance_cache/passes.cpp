@@ -80,9 +80,9 @@ void need_spots(const PassKernel& pass, const SpotParams& params, std::uint32_t 
 // Returns how many blocks there are.
 std::size_t need_pixels(const PassKernel& pass, const CacheCorrectParams& params,
                         const cl::Buffer& sums, const cl::Buffer& shares) {
-    if (!(params.weight > 0.0f) || !(params.total >= params.weight))
-        throw Error(pass.name + ": weight is " + std::to_string(params.weight) + " of " +
-                    std::to_string(params.total) + ", one above 0 and no more than all needed");
+    if (!(params.scale > 0.0f) || !(params.total > 0.0f))
+        throw Error(pass.name + ": scale is " + std::to_string(params.scale) + " and total " +
+                    std::to_string(params.total) + ", above 0 needed");
     need_stride(pass, "stride", params.stride, std::size_t{params.width} * params.height);
     const std::size_t count = std::size_t{cache_blocks(params.width)} * cache_blocks(params.height);
     need(pass, "sums", sums, 4 * word * params.stride);

@@ -108,20 +108,19 @@ void IrradianceCache::State::forget_corrections() {
     gauged = {};
 }
 
-void IrradianceCache::State::light_by_sky(const cl::Buffer& planes, std::size_t points,
-                                          std::uint32_t of_stride, const cl::Buffer& irradiance,
-                                          std::uint32_t add) {
+void IrradianceCache::State::light_by_sky(const Part& part, const cl::Buffer& planes,
+                                          std::size_t points, std::uint32_t of_stride,
+                                          const cl::Buffer& irradiance, std::uint32_t add) {
     Recorder& record = picture.record();
-    const auto directions = static_cast<std::uint32_t>(sky_lights.set().emitters.size());
     const DirectParams direct{
-        of_stride, static_cast<std::uint32_t>(points), directions, 1.0f, 1, add, 0, 0};
+        of_stride, static_cast<std::uint32_t>(points), part.count, 1.0f, 1, add, part.first, 0};
     record("lights.direct", points, [&](const WaitList& wait) {
         return lights.direct(record.queue(), direct, sky_lights.buffers(), planes, irradiance,
                              picture.counter(), wait);
     });
 }
 
-bool IrradianceCache::State::light_by_sky(std::uint32_t part, std::uint32_t parts) {
+bool IrradianceCache::State::draw_sky() {
     Recorder& record = picture.record();
     if (!weighed) {
         weighed = true;
@@ -130,28 +129,29 @@ bool IrradianceCache::State::light_by_sky(std::uint32_t part, std::uint32_t part
         record.fill(corrections, 0);
     }
     if (!sky_weights) return false;
-    EmitterOptions wanted = sky_options(options, (sample + 1) * parts + part);
-    wanted.environment_lights /= static_cast<int>(parts);
+    EmitterOptions wanted = sky_options(options, sample);
     wanted.sky_weights = sky_weights;
     wanted.receivers = receivers;
     grown += sky_lights.follow(wanted, record, picture.passes());
     sky_lights.draw(record, picture.passes(), picture.lists());
-    record.fill(b.next, 0);
-    light_by_sky(b.planes, records.size(), stride, b.next, DIRECT_TAKE);
     return true;
 }
 
-void IrradianceCache::State::gauge(std::uint32_t directions) {
+void IrradianceCache::State::correct(const Part& part) {
     Recorder& record = picture.record();
-    light_by_sky(picture.gbuffer().planes, picture.pixels(), picture.stride(), found_light,
+    record.fill(b.next, 0);
+    light_by_sky(part, b.planes, records.size(), stride, b.next, DIRECT_TAKE);
+    show(true);
+    light_by_sky(part, picture.gbuffer().planes, picture.pixels(), picture.stride(), found_light,
                  DIRECT_ADD);
     const glm::vec3 &low = receivers.low, &high = receivers.high;
+    const auto directions = static_cast<float>(part.count);
     gauged.width = static_cast<std::uint32_t>(options.picture.width);
     gauged.height = static_cast<std::uint32_t>(options.picture.height);
     gauged.stride = picture.stride();
-    gauged.weight = static_cast<float>(directions);
-    gauged.total += gauged.weight;
-    gauged.squares += gauged.weight * gauged.weight;
+    gauged.scale = static_cast<float>(sky_lights.set().emitters.size());
+    gauged.total += directions;
+    gauged.squares += directions * directions;
     gauged.low = {low.x, low.y, low.z, 0.0f};
     gauged.high = {high.x, high.y, high.z, 0.0f};
     record("cache.gauge", picture.pixels(), [&](const WaitList& wait) {
@@ -161,13 +161,15 @@ void IrradianceCache::State::gauge(std::uint32_t directions) {
 }
 
 void IrradianceCache::State::show_by_sky() {
-    const auto directions = static_cast<std::uint32_t>(options.sky_lights);
-    const std::uint32_t parts = sample < parted && directions % most_parts == 0 ? most_parts : 1;
+    if (!corrects() || !draw_sky()) {
+        show();
+        return;
+    }
+    const auto directions = static_cast<std::uint32_t>(sky_lights.set().emitters.size());
+    const std::uint32_t parts = sample < parted ? std::min(most_parts, directions) : 1;
     for (std::uint32_t part = 0; part < parts; ++part) {
-        const bool sky = corrects() && light_by_sky(part, parts);
-        show(sky);
-        if (!sky) return;
-        gauge(directions / parts);
+        const std::uint32_t first = directions * part / parts;
+        correct({first, directions * (part + 1) / parts - first});
     }
     Recorder& record = picture.record();
     record("cache.correct", picture.pixels(), [&](const WaitList& wait) {

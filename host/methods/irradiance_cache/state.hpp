@@ -74,12 +74,15 @@ struct IrradianceCache::State {
     void show(bool sky = false);
     // Where the scene has a sky and options ask for its directions: light of the sky between the
     // records, by shadow maps of `sample`, other ones than those of samples before it.
-    // show_by_sky() shows the light of the records, and corrects it unless none of them sees the
-    // sky: light_by_sky() draws directions and finds what they bring to the records, show()
-    // interpolates that, and gauge() finds what they bring to the pixels.
+    // show_by_sky() shows the light of the records and corrects it, unless none of them sees the
+    // sky: draw_sky() draws directions, and false says so. correct() finds what a part of them
+    // brings to the records, interpolates that, and finds what it brings to the pixels.
+    struct Part {
+        std::uint32_t first, count;
+    };
     void show_by_sky();
-    bool light_by_sky(std::uint32_t part, std::uint32_t parts);
-    void gauge(std::uint32_t directions);
+    bool draw_sky();
+    void correct(const Part& part);
     // Where surfaces have lobes: what the records have around them, and what lobes reflect of it.
     void look_around();
     void add_gloss(const View& view);
@@ -87,8 +90,8 @@ struct IrradianceCache::State {
     void forget_corrections();
     std::shared_ptr<const SkyWeights> weigh_sky();
     LocalBox lit_by_sky() const;  // around what is shown and the records that stand in for it
-    void light_by_sky(const cl::Buffer& planes, std::size_t points, std::uint32_t of_stride,
-                      const cl::Buffer& irradiance, std::uint32_t add);
+    void light_by_sky(const Part& part, const cl::Buffer& planes, std::size_t points,
+                      std::uint32_t of_stride, const cl::Buffer& irradiance, std::uint32_t add);
     // Rows of the buffers for VPLs in small lit places; finds these places, as the records see
     // them.
     void add_spots(BufferTable& table);
@@ -127,8 +130,8 @@ struct IrradianceCache::State {
     LocalBox receivers{};                           // of light of the sky
     std::size_t grown = 0;                          // bytes, of shadow maps
     std::uint32_t sample = 0;
-    CacheCorrectParams gauged{};                    // the last of them
-    cl::Buffer all_nodes, all_lists;                // of all_tree
+    CacheCorrectParams gauged{};      // the last of them
+    cl::Buffer all_nodes, all_lists;  // of all_tree
     cl::Buffer chosen, places, worth, nearest, doubt;
     std::vector<CacheRecord> records;
     std::vector<CacheRecord> shown;  // what each pixel shows

@@ -103,7 +103,7 @@ cl::Event LightPasses::direct(const cl::CommandQueue& queue, const DirectParams&
                               const WaitList& wait) const {
     need_stride(direct_, "stride", params.stride, params.point_count);
     need_depth_words(direct_, params.depth_words, sources.kind);
-    need_emitters(direct_, sources, params.emitter_count);
+    need_emitters(direct_, sources, std::size_t{params.first_emitter} + params.emitter_count);
     need(direct_, "planes", planes,
          gbuffer_bytes(direct_.storage, params.stride, GBUFFER_GEOMETRIC + 3));
     need(direct_, "irradiance", irradiance, irradiance_bytes(direct_.storage, params.stride));

@@ -57,7 +57,8 @@ public:
                        const cl::Buffer& lights, const cl::Buffer& negative,
                        const WaitList& wait = {}) const;
 
-    // Shadowed direct irradiance, exposed lux, of the first point_count points of planes
+    // Shadowed direct irradiance, exposed lux, by emitter_count emitters from first_emitter on, of
+    // the first point_count points of planes
     // [>= GBUFFER_GEOMETRIC + 3][stride] -> irradiance [IRRADIANCE_PLANES][stride]. A point with a
     // number that is not finite gets NaN; packets with such points are counted in non_finite [1]
     // uint, which is only added to.

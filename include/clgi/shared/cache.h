@@ -104,9 +104,9 @@ typedef struct {
     uint width;  // pixels
     uint height;
     uint stride;    // of the planes of pixels
-    float weight;   // of this correction, above 0: how many directions it has
-    float total;    // of all so far, with this one
-    float squares;  // sum of the squares of their weights
+    float scale;    // from what was found to the sum over the correction's directions, above 0
+    float total;    // directions of all corrections so far, with this one, above 0
+    float squares;  // sum of the squares of how many each has
     uint pad0_;
     uint pad1_;
     float4 low;  // xyz: what the directions' shadow maps cover, local frame

@@ -79,8 +79,8 @@ typedef struct {
     float texel_bias;  // shadow bias, in texels of the shadow map; 1
     uint depth_words;  // words of a shadow map's pixel: 1 for depth alone, 2 for visibility
     uint add;          // 0: in the place of what is there; DIRECT_ADD, DIRECT_TAKE
-    uint pad0_;
-    uint pad1_;
+    uint first_emitter;
+    uint pad_;
 } DirectParams;
 
 enum { DIRECT_ADD = 1, DIRECT_TAKE = 2 };  // to what is there, from it
