@@ -18,6 +18,7 @@
 #include "scene/luminance.hpp"
 #include "scene/median_cut.hpp"
 #include "scene/sky_cells.hpp"
+#include "scene/sky_parts.hpp"
 #include "scene/texture_pool.hpp"
 #include "scene/validate.hpp"
 
@@ -125,11 +126,26 @@ Light as_light(const SkyLight& from) {
 }  // namespace
 
 struct DeviceScene::Cut {
+    struct Part {
+        int count = 0;
+        std::vector<Light> lights;
+        std::optional<SkyCells> cells;
+        std::shared_ptr<const SkyWeights> weights;  // of the cells
+    };
+    const SkyParts& parts(const Environment& of) {
+        if (!found) found = sky_parts(of);
+        return *found;
+    }
+    // Null where the part does not exist.
+    const Environment* environment(const Environment& of, SkyPart part) {
+        if (part == SkyPart::whole) return &of;
+        const SkyParts& known = parts(of);
+        if (part == SkyPart::soft) return &known.soft;
+        return known.found.share > 0.0 ? &known.bright : nullptr;
+    }
     std::mutex mutex;
-    int count = 0;
-    std::vector<Light> lights;
-    std::shared_ptr<const SkyWeights> weights;  // of the cells
-    std::optional<SkyCells> cells;
+    std::optional<SkyParts> found;
+    std::array<Part, 3> of;  // by SkyPart
 };
 
 DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, const Scene& scene) {
@@ -249,30 +265,50 @@ void DeviceScene::list_emissive() {
     }
 }
 
-std::vector<Light> DeviceScene::environment_lights(int count) const {
+std::vector<Light> DeviceScene::environment_lights(int count, SkyPart part) const {
     if (!environment_) return {};
     const std::lock_guard lock(cut_->mutex);
-    if (cut_->count == count) return cut_->lights;
+    const Environment* environment = cut_->environment(*environment_, part);
+    if (!environment) return {};
+    Cut::Part& kept = cut_->of[static_cast<std::size_t>(part)];
+    if (kept.count == count) return kept.lights;
     std::vector<Light> lights;
-    for (const SkyLight& part : median_cut(*environment_, count)) lights.push_back(as_light(part));
-    cut_->lights = std::move(lights);
-    cut_->count = count;
-    return cut_->lights;
+    for (const SkyLight& light : median_cut(*environment, count)) lights.push_back(as_light(light));
+    kept.lights = std::move(lights);
+    kept.count = count;
+    return kept.lights;
 }
 
 std::vector<Light> DeviceScene::drawn_environment_lights(
-    const std::vector<glm::dvec2>& places, const std::shared_ptr<const SkyWeights>& weights) const {
+    const std::vector<glm::dvec2>& places, const std::shared_ptr<const SkyWeights>& weights,
+    SkyPart part) const {
     if (!environment_ || places.empty()) return {};
     const std::lock_guard lock(cut_->mutex);
-    if (!cut_->cells || cut_->weights != weights) {
-        cut_->cells.emplace(*environment_, weights ? *weights : SkyWeights());
-        cut_->weights = weights;
+    const Environment* environment = cut_->environment(*environment_, part);
+    if (!environment) return {};
+    Cut::Part& kept = cut_->of[static_cast<std::size_t>(part)];
+    if (!kept.cells || kept.weights != weights) {
+        kept.cells.emplace(*environment, weights ? *weights : SkyWeights());
+        kept.weights = weights;
     }
     std::vector<Light> lights;
-    for (const glm::dvec2& place : places) lights.push_back(as_light(cut_->cells->drawn(place)));
+    for (const glm::dvec2& place : places) lights.push_back(as_light(kept.cells->drawn(place)));
     const float share = 1.0f / static_cast<float>(places.size());
     for (Light& light : lights) light.intensity *= share;
     return lights;
+}
+
+std::optional<Environment> DeviceScene::environment_part(SkyPart part) const {
+    if (!environment_) return std::nullopt;
+    const std::lock_guard lock(cut_->mutex);
+    const Environment* environment = cut_->environment(*environment_, part);
+    return environment ? std::optional(*environment) : std::nullopt;
+}
+
+BrightSky DeviceScene::bright_sky() const {
+    if (!environment_) return {};
+    const std::lock_guard lock(cut_->mutex);
+    return cut_->parts(*environment_).found;
 }
 
 void DeviceScene::turn_environment(double angle) {

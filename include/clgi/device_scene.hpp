@@ -45,6 +45,15 @@ struct SkyWeights {
     std::vector<float> values;
 };
 
+// Parts of an environment: what is brighter than 16 times the mean luminance over all directions
+// (the sun, lamps), less that, and the rest. Without such light the rest is all.
+enum class SkyPart { whole, soft, bright };
+
+struct BrightSky {
+    double share = 0.0;        // of the environment's luminance over all directions; 0: none
+    double solid_angle = 0.0;  // steradians, of an even disc whose directions differ as much
+};
+
 // Copies share their buffers; SceneMover moves the geometry of all of them, but lists what emits
 // for one.
 class CLGI_API DeviceScene {
@@ -60,15 +69,19 @@ public:
     // An environment of one colour has a picture of one texel.
     const std::optional<Environment>& environment() const { return environment_; }
     // At most `count` directional lights that approximate it [Debevec05], with all of its light.
-    // Computed at the first call and kept until another count is given. May be called by several
-    // threads.
-    std::vector<Light> environment_lights(int count) const;
+    // Computed at the first call and kept until another count is given, for each part. May be
+    // called by several threads.
+    std::vector<Light> environment_lights(int count, SkyPart part = SkyPart::whole) const;
     // One directional light for each place of [0,1)², drawn from the environment by its luminance,
     // where this counts by `weights` (null: everywhere alike): the mean over places is the light of
     // the environment. Kept and called as above.
     std::vector<Light> drawn_environment_lights(
         const std::vector<glm::dvec2>& places,
-        const std::shared_ptr<const SkyWeights>& weights = nullptr) const;
+        const std::shared_ptr<const SkyWeights>& weights = nullptr,
+        SkyPart part = SkyPart::whole) const;
+    // Kept as above. A part that does not exist is empty, as is any without an environment.
+    std::optional<Environment> environment_part(SkyPart part) const;
+    BrightSky bright_sky() const;
     bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
     bool needs_textures() const {  // some surface has a texture, a mask or is blended
         return has_masks_ || (info_.flags & SCENE_HAS_TEXTURES) != 0;

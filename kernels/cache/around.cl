@@ -19,7 +19,7 @@ static float3 around_radiance(const LinkWorld* world, const View* view, const Li
     float3 sends, reflects;
     CacheShare share;
     if (!link_surface(world, packet, k, &sends, &reflects, &share))
-        return link_above(world, view, packet, k) * world->params->sky.xyz * per_factor;
+        return link_above(world, view, packet, 0, k) * world->params->sky.xyz * per_factor;
     CacheLight found = cache_light(&share, light, world->tree->stride);
     return (link_lane(packet->once, k) + (sends + reflects * found.irradiance) * per_factor) *
            (1.0f / CLGI_PI);

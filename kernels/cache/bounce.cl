@@ -2,8 +2,10 @@
 //
 //   E_i' = B_i + R_i + sum_j T_ij E_j     (link.cl)                       [derived: Jacobi iteration]
 //
+// What is shown of it lacks the light of the sky's bright parts, which light pixels as lamps do.
+//
 // Work size    1D, one work-item a record and channel; any local size; tail guarded
-// Writes       its own light
+// Writes       its own light, and what is shown of it
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/cache.h"
 #include "packet.clh"
@@ -13,8 +15,10 @@ kernel void cache_bounce(
     global const float*      restrict rows,      // [record][3][stride]
     global const float*      restrict base,      // [3][stride]
     global const float*      restrict reflected,  // [3][stride]
+    global const float*      restrict bright,    // [3][stride] of base
     global const float*      restrict light,     // [3][stride] before this step
-    global float*            restrict next)      // [3][stride]
+    global float*            restrict next,      // [3][stride]
+    global float*            restrict shown)     // [3][stride]
 {
     uint item = (uint)get_global_id(0);
     if (item >= 3 * params.record_count) return;
@@ -30,5 +34,7 @@ kernel void cache_bounce(
     float sum = 0.0f;
     for (int k = 0; k < CLGI_WIDTH; ++k) sum += lanes[k];
     uint at = channel * stride + record;
-    next[at] = base[at] + reflected[at] + sum;
+    float found = base[at] + reflected[at] + sum;
+    next[at] = found;
+    shown[at] = found - bright[at];
 }

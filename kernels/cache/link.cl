@@ -6,7 +6,8 @@
 //
 // w: form factor of a pixel, rho: albedo of the surface in it, lobes taken for diffuse, W_j: share of
 // record j in it (lookup.clh), D: radiance that it reflects of direct light towards the record, by
-// shadow maps (lights/direct.clh) and lobes (microfacet.clh). E has no direct light.
+// shadow maps (lights/direct.clh) and lobes (microfacet.clh). E has no direct light but that of the
+// sky. Of bright parts of the sky that pixels are lit by directions of, `bright` says what they bring.
 // Sample points of emissive surfaces, of which there may be hundreds, take turns from one block of
 // 16 pixels to the next.        [derived: radiosity of points, gathered by hemicubes]
 //
@@ -26,6 +27,7 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
     global float* row = rows + (ulong)record * 3 * stride;
     for (uint k = 0; k < 3 * stride; ++k) row[k] = 0.0f;
     float3 own = (float3)(0.0f), above = (float3)(0.0f), once = (float3)(0.0f);
+    float3 beyond = (float3)(0.0f);
     float all = 0.0f;
     int stands = link_stands(&params, planes, record);
     for (uint face = 0; stands && face < 5; ++face) {
@@ -38,7 +40,8 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
             link_packet(&world, &view, visibility, face, pixel, block, &packet);
             for (int k = 0; k < CLGI_WIDTH; ++k) {
                 all += packet.factor[k];
-                above += link_above(&world, &view, &packet, k);
+                above += link_above(&world, &view, &packet, 0, k);
+                if (params.bright) beyond += link_above(&world, &view, &packet, 1, k);
                 float3 sends, reflects;
                 CacheShare share;
                 if (!link_surface(&world, &packet, k, &sends, &reflects, &share)) continue;
@@ -56,10 +59,14 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
     // The pixels' form factors sum to 1 but for the midpoint rule.
     float scale = all > 0.0f ? 1.0f / all : 0.0f;
     for (uint k = 0; k < 3 * stride; ++k) row[k] *= scale;
-    own = scale * (own + CLGI_PI * above * params.sky.xyz);
+    beyond *= scale * CLGI_PI * params.sky.xyz;
+    own = scale * (own + CLGI_PI * above * params.sky.xyz) + beyond;
     base[record] = own.x;
     base[stride + record] = own.y;
     base[2 * stride + record] = own.z;
+    bright[record] = beyond.x;
+    bright[stride + record] = beyond.y;
+    bright[2 * stride + record] = beyond.z;
     reflected[record] = scale * once.x;
     reflected[stride + record] = scale * once.y;
     reflected[2 * stride + record] = scale * once.z;

@@ -9,7 +9,7 @@
 #include "cache/link.clh"
 
 #define MOST_LANES 64
-#define SUMS 10  // of form factors, and in three channels of B, R and the sky
+#define SUMS 13  // of form factors, and in three channels of B, R, the sky and its bright part
 
 kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
     local float brings[SUMS][MOST_LANES];
@@ -36,11 +36,15 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
             if (pixel < pixels && link_counts(&params, block, pixel)) {
                 LinkPacket packet;
                 link_packet(&world, &view, visibility, face, pixel, block, &packet);
-                float3 above = link_above(&world, &view, &packet, 0);
+                float3 above = link_above(&world, &view, &packet, 0, 0), beyond = (float3)(0.0f);
+                if (params.bright) beyond = link_above(&world, &view, &packet, 1, 0);
                 brings[0][lane] = packet.factor[0];
                 brings[7][lane] = above.x;
                 brings[8][lane] = above.y;
                 brings[9][lane] = above.z;
+                brings[10][lane] = beyond.x;
+                brings[11][lane] = beyond.y;
+                brings[12][lane] = beyond.z;
                 float3 sends, rho;
                 CacheShare share;
                 if (link_surface(&world, &packet, 0, &sends, &rho, &share)) {
@@ -83,7 +87,10 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
     if (lane != 0) return;
     float skies[3] = {params.sky.x, params.sky.y, params.sky.z};
     for (uint c = 0; c < 3; ++c) {
-        base[c * stride + record] = scale * (sums[1 + c] + CLGI_PI * sums[7 + c] * skies[c]);
+        float beyond = sums[10 + c] * (scale * CLGI_PI * skies[c]);
+        base[c * stride + record] =
+            scale * (sums[1 + c] + CLGI_PI * sums[7 + c] * skies[c]) + beyond;
+        bright[c * stride + record] = beyond;
         reflected[c * stride + record] = scale * sums[4 + c];
     }
 }

@@ -86,32 +86,6 @@ TEST(CachePasses, WeighWhatPicksSend) {
     EXPECT_EQ(cells[5], 77u);
 }
 
-// Two records at the origin that look up, their hemicubes, in which nothing is drawn, and what link
-// writes.
-void look_up(CacheBuffers& b, std::uint32_t size) {
-    const cl::CommandQueue& queue = test::device().queue;
-    b.views = test::empty<View>(10);
-    b.visibility = test::upload(std::vector<std::uint64_t>(6 * size * size, ~std::uint64_t{0}));
-    b.sky = test::empty<float>(4);
-    b.rows = test::empty<float>(6 * plane);
-    b.base = test::empty<float>(3 * plane);
-    b.reflected = test::empty<float>(3 * plane);
-    std::vector<float> records(RECORD_PLANES * plane, 0.0f);
-    for (std::uint32_t i = 0; i < 2; ++i)
-        for (const std::uint32_t normal : {RECORD_NORMAL, RECORD_GEOMETRIC})
-            records[(normal + 1) * plane + i] = 1.0f;
-    b.planes = test::upload(records);
-    CubeParams of{};
-    of.point_count = 2;
-    of.faces = 5;
-    of.size = size;
-    of.stride = plane;
-    of.near = 1e-4f;
-    of.turned = 1;
-    GBufferPasses(test::programs(), test::usual_build())
-        .cubes(queue, of, b.planes, test::upload(std::vector<std::uint32_t>{0, 1}), b.views);
-}
-
 // Below a sky that is lit on one side alone half of pi L arrives; a share of the blocks has as many
 // on both sides, though rows of 32 and 64 pixels have 2 and 4 blocks each.
 TEST(CachePasses, LinkByBlocksOnAllSides) {
@@ -278,7 +252,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
         b.lists = test::empty<std::uint32_t>(CACHE_WAYS * CACHE_LISTED);
         b.sky = test::empty<float>(4);
         b.rows = test::empty<float>(3 * stride * records);
-        for (cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
+        for (cl::Buffer* light : {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown})
             *light = test::empty<float>(3 * stride);
         if (small) b.*small = test::empty<float>(1);
         return b;
@@ -307,9 +281,10 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     using B = CacheBuffers;
     for (const auto small : {&B::views, &B::visibility}) EXPECT_THROW(pick(buffers(small)), Error);
     for (const auto small :
-         {&B::planes, &B::views, &B::visibility, &B::rows, &B::base, &B::reflected})
+         {&B::planes, &B::views, &B::visibility, &B::rows, &B::base, &B::reflected, &B::bright})
         EXPECT_THROW(link(buffers(small)), Error);
-    for (const auto small : {&B::rows, &B::base, &B::reflected, &B::light, &B::next})
+    for (const auto small :
+         {&B::rows, &B::base, &B::reflected, &B::bright, &B::light, &B::next, &B::shown})
         EXPECT_THROW(bounce(buffers(small)), Error);
     for (const auto small : {&B::planes, &B::light}) EXPECT_THROW(show(buffers(small)), Error);
     for (const auto small : {&B::planes, &B::light}) EXPECT_THROW(weigh(buffers(small)), Error);
@@ -327,6 +302,10 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     params.whole_emitters = 1;  // of none
     EXPECT_THROW(link(buffers(nullptr)), Error);
     params.whole_emitters = 0;
+    params.bright = 1;  // the sky has one part
+    params.sky_width = params.sky_height = 1;
+    EXPECT_THROW(link(buffers(nullptr)), Error);
+    params.bright = 0;
     params.size = 12;
     EXPECT_THROW(pick(buffers(nullptr)), Error);
     queue.finish();

@@ -4,12 +4,14 @@
 
 #include <clgi/irradiance_cache.hpp>
 #include <clgi/procedural.hpp>
+#include <clgi/reference.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "cache_pictures.hpp"
 #include "glossy_records.hpp"
 #include "microfacet.hpp"
+#include "scene/environment.hpp"
 #include "scenes.hpp"
 #include "skies.hpp"
 
@@ -84,6 +86,47 @@ TEST(GlossPictures, ReflectASkyByTheirLobes) {
     EXPECT_LT(apart(mean), 0.5 * first);
     EXPECT_LT(apart(mean), 0.03);
     EXPECT_EQ(cache.status().non_finite, 0u);
+}
+
+// Lobes reflect the soft part of a sky as records see it, and its small bright parts as lamps, as
+// in the path tracer's picture.
+TEST(GlossPictures, ReflectASkyInParts) {
+    MetalBelowASky metal;
+    const glm::dvec3 mirrored = glm::reflect(-metal.viewer, metal.normal);
+    metal.scene.environment = test::picture_sky(64, 32, [](int, int) { return 0.5f; });
+    Environment& sky = *metal.scene.environment;
+    sky.factor = {1.0f, 2.0f, 4.0f};
+    reference::Options of;
+    of.width = cache_width;
+    of.height = cache_height;
+    of.samples = 64;
+    for (const bool many : {false, true}) {
+        for (int row = 0; row < 32; ++row)
+            for (int column = 0; column < 64; ++column) {
+                const glm::dvec3 d =
+                    environment_direction(sky, (column + 0.5) / 64, (row + 0.5) / 32);
+                if (glm::dot(d, mirrored) > std::cos(0.07) || (many && row == 2 && column % 9 == 0))
+                    sky.texels[static_cast<std::size_t>(64 * row + column)] = glm::vec3(150.0f);
+            }
+        const DeviceScene device = test::on_device(metal.scene);
+        ASSERT_GT(device.bright_sky().share, 0.1);
+        IrradianceCache cache(test::programs(), test::device().queue, device, cache_options());
+        glm::dvec3 mean(0.0);
+        constexpr std::uint32_t samples = 320;
+        for (std::uint32_t sample = 0; sample < samples; ++sample) {
+            cache.sample(sample);
+            const Camera& camera = metal.scene.cameras[0];
+            (sample == 0 ? cache.render(camera) : cache.render_again(camera)).wait();
+            mean += mean_radiance(test::vectors(test::device().queue, cache.picture().radiance(),
+                                                cache.picture().stride(),
+                                                std::size_t{cache_width} * cache_height)) /
+                    double{samples};
+        }
+        const glm::dvec3 wanted = mean_radiance(
+            reference::PathTracer(metal.scene).render(metal.scene.cameras[0], of).radiance);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(mean[c], wanted[c], 0.03 * wanted[c]) << many << " " << c;
+    }
 }
 
 // A camera of parallel rays sees the same as one that is far away.

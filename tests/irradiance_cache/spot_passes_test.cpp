@@ -132,7 +132,8 @@ struct LitFloor {
         records.lists =
             test::upload(std::vector<std::uint32_t>(CACHE_WAYS * CACHE_LISTED, CACHE_NONE));
         records.sky = test::empty<float>(4);
-        for (cl::Buffer* light : {&records.rows, &records.base, &records.reflected})
+        for (cl::Buffer* light :
+             {&records.rows, &records.base, &records.reflected, &records.bright})
             *light = test::empty<float>(3 * places);
         records.by_spots = test::upload(tiles);
         passes.link(queue, params, tree, *scene, emitters, records);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "device.hpp"
+#include "math_modes.hpp"
 
 namespace clgi {
 
@@ -59,5 +60,33 @@ struct TwoRecords {
     CacheTree tree = one_leaf(2, plane);
     CacheBuffers b;
 };
+
+// Two records at the origin that look up, their hemicubes, in which nothing is drawn, and what link
+// writes.
+inline void look_up(CacheBuffers& b, std::uint32_t size) {
+    const cl::CommandQueue& queue = test::device().queue;
+    b.views = test::empty<View>(10);
+    b.visibility = test::upload(std::vector<std::uint64_t>(6 * size * size, ~std::uint64_t{0}));
+    b.sky = test::empty<float>(4);
+    b.rows = test::empty<float>(6 * plane);
+    b.base = test::empty<float>(3 * plane);
+    b.light = test::upload(std::vector<float>(3 * plane, 0.0f));
+    for (cl::Buffer* light : {&b.reflected, &b.bright, &b.next, &b.shown})
+        *light = test::empty<float>(3 * plane);
+    std::vector<float> records(RECORD_PLANES * plane, 0.0f);
+    for (std::uint32_t i = 0; i < 2; ++i)
+        for (const std::uint32_t normal : {RECORD_NORMAL, RECORD_GEOMETRIC})
+            records[(normal + 1) * plane + i] = 1.0f;
+    b.planes = test::upload(records);
+    CubeParams of{};
+    of.point_count = 2;
+    of.faces = 5;
+    of.size = size;
+    of.stride = plane;
+    of.near = 1e-4f;
+    of.turned = 1;
+    GBufferPasses(test::programs(), test::usual_build())
+        .cubes(queue, of, b.planes, test::upload(std::vector<std::uint32_t>{0, 1}), b.views);
+}
 
 }  // namespace clgi

@@ -10,6 +10,7 @@
 #include "scene/luminance.hpp"
 #include "scenes.hpp"
 #include "skies.hpp"
+#include "sources.hpp"
 
 namespace clgi {
 namespace {
@@ -17,19 +18,6 @@ namespace {
 using std::numbers::pi;
 
 CLGI_IN_BOTH_MATHS(Shares);
-
-// Every kind of source: a lamp, a sun, a weak lamp, sixteen directions, sixteen samples.
-Scene scene_of_all() {
-    Scene scene = test::plain_scene();
-    test::add_floor(scene, 2.0);
-    Material glowing;
-    glowing.emission = glm::vec3(3.0f, 2.0f, 1.0f);
-    test::add_floor(scene, 0.5, 1.0, test::add_material(scene, glowing));
-    scene.lights = {test::spot_light({0, 2, 0}, {0, -1, 0}, 0.5),
-                    test::directional_light({0, -1, 0}), test::point_light({1, 1, 1}, 0.01f)};
-    scene.environment = test::gradient_sky();
-    return scene;
-}
 
 double power_of(const Emitter& emitter) {
     const double intensity = luminance(glm::vec3(emitter.intensity));
@@ -283,7 +271,7 @@ TEST(Emitters, OfLaterSamplesAreDrawnFromTheEnvironment) {
     const EmitterSet first = make_emitters(scene, options);
     const std::vector<Light> centres = scene.environment_lights(6);
     ASSERT_EQ(first.emitters.size(), 6u);
-    EXPECT_TRUE(first.soft);
+    EXPECT_TRUE(first.soft());
     for (std::size_t i = 0; i < 6; ++i)
         EXPECT_EQ(
             glm::vec3(first.emitters[i].axis.x, first.emitters[i].axis.y, first.emitters[i].axis.z),
@@ -338,7 +326,7 @@ TEST(Emitters, KnowWhetherTheirShadowsAreSoft) {
     const auto soft = [&](int surfaces, int directions) {
         return make_emitters(test::on_device(world),
                              {.area_samples = surfaces, .environment_lights = directions})
-            .soft;
+            .soft();
     };
     EXPECT_FALSE(soft(0, 0));
     EXPECT_TRUE(soft(3, 0));

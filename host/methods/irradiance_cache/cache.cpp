@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <clgi/advanced/planes.hpp>
+#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -15,6 +16,21 @@ namespace {
 constexpr const char* cache_owner = "irradiance-cache";
 constexpr std::uint32_t area_samples_at_once = 4;
 constexpr std::size_t most_chosen = 8192;  // places of other hemicubes than those of records
+
+// The sky's small bright parts light pixels as lamps do: hemicubes would see them from one record
+// and miss them from the next. One that is no larger than a sun lights what hemicubes see in this
+// way, too.
+void light_brightly(IrradianceCacheOptions& options, const DeviceScene& scene) {
+    constexpr double sun = 0.002;  // steradians
+    constexpr int many = 16, map = 256;
+    const BrightSky bright = scene.bright_sky();
+    if (bright.share == 0.0 || !options.picture.direct) return;
+    EmitterOptions& lights = options.picture.emitters;
+    lights.sky_part = SkyPart::bright;
+    lights.environment_lights = bright.solid_angle < sun ? 1 : many;
+    if (lights.environment_lights > 1) lights.environment_size = std::min(lights.shadow_size, map);
+    lights.shadows = true;
+}
 
 IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene& scene) {
     need_range(cache_owner, "seen", options.seen, 1, 20000);
@@ -32,6 +48,7 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
                     ": storage is half, full needed: the host reads where pixels are");
     options.picture = without_sky(options.picture);
     options.picture.shadow_maps = true;  // records are lit by them
+    light_brightly(options, scene);
     options.picture.build.textures = options.picture.build.textures && scene.needs_textures();
     if (options.emission) options.picture.emitters.area_samples = 0;
     options.picture.emitters.focused = true;
@@ -97,7 +114,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
       lights(programs, options.picture.build) {
     capacity = most_records(options);
     stride = plane_stride(capacity);
-    sky = coarse_sky(scene.environment());
+    read_sky();
     BufferTable all = picture.table();
     add_to(all);
     picture.allocate(all);
@@ -115,6 +132,12 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     lights.build({"direct"});
 }
 
+void IrradianceCache::State::read_sky() {
+    sky = coarse_sky(scene.environment_part(soft_sky(options)));
+    if (options.picture.emitters.environment_lights > 1)
+        sky.add(coarse_sky(scene.environment_part(SkyPart::bright)));
+}
+
 void IrradianceCache::State::add_to(BufferTable& table) {
     const char* lower = "seen, met, refined or face";
     const std::size_t word = sizeof(float), plane = stride * word;
@@ -126,7 +149,7 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     table.add(b.visibility, "what hemicubes see", lower,
               3 * face * face * capacity * sizeof(std::uint64_t));
     table.add(b.rows, "transport", lower, 3 * plane * capacity);
-    for (cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
+    for (cl::Buffer* light : {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown})
         table.add(*light, "light", lower, 3 * plane);
     table.add(chosen, "records", lower, std::max<std::size_t>(capacity, most_chosen) * word);
     table.add(doubt, "doubt", "width or height", word * picture.stride());
@@ -171,15 +194,16 @@ CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count)
     out.picks = picks_per_record;
     out.thin = 1;
     out.pick_stride = static_cast<std::uint32_t>(pick_stride);
-    const std::vector<Emitter>& emitters = picture.emitters().emitters;
-    const auto whole = std::count_if(emitters.begin(), emitters.end(),
-                                     [](const Emitter& one) { return one.kind != EMITTER_AREA; });
-    out.emitter_count = static_cast<std::uint32_t>(emitters.size());
-    out.whole_emitters = static_cast<std::uint32_t>(whole);  // they come first
+    const EmitterSet& set = picture.emitters();
+    const auto directions = static_cast<std::uint32_t>(set.directions);
+    out.emitter_count = static_cast<std::uint32_t>(set.emitters.size());
+    out.bright = sky.parts > 1 ? 1 : 0;
+    out.skipped = out.bright ? directions : 0;
+    out.whole_emitters = static_cast<std::uint32_t>(set.lamps) + directions - out.skipped;
     out.spots = has_tiles ? 1 : 0;
     out.lobes = scene.has_lobes() ? 1 : 0;
     out.emitter_step =
-        std::max(1u, (out.emitter_count - out.whole_emitters) / area_samples_at_once);
+        std::max(1u, (out.emitter_count - out.whole_emitters - out.skipped) / area_samples_at_once);
     return out;
 }
 
@@ -191,7 +215,7 @@ IrradianceCache::~IrradianceCache() = default;
 
 void IrradianceCache::lights_changed() {
     state_->picture.lights_changed();
-    state_->sky = coarse_sky(state_->scene.environment());
+    state_->read_sky();
 }
 
 cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {

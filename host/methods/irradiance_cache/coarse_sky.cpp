@@ -13,6 +13,11 @@ constexpr int sky_columns = 128, sky_rows = 64;
 
 }  // namespace
 
+void CoarseSky::add(const CoarseSky& part) {
+    parts += part.parts;
+    texels.insert(texels.end(), part.texels.begin(), part.texels.end());
+}
+
 CoarseSky coarse_sky(const std::optional<Environment>& environment) {
     CoarseSky out;
     if (!environment) return out;

@@ -11,7 +11,10 @@ namespace clgi {
 
 struct CoarseSky {
     int width = 0, height = 0;
-    std::vector<float> texels;  // [height][width][3]
+    int parts = 1;
+    std::vector<float> texels;  // [parts][height][width][3]
+    // One part more, of the same size.
+    void add(const CoarseSky& part);
 };
 
 // Of 0 texels without an environment.

@@ -34,7 +34,8 @@ void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
     if (first == 0) {
         plant(tree, b.nodes, b.lists);
         // To the stride: rows are summed in whole packets.
-        for (const cl::Buffer* buffer : {&b.base, &b.reflected, &b.light, &b.next})
+        for (const cl::Buffer* buffer :
+             {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown})
             record.fill(*buffer, 0);
         if (!sky.texels.empty())
             record.write(b.sky, sky.texels.data(), sky.texels.size() * sizeof(float));
@@ -108,6 +109,7 @@ bool IrradianceCache::State::rests() {
 
 CacheBuffers IrradianceCache::State::shown_buffers() const {
     CacheBuffers out = b;
+    out.light = b.shown;
     if (found.refined > 0) {
         out.nodes = all_nodes;
         out.lists = all_lists;

@@ -36,11 +36,15 @@ void need_link(const PassKernel& pass, const CacheParams& params, const CacheTre
                const EmitterBuffers& emitters, const CacheBuffers& b) {
     need_tree(pass, tree, b);
     need(pass, "sky", b.sky,
-         3 * word * std::max<std::size_t>(1, std::size_t{params.sky_width} * params.sky_height));
+         3 * word *
+             std::max<std::size_t>(
+                 1, std::size_t{params.sky_width} * params.sky_height * (params.bright ? 2 : 1)));
     need_range(pass.name.c_str(), "thin", params.thin, 1u, 1u << 20);
     need_range(pass.name.c_str(), "emitter_step", params.emitter_step, 1u, 1u << 20);
     need_range(pass.name.c_str(), "whole_emitters", params.whole_emitters, 0u,
                params.emitter_count);
+    need_range(pass.name.c_str(), "skipped", params.skipped, 0u,
+               params.emitter_count - params.whole_emitters);
     need_depth_words(pass, 1, emitters.kind);
     need_emitters(pass, emitters, params.emitter_count);
     if (params.spots)
@@ -145,12 +149,12 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
     need_link(link_, params, tree, emitters, b);
     need(link_, "rows", b.rows,
          3 * word * params.stride * (std::size_t{params.first} + params.count));
-    need(link_, "base", b.base, 3 * word * params.stride);
-    need(link_, "reflected", b.reflected, 3 * word * params.stride);
+    for (const cl::Buffer* light : {&b.base, &b.bright, &b.reflected})
+        need(link_, "light", *light, 3 * word * params.stride);
     return launch(link_, queue, params.count * items_each(link_, groups_), wait, params, tree,
                   scene.info(), b.views, b.visibility, b.nodes, b.lists, b.planes, b.sky, scene,
                   emitters.emitters, emitters.views, emitters.visibility, b.by_spots, b.rows,
-                  b.base, b.reflected);
+                  b.base, b.bright, b.reflected);
 }
 
 cl::Event CachePasses::mark(const cl::CommandQueue& queue, const CacheParams& params,
@@ -206,10 +210,10 @@ cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBouncePa
     need_stride(bounce_, "stride", params.stride, end);
     const std::size_t plane = word * params.stride;
     need(bounce_, "rows", b.rows, 3 * plane * end);
-    for (const cl::Buffer* light : {&b.base, &b.reflected, &b.light, &b.next})
+    for (const cl::Buffer* light : {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown})
         need(bounce_, "light", *light, 3 * plane);
     return launch(bounce_, queue, std::size_t{3} * params.record_count, wait, params, b.rows,
-                  b.base, b.reflected, b.light, b.next);
+                  b.base, b.reflected, b.bright, b.light, b.next, b.shown);
 }
 
 cl::Event CachePasses::weigh(const cl::CommandQueue& queue, const CacheParams& params,

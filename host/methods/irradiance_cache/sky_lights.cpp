@@ -28,11 +28,18 @@ constexpr double unseen = 0.002;
 
 }  // namespace
 
+SkyPart soft_sky(const IrradianceCacheOptions& options) {
+    const EmitterOptions& lights = options.picture.emitters;
+    return lights.sky_part == SkyPart::bright ? SkyPart::soft : SkyPart::whole;
+}
+
 EmitterOptions sky_options(const IrradianceCacheOptions& options, std::uint32_t sample) {
     EmitterOptions out = options.picture.emitters;
     out.environment_alone = true;
     out.shadows = true;
     out.environment_lights = options.sky_lights;
+    out.sky_part = soft_sky(options);
+    out.environment_size = 0;
     out.shadow_size = std::min(out.shadow_size, most_map);
     out.vpls = 0;
     out.sample = sample;
@@ -125,6 +132,7 @@ bool IrradianceCache::State::draw_sky() {
     if (!weighed) {
         weighed = true;
         sky_weights = weigh_sky();
+        picture.weigh_sky(sky_weights);
         receivers = lit_by_sky();
         record.fill(corrections, 0);
     }

@@ -31,10 +31,10 @@ std::uint32_t view_size(const EmitterOptions& emitters, std::size_t views) {
 
 // Views of lights that may light small places, of as many lights as there is room for: directional
 // ones first, of which the view around the focus, then spots, then point lights.
-std::vector<SpotView> spot_views(const std::vector<Emitter>& emitters) {
+std::vector<SpotView> spot_views(const std::vector<Emitter>& emitters, std::size_t count) {
     std::vector<SpotView> out;
     for (const std::uint32_t kind : {EMITTER_DIRECTIONAL, EMITTER_SPOT, EMITTER_POINT})
-        for (std::size_t e = 0; e < emitters.size(); ++e) {
+        for (std::size_t e = 0; e < count; ++e) {
             const Emitter& one = emitters[e];
             if ((one.kind & EMITTER_KIND) != kind) continue;
             const bool parallel = kind == EMITTER_DIRECTIONAL;
@@ -73,7 +73,8 @@ std::size_t spot_pixels(const EmitterOptions& emitters) {
 }
 
 bool IrradianceCache::State::casts_spots() const {
-    return options.spots > 0 && !picture.emitters().capacity.together.empty();
+    return options.spots > 0 && !scene.lights().empty() &&
+           !picture.emitters().capacity.together.empty();
 }
 
 void IrradianceCache::State::add_spots(BufferTable& table) {
@@ -107,7 +108,7 @@ void IrradianceCache::State::find_spots(bool finely) {
     found.spots = 0;
     has_tiles = false;
     const EmitterSet& emitters = picture.emitters();
-    std::vector<SpotView> of = spot_views(emitters.emitters);
+    const std::vector<SpotView> of = spot_views(emitters.emitters, emitters.lamps);
     if (!casts_spots() || of.empty()) return;
     Recorder& record = picture.record();
     mark_sides(finely);

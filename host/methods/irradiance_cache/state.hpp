@@ -24,6 +24,9 @@ std::size_t most_vpls(const IrradianceCacheOptions& options);
 // Of the directions of the sky that light the pixels of a sample.
 EmitterOptions sky_options(const IrradianceCacheOptions& options, std::uint32_t sample);
 
+// What hemicubes see of the sky: all that is not lit by as lamps do.
+SkyPart soft_sky(const IrradianceCacheOptions& options);
+
 // Of lights' views and of finer hemicubes, drawn to find such places.
 std::size_t spot_pixels(const EmitterOptions& emitters);
 
@@ -86,6 +89,7 @@ struct IrradianceCache::State {
     // Where surfaces have lobes: what the records have around them, and what lobes reflect of it.
     void look_around();
     void add_gloss(const View& view);
+    void read_sky();
     bool corrects() const { return sky_lights.casts_shadows(); }
     void forget_corrections();
     std::shared_ptr<const SkyWeights> weigh_sky();

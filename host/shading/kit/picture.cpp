@@ -84,6 +84,10 @@ View Picture::begin(const Camera& camera, const WaitList& wait) {
     return view;
 }
 
+void Picture::weigh_sky(std::shared_ptr<const SkyWeights> weights) {
+    options_.emitters.sky_weights = std::move(weights);
+}
+
 void Picture::combine(const View& view) {
     CombineParams params =
         combine_params(scene_, view, seen_.stride, emitters_.set().emitters.size(), Pixels::depth);

@@ -120,8 +120,9 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
 // Directional lights that stand for the environment: in later samples and replicates the next ones
 // of a Halton sequence of places.
 std::vector<Light> sky_lights(const DeviceScene& scene, const EmitterOptions& options) {
+    if (seed_of(options) == 0)
+        return scene.environment_lights(options.environment_lights, options.sky_part);
     const auto count = static_cast<std::uint32_t>(options.environment_lights);
-    if (seed_of(options) == 0) return scene.environment_lights(options.environment_lights);
     const auto place = [&](std::uint32_t index, std::uint32_t base, std::uint32_t dimension) {
         return double{shifted_radical_inverse(
             index, base, replicate_shift(options.replicate + 1, ShiftUse::environment, dimension))};
@@ -131,13 +132,15 @@ std::vector<Light> sky_lights(const DeviceScene& scene, const EmitterOptions& op
         const std::uint32_t index = options.sample * count + k;
         places.emplace_back(place(index, 2, 0), place(index, 3, 1));
     }
-    return scene.drawn_environment_lights(places, options.sky_weights);
+    return scene.drawn_environment_lights(places, options.sky_weights, options.sky_part);
 }
 
 std::vector<Source> environment_lights(const DeviceScene& scene, const EmitterOptions& options) {
     std::vector<Source> out;
+    EmitterOptions own = options;
+    if (options.environment_size > 0) own.shadow_size = options.environment_size;
     for (const Light& light : sky_lights(scene, options)) {
-        out.push_back(directional(light, scene.frame(), options));
+        out.push_back(directional(light, scene.frame(), own));
         out.back().group = environment;
     }
     return out;
@@ -313,6 +316,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     need_range("emitters", "face_size", options.face_size, 1, 4096);
     need_range("emitters", "area_samples", options.area_samples, 0, 4096);
     need_range("emitters", "environment_lights", options.environment_lights, 0, 4096);
+    need_range("emitters", "environment_size", options.environment_size, 0, 8192);
 
     const int vpls = options.shadows ? options.vpls : 0;
     std::vector<Source> sources;
@@ -324,7 +328,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
             else if (options.directional)
                 sources.push_back(directional(light, scene.frame(), options));
         }
-        for (const auto& more : {area_samples(scene, options), environment_lights(scene, options)})
+        for (const auto& more : {environment_lights(scene, options), area_samples(scene, options)})
             sources.insert(sources.end(), more.begin(), more.end());
     }
     for (Source& source : sources) {
@@ -340,8 +344,13 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
             "area_samples or environment_lights, or smaller shadow_size and face_size needed");
     std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
     if (sources.empty()) return out;
-    out.soft = std::any_of(sources.begin(), sources.end(),
-                           [](const Source& source) { return source.group != lamps; });
+    const auto of_group = [&](Group group) {
+        return static_cast<std::size_t>(
+            std::count_if(sources.begin(), sources.end(),
+                          [&](const Source& source) { return source.group == group; }));
+    };
+    out.lamps = of_group(lamps);
+    out.directions = of_group(environment);
     const std::vector<std::uint32_t> shares = divide(sources, vpls);
     const std::array<double, group_count> factor = taken_over(sources, shares);
     // All directions of the environment spread their lights over one disc together, and all samples

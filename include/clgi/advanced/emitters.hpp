@@ -26,6 +26,8 @@ struct EmitterOptions {
     // Directional lights that approximate the environment [Debevec05]; in replicates and later
     // samples as many that are drawn from it.
     int environment_lights = 16;
+    SkyPart sky_part = SkyPart::whole;  // what they stand for
+    int environment_size = 0;           // as shadow_size, of their maps; 0: the same
     // 0: the Halton points themselves. Other values: randomised shifts of them (Cranley and
     // Patterson). The differences between replicates estimate the error of one.
     std::uint32_t replicate = 0;
@@ -72,7 +74,10 @@ struct EmitterSet {
     std::size_t pixels = 0;                 // of all views
     std::vector<std::uint32_t> candidates;  // Halton candidates to try, by emitter; spots only
     std::size_t vpl_count = 0;
-    bool soft = false;  // some stand for parts of a larger light: surfaces or the environment
+    // Those of the scene's lamps come first, then those that stand for parts of a larger light:
+    // directions of the environment, points of surfaces.
+    std::size_t lamps = 0, directions = 0;
+    bool soft() const { return emitters.size() > lamps; }
     EmitterCapacity capacity;
 };
 

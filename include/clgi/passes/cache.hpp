@@ -20,10 +20,11 @@ struct CacheBuffers {
     cl::Buffer views;            // [5 * records] View
     cl::Buffer visibility;       // [3 * size * size * records] ulong
     cl::Buffer nodes, lists;     // of the tree
-    cl::Buffer sky;              // [sky_height][sky_width][3] float
+    cl::Buffer sky;              // [1 or, with params.bright, 2][sky_height][sky_width][3] float
     cl::Buffer rows;             // [records][3][stride] float
     cl::Buffer base, reflected;  // [3][stride] float, exposed lux
-    cl::Buffer light, next;      // the same; without direct light
+    cl::Buffer light, next;      // the same; without direct light but that of the sky
+    cl::Buffer bright, shown;    // the same: of base, what shown light lacks; light without it
     cl::Buffer by_spots;  // [light views][SPOT_TILES_A_VIEW] uint, read where params.spots is 1
 };
 
@@ -83,7 +84,7 @@ public:
                     const DeviceScene& scene, const CacheBuffers& buffers, const SpotBuffers& spots,
                     const WaitList& wait = {}) const;
 
-    // light -> next, of params.record_count records.
+    // light -> next and shown, of params.record_count records.
     cl::Event bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
                      const CacheBuffers& buffers, const WaitList& wait = {}) const;
 

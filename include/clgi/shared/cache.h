@@ -55,8 +55,8 @@ typedef struct {
     uint thin;  // of the blocks of 16 pixels one in so many counts, at least 1
     uint spots;  // 1: some tiles of lights, if any, do not light pixels
     uint lobes;  // 1: direct light is reflected by lobes, not as by diffuse surfaces
-    uint pad1_;
-    uint pad2_;
+    uint skipped;  // emitters after the whole ones, which light no hemicube
+    uint bright;   // 1: behind the sky's texels are those of its bright part, which shown light lacks
 } CacheParams;
 
 // What a light lights in small places, such as the sun's spot behind a hole, falls between the pixels

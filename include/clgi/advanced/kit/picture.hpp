@@ -53,6 +53,8 @@ public:
     // Enqueues shadow maps and the G-buffer of a picture that begins after `wait`. The solver then
     // records what writes irradiance(), all of its pixels.
     View begin(const Camera& camera, const WaitList& wait);
+    // By which directions of the environment are drawn when lights are read again.
+    void weigh_sky(std::shared_ptr<const SkyWeights> weights);
     // Direct light and irradiance to radiance().
     void combine(const View& view);
     // The environment where nothing is seen; the event of the whole picture. turned: about +Y,
