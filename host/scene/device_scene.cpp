@@ -315,7 +315,14 @@ void DeviceScene::turn_environment(double angle) {
     if (!environment_) throw Error("scene: turn_environment(): there is no environment");
     if (!std::isfinite(angle)) throw Error("scene: turn_environment(): the angle is not finite");
     environment_->rotation = static_cast<float>(uploaded_rotation_ + angle);
-    cut_ = std::make_shared<Cut>();
+    auto turned = std::make_shared<Cut>();
+    {
+        const std::lock_guard lock(cut_->mutex);
+        turned->found = cut_->found;  // the parts turn as one
+    }
+    if (turned->found)
+        turned->found->soft.rotation = turned->found->bright.rotation = environment_->rotation;
+    cut_ = std::move(turned);
 }
 
 void DeviceScene::set_light(std::size_t index, const Light& light) {

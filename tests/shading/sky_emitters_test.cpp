@@ -56,5 +56,28 @@ TEST(Emitters, StandForAPartOfTheSky) {
         }
 }
 
+// The parts of a sky turn with it, in one copy of the scene alone.
+TEST(Emitters, OfPartsTurnWithTheSky) {
+    Scene world = scene_of_all();
+    world.environment = test::picture_sky(
+        64, 32, [](int row, int column) { return row == 5 && column == 9 ? 900.0f : 1.0f; });
+    world.environment->rotation = 0.3f;
+    DeviceScene scene = test::on_device(world);
+    const DeviceScene copy = scene;
+    const test::SkyBlock block = test::block_of(*world.environment, 5, 1, 9, 1);
+    const auto off = [&](const DeviceScene& of, double rotation) {
+        const Light light = of.environment_lights(1, SkyPart::bright).at(0);
+        const glm::dvec3 toward = glm::normalize(test::vector_of(block, rotation));
+        return glm::length(toward + glm::dvec3(light.direction));
+    };
+    EXPECT_LT(off(scene, 0.3), 1e-3);
+    for (const double angle : {0.9, -0.4}) {
+        scene.turn_environment(angle);
+        EXPECT_LT(off(scene, 0.3 + angle), 1e-3) << angle;
+        EXPECT_LT(off(copy, 0.3), 1e-3) << angle;
+        EXPECT_EQ(scene.environment_part(SkyPart::soft)->rotation, scene.environment()->rotation);
+    }
+}
+
 }  // namespace
 }  // namespace clgi
