@@ -89,6 +89,7 @@ kernel void cache_gloss(
     shown.z = row_load_one(irradiance_row(irradiance, 2, stride), pixel);
 
     CacheShare share = cache_lookup(&tree, nodes, lists, records, point, normal, CACHE_LISTED);
+    cache_carry_on(&share);
     float3 before = cache_light(&share, light, tree.stride).irradiance;
     float all = 0.0f;
     for (uint i = 0; i < share.count; ++i) {

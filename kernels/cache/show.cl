@@ -33,6 +33,7 @@ kernel void cache_show(
     } else if (dot(normal, normal) > 0.0f) {
         CacheShare share = cache_lookup(&tree, nodes, lists, records, point, normal,
                                         CACHE_LISTED);
+        cache_carry_on(&share);
         CacheLight found = cache_light(&share, light, tree.stride);
         sum[0] = found.irradiance.x;
         sum[1] = found.irradiance.y;

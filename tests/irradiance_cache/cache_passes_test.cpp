@@ -182,47 +182,100 @@ TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
     EXPECT_NE(picked[0], picked[1]);
 }
 
-// Three records in a row: weights by distance, and none for the farthest (lookup.clh).
-TEST(CachePasses, WeighsRecordsByDistance) {
+// Records on a tilted surface, by lookup.clh in double precision: weights by distance and facing,
+// none for the farthest, then shares that carry on what changes evenly, here in the middle of the
+// records and beside all of them. A field that is even there is nearly found, where weights alone
+// are far off.
+TEST(CachePasses, CarriesOnWhatChangesEvenlyBetweenRecords) {
     const CachePasses passes(test::programs(), test::usual_build());
     const cl::CommandQueue& queue = test::device().queue;
-    constexpr std::uint32_t stride = 16;
-    const double places[] = {-1.0, 1.0, 3.0}, at = 0.5;
+    constexpr std::uint32_t stride = 16, count = 9;
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 1.0, -0.2)),
+                     across = glm::normalize(glm::cross(normal, glm::dvec3(0, 0, 1))),
+                     along = glm::cross(normal, across);
+    std::vector<glm::dvec3> places;
     std::vector<float> records(RECORD_PLANES * stride, 0.0f), light(3 * stride, 0.0f),
         planes(GBUFFER_PLANES * stride, 0.0f);
     std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
-    double mean = 0.0, last = 0.0;
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        records[RECORD_POSITION * stride + i] = static_cast<float>(places[i]);
-        records[(RECORD_NORMAL + 1) * stride + i] = 1.0f;
-        light[i] = static_cast<float>(1u << (3 * i));
+    const auto field = [&](const glm::dvec3& at, std::uint32_t c) {
+        return 2.0 + c + (1.0 - 0.7 * c) * glm::dot(at, across) + 0.5 * c * glm::dot(at, along);
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+        places.push_back((i % 3 + 0.1 * i) * across + (i / 3 - 0.07 * i) * along);
+        for (int c = 0; c < 3; ++c) {
+            const auto plane_of = static_cast<std::uint32_t>(c);
+            records[(RECORD_POSITION + plane_of) * stride + i] = static_cast<float>(places[i][c]);
+            records[(RECORD_NORMAL + plane_of) * stride + i] = static_cast<float>(normal[c]);
+            light[plane_of * stride + i] = static_cast<float>(field(places[i], plane_of));
+        }
         lists[2 * CACHE_LISTED + i] = i;  // +y
-        const double apart = (places[i] - at) * (places[i] - at);
-        mean += 0.1 * apart / 3.0;
-        last = std::max(last, apart);
     }
-    double sum = 0.0, wanted = 0.0;
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        const double apart = (places[i] - at) * (places[i] - at), left = 1.0 - 0.999 * apart / last;
-        const double weight = left * left * mean / (apart + mean);
-        sum += weight;
-        wanted += weight * double{light[i]};
-    }
-    planes[GBUFFER_POSITION * stride] = static_cast<float>(at);
-    planes[(GBUFFER_NORMAL + 1) * stride] = 1.0f;
-    const CacheTree tree = one_leaf(3, stride);
+    const std::vector<glm::dvec3> points = {1.3 * across + 0.8 * along, -0.4 * across + 0.5 * along,
+                                            2.1 * across + 2.4 * along};
+    for (std::uint32_t k = 0; k < points.size(); ++k)
+        for (int c = 0; c < 3; ++c) {
+            const auto plane_of = static_cast<std::uint32_t>(c);
+            planes[(GBUFFER_POSITION + plane_of) * stride + k] = static_cast<float>(points[k][c]);
+            planes[(GBUFFER_NORMAL + plane_of) * stride + k] = static_cast<float>(normal[c]);
+        }
+    const CacheTree tree = one_leaf(count, stride);
     CacheBuffers b;
     b.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
     b.lists = test::upload(lists);
     b.planes = test::upload(records);
     b.light = test::upload(light);
-    const GBuffer points = points_of(planes, stride);
     const cl::Buffer irradiance = test::empty<float>(3 * stride),
                      doubt = test::empty<float>(stride);
-    passes.show(queue, {1, stride, 0, 0}, tree, b, points, irradiance, doubt);
-    float found = 0.0f;
-    queue.enqueueReadBuffer(irradiance, CL_TRUE, 0, sizeof(float), &found);
-    EXPECT_NEAR(found, wanted / sum, 1e-5 * wanted / sum);
+    passes.show(queue, {3, stride, 0, 0}, tree, b, points_of(planes, stride), irradiance, doubt);
+    std::vector<float> found(3 * stride);
+    queue.enqueueReadBuffer(irradiance, CL_TRUE, 0, found.size() * sizeof(float), found.data());
+
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+        std::vector<double> apart, share;
+        double mean = 0.0, last = 0.0, sum = 0.0;
+        for (const glm::dvec3& place : places) {
+            const glm::dvec3 d = points[k] - place;
+            apart.push_back(glm::dot(d, d));
+            mean += 0.1 * apart.back() / count;
+            last = std::max(last, apart.back());
+        }
+        for (const double a : apart) {
+            share.push_back(std::pow(1.0 - 0.999 * a / last, 2.0) / (1.0 + a / mean));
+            sum += share.back();
+        }
+        glm::dvec3 middle(0.0), weighted(0.0);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            share[i] /= sum;
+            middle += share[i] * (places[i] - points[k]);
+        }
+        glm::dmat3 spread(0.0);
+        double trace = glm::dot(middle, middle);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const glm::dvec3 d = places[i] - points[k] - middle;
+            spread += share[i] * glm::outerProduct(d, d);
+            trace += share[i] * glm::dot(d, d);
+            for (std::uint32_t c = 0; c < 3; ++c)
+                weighted[static_cast<int>(c)] += share[i] * field(places[i], c);
+        }
+        const glm::dvec3 slope = glm::inverse(spread + glm::dmat3(0.05 * trace)) * middle;
+        double shares = 0.0;
+        glm::dvec3 wanted(0.0);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double to = 1.0 - glm::dot(slope, places[i] - points[k] - middle);
+            share[i] *= std::clamp(to, 0.0, 3.0);
+            shares += share[i];
+            for (std::uint32_t c = 0; c < 3; ++c)
+                wanted[static_cast<int>(c)] += share[i] * field(places[i], c);
+        }
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            const double by_hand = wanted[static_cast<int>(c)] / shares, is = found[c * stride + k],
+                         even = field(points[k], c);
+            EXPECT_NEAR(is, by_hand, 2e-5 * by_hand) << k << " " << c;
+            const double before = std::abs(weighted[static_cast<int>(c)] - even);
+            EXPECT_LT(std::abs(is - even), (k == 0 ? 0.3 : 0.9) * before)
+                << k << " " << c << " " << before;
+        }
+    }
 }
 
 // Each pass with buffers for its records, and then with one of them too small.
