@@ -181,6 +181,9 @@ PlanCost irradiance_cache(const Plan& plan) {
     const double planes = is_fine(plan) ? 3.0 : 1.5;
     const double shown = planes * options.seen + options.refined, records = shown + options.met,
                  pixels = 3.0 * options.face * options.face;
+    // The sky is looked at in all pixels that are drawn.
+    const double drawn = 3.0 * std::pow(options.drawn_face(has_sky(plan)), 2.0),
+                 above = has_sky(plan) ? 8e-6 * drawn : 0.0;
     // A pixel of a hemicube is lit by all lamps, but by few of the samples of emissive surfaces.
     // Some pixels are looked up again while records are weighed.
     constexpr double samples_at_once = 4.0, weighed = 1.3;
@@ -190,9 +193,9 @@ PlanCost irradiance_cache(const Plan& plan) {
     const double lit = lamps.emitters - samples + std::min(samples, samples_at_once);
     const double look = (4e-5 + 1e-5 * lit) * pixels;
     Amount frame = picture(plan, false);
-    frame += {records * (0.08 + 2.8e-3 * std::sqrt(triangles(plan)) + weighed * look) +
+    frame += {records * (0.08 + above + 2.8e-3 * std::sqrt(triangles(plan)) + weighed * look) +
                   2e-6 * records * records,
-              records * (8.0 * pixels + 12.0 * records)};
+              records * (8.0 * drawn + 12.0 * records)};
     if (plan.on(Effect::gloss))  // what records have around them, and directions of lobes
         frame +=
             {shown * look + 8e-4 * plan.request.width * plan.request.height, 10.5 * shown * pixels};

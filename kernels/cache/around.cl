@@ -15,11 +15,11 @@
 // From pixel k, exposed; 0 where there is nothing.
 static float3 around_radiance(const LinkWorld* world, const View* view, const LinkPacket* packet,
                               global const float* light, int k) {
-    float per_factor = 1.0f / packet->factor[k];
+    float per_factor = 1.0f / packet->at.factor[k];
     float3 sends, reflects;
     CacheShare share;
     if (!link_surface(world, packet, k, &sends, &reflects, &share))
-        return link_above(world, view, packet, 0, k) * world->params->sky.xyz * per_factor;
+        return link_above(world, view, &packet->at, 0, k) * world->params->sky.xyz * per_factor;
     CacheLight found = cache_light(&share, light, world->tree->stride);
     return (link_lane(packet->once, k) + (sends + reflects * found.irradiance) * per_factor) *
            (1.0f / CLGI_PI);
@@ -37,7 +37,8 @@ kernel void cache_around(
     uint record = slot < of.seen ? slot : slot + of.met;
     int stands = link_stands(&params, planes, record);
     View view = views[5 * record + face];
-    uint to = around_face(&of, slot, face, 0), pixels = view.width * view.height;
+    uint across = view.width / params.every, down = view.height / params.every;
+    uint to = around_face(&of, slot, face, 0), pixels = across * down;
     for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
         LinkPacket packet;
         if (stands)
@@ -48,7 +49,7 @@ kernel void cache_around(
                 stands ? around_pack(around_radiance(&world, &view, &packet, light, k)) : (uint2)(0);
     }
     for (uint level = 1; level < AROUND_LEVELS; ++level) {
-        uint from = to, width = view.width >> level, height = view.height >> level;
+        uint from = to, width = across >> level, height = down >> level;
         to = around_face(&of, slot, face, level);
         for (uint pixel = 0; pixel < width * height; ++pixel) {
             uint at = from + pixel / width * 4 * width + pixel % width * 2;

@@ -26,27 +26,42 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
     uint stride = params.stride;
     global float* row = rows + (ulong)record * 3 * stride;
     for (uint k = 0; k < 3 * stride; ++k) row[k] = 0.0f;
-    float3 own = (float3)(0.0f), above = (float3)(0.0f), once = (float3)(0.0f);
-    float3 beyond = (float3)(0.0f);
-    float all = 0.0f;
-    int stands = link_stands(&params, planes, record);
-    for (uint face = 0; stands && face < 5; ++face) {
+    int stands = link_stands(&params, planes, record), skies = params.sky_width > 0;
+    // Of form factors: all, of surfaces, and of those surfaces that are looked at.
+    float all = 0.0f, surfaces = 0.0f, looked = 0.0f;
+    float3 above = (float3)(0.0f), beyond = (float3)(0.0f);
+    for (uint face = 0; stands && skies && face < 5; ++face) {
         View view = views[5 * record + face];
         uint pixels = view.width * view.height;
+        for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
+            if (!link_counts(&params, link_block(record, face, pixel), pixel)) continue;
+            LinkPixels at;
+            link_pixels(&world, &view, visibility, face, pixel, &at);
+            for (int k = 0; k < CLGI_WIDTH; ++k) {
+                all += at.factor[k];
+                surfaces += at.seen[k] >= 0 ? at.factor[k] : 0.0f;
+                above += link_above(&world, &view, &at, 0, k);
+                if (params.bright) beyond += link_above(&world, &view, &at, 1, k);
+            }
+        }
+    }
+    float3 own = (float3)(0.0f), once = (float3)(0.0f);
+    for (uint face = 0; stands && face < 5; ++face) {
+        View view = views[5 * record + face];
+        uint pixels = view.width * view.height / (params.every * params.every);
         for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
             uint block = link_block(record, face, pixel);
             if (!link_counts(&params, block, pixel)) continue;
             LinkPacket packet;
             link_packet(&world, &view, visibility, face, pixel, block, &packet);
             for (int k = 0; k < CLGI_WIDTH; ++k) {
-                all += packet.factor[k];
-                above += link_above(&world, &view, &packet, 0, k);
-                if (params.bright) beyond += link_above(&world, &view, &packet, 1, k);
+                if (!skies) all += packet.at.factor[k];
+                looked += packet.at.seen[k] >= 0 ? packet.at.factor[k] : 0.0f;
                 float3 sends, reflects;
                 CacheShare share;
                 if (!link_surface(&world, &packet, k, &sends, &reflects, &share)) continue;
                 own += sends;
-                once += packet.factor[k] * link_lane(packet.once, k);
+                once += packet.at.factor[k] * link_lane(packet.once, k);
                 for (uint i = 0; i < share.count; ++i) {
                     global float* to = row + share.record[i];
                     to[0] += share.weight[i] * reflects.x;
@@ -57,17 +72,19 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
         }
     }
     // The pixels' form factors sum to 1 but for the midpoint rule.
-    float scale = all > 0.0f ? 1.0f / all : 0.0f;
-    for (uint k = 0; k < 3 * stride; ++k) row[k] *= scale;
+    float scale = all > 0.0f ? 1.0f / all : 0.0f, stand_for = scale;
+    if (skies) stand_for = looked > 0.0f ? scale * surfaces / looked : 0.0f;
+    for (uint k = 0; k < 3 * stride; ++k) row[k] *= stand_for;
     beyond *= scale * CLGI_PI * params.sky.xyz;
-    own = scale * (own + CLGI_PI * above * params.sky.xyz) + beyond;
+    own = stand_for * own + scale * CLGI_PI * above * params.sky.xyz + beyond;
+    once *= stand_for;
     base[record] = own.x;
     base[stride + record] = own.y;
     base[2 * stride + record] = own.z;
     bright[record] = beyond.x;
     bright[stride + record] = beyond.y;
     bright[2 * stride + record] = beyond.z;
-    reflected[record] = scale * once.x;
-    reflected[stride + record] = scale * once.y;
-    reflected[2 * stride + record] = scale * once.z;
+    reflected[record] = once.x;
+    reflected[stride + record] = once.y;
+    reflected[2 * stride + record] = once.z;
 }

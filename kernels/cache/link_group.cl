@@ -9,7 +9,9 @@
 #include "cache/link.clh"
 
 #define MOST_LANES 64
-#define SUMS 13  // of form factors, and in three channels of B, R, the sky and its bright part
+// Of form factors, in three channels of B, R, the sky and its bright part, and of form factors of surfaces
+// and of those surfaces that are looked at.
+#define SUMS 15
 
 kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
     local float brings[SUMS][MOST_LANES];
@@ -26,29 +28,39 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
         for (uint j = lane; j < stride; j += lanes) row[k * stride + j] = 0.0f;
     for (uint k = lane; k < SUMS; k += lanes) sums[k] = 0.0f;
     uint faces = link_stands(&params, planes, record) ? 5 : 0;
-    for (uint face = 0; face < faces; ++face) {
+    uint skies = params.sky_width > 0, every = params.every;
+    // The sky, if there is one, and then surfaces: part 0 and 1 of five faces each.
+    for (uint turn = skies ? 0 : 5; faces > 0 && turn < 10; ++turn) {
+        uint face = turn % 5, part = turn / 5;
         View view = views[5 * record + face];
-        uint pixels = view.width * view.height;
+        uint pixels = view.width * view.height / (part ? every * every : 1);
         for (uint first = 0; first < pixels; first += lanes) {
             uint pixel = first + lane, block = link_block(record, face, pixel);
             for (uint k = 0; k < SUMS; ++k) brings[k][lane] = 0.0f;
             count[lane] = 0;
-            if (pixel < pixels && link_counts(&params, block, pixel)) {
-                LinkPacket packet;
-                link_packet(&world, &view, visibility, face, pixel, block, &packet);
-                float3 above = link_above(&world, &view, &packet, 0, 0), beyond = (float3)(0.0f);
-                if (params.bright) beyond = link_above(&world, &view, &packet, 1, 0);
-                brings[0][lane] = packet.factor[0];
+            int counts = pixel < pixels && link_counts(&params, block, pixel);
+            if (counts && !part) {
+                LinkPixels at;
+                link_pixels(&world, &view, visibility, face, pixel, &at);
+                float3 above = link_above(&world, &view, &at, 0, 0), beyond = (float3)(0.0f);
+                if (params.bright) beyond = link_above(&world, &view, &at, 1, 0);
+                brings[0][lane] = at.factor[0];
                 brings[7][lane] = above.x;
                 brings[8][lane] = above.y;
                 brings[9][lane] = above.z;
                 brings[10][lane] = beyond.x;
                 brings[11][lane] = beyond.y;
                 brings[12][lane] = beyond.z;
+                brings[13][lane] = at.seen[0] >= 0 ? at.factor[0] : 0.0f;
+            } else if (counts) {
+                LinkPacket packet;
+                link_packet(&world, &view, visibility, face, pixel, block, &packet);
+                if (!skies) brings[0][lane] = packet.at.factor[0];
+                brings[14][lane] = packet.at.seen[0] >= 0 ? packet.at.factor[0] : 0.0f;
                 float3 sends, rho;
                 CacheShare share;
                 if (link_surface(&world, &packet, 0, &sends, &rho, &share)) {
-                    float3 once = packet.factor[0] * link_lane(packet.once, 0);
+                    float3 once = packet.at.factor[0] * link_lane(packet.once, 0);
                     brings[1][lane] = sends.x;
                     brings[2][lane] = sends.y;
                     brings[3][lane] = sends.z;
@@ -81,16 +93,17 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     // The pixels' form factors sum to 1 but for the midpoint rule.
-    float all = sums[0], scale = all > 0.0f ? 1.0f / all : 0.0f;
+    float all = sums[0], scale = all > 0.0f ? 1.0f / all : 0.0f, stand_for = scale;
+    if (skies) stand_for = sums[14] > 0.0f ? scale * sums[13] / sums[14] : 0.0f;
     for (uint k = 0; k < 3; ++k)
-        for (uint j = lane; j < stride; j += lanes) row[k * stride + j] *= scale;
+        for (uint j = lane; j < stride; j += lanes) row[k * stride + j] *= stand_for;
     if (lane != 0) return;
-    float skies[3] = {params.sky.x, params.sky.y, params.sky.z};
+    float sky_scale[3] = {params.sky.x, params.sky.y, params.sky.z};
     for (uint c = 0; c < 3; ++c) {
-        float beyond = sums[10 + c] * (scale * CLGI_PI * skies[c]);
+        float beyond = sums[10 + c] * (scale * CLGI_PI * sky_scale[c]);
         base[c * stride + record] =
-            scale * (sums[1 + c] + CLGI_PI * sums[7 + c] * skies[c]) + beyond;
+            stand_for * sums[1 + c] + scale * CLGI_PI * sums[7 + c] * sky_scale[c] + beyond;
         bright[c * stride + record] = beyond;
-        reflected[c * stride + record] = scale * sums[4 + c];
+        reflected[c * stride + record] = stand_for * sums[4 + c];
     }
 }

@@ -30,7 +30,7 @@ TEST(BrightSky, IsKnownBesideAllLight) {
     params.sky = {1.0f, 0.5f, 2.0f, 1.0f};
     params.sky_width = 2;
     params.sky_height = 1;
-    params.emitter_step = params.thin = 1;
+    params.emitter_step = params.thin = params.every = 1;
     const float soft[] = {1, 2, 4}, bright[] = {30, 20, 10}, factor[] = {1.0f, 0.5f, 2.0f};
     for (const std::uint32_t with : {0u, 1u}) {
         params.bright = with;
@@ -80,7 +80,7 @@ TEST(BrightSky, HasEmittersThatLightPixelsAlone) {
     params.stride = plane;
     params.size = size;
     params.emitter_count = 3;
-    params.emitter_step = params.thin = 1;
+    params.emitter_step = params.thin = params.every = 1;
     const glm::dvec3 rho(0.2, 0.5, 0.7);
     for (std::uint32_t whole = 0; whole <= 3; ++whole)
         for (std::uint32_t skipped = 0; whole + skipped <= 3; ++skipped) {

@@ -103,7 +103,7 @@ TEST(CachePasses, LinkByBlocksOnAllSides) {
         params.sky = {1.0f, 1.0f, 1.0f, 1.0f};
         params.sky_width = 2;
         params.sky_height = 1;
-        params.emitter_step = 1;
+        params.emitter_step = params.every = 1;
         for (const std::uint32_t thin : {1u, 8u}) {
             params.thin = thin;
             passes.link(queue, params, two.tree, scene, no_emitters(), two.b);
@@ -144,7 +144,7 @@ TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
     params.emission = CACHE_EMISSION_ALL;
     params.picks = 4;
     params.pick_stride = plane;
-    params.emitter_step = 1;
+    params.emitter_step = params.every = 1;
     const EmitterBuffers emitters = no_emitters();
     const glm::dvec3 exposed = glm::dvec3(sphere.materials[0].emission) / scene.frame().exposure;
     for (const std::uint32_t thin : {1u, 3u, 8u}) {
@@ -180,6 +180,74 @@ TEST(CachePasses, LinkByAShareOfTheBlocksAndPickWhatReflects) {
         }
     }
     EXPECT_NE(picked[0], picked[1]);
+}
+
+// Half a sphere that glows on one side, open to the sky on the other half: of a sky in one half of
+// what a record sees pi/2 arrives, of what glows in a quarter pi/4, and all surfaces together
+// reflect half of the albedo; whether they are looked at in all pixels or in a quarter of them.
+TEST(CachePasses, LinkBySurfacesInSomePixels) {
+    Scene half = furnace({.subdivisions = 4});
+    half.materials[0].base_color = glm::vec4(0.2f, 0.5f, 0.7f, 1.0f);
+    half.materials.push_back(half.materials[0]);
+    half.materials[1].emission = glm::vec3(1.0f, 2.0f, 4.0f);
+    const auto middle = [&](const SceneTriangle& t) {
+        return half.positions[t.vertex[0]] + half.positions[t.vertex[1]] +
+               half.positions[t.vertex[2]];
+    };
+    // But for its far end, which keeps the middle of the scene where it is.
+    const double radius = glm::length(glm::dvec3(half.positions[0]));
+    std::erase_if(half.triangles, [&](const SceneTriangle& t) {
+        const glm::dvec3 at = middle(t);
+        return at.z < 0.0 && at.z > -2.99 * radius;
+    });
+    half.parts = {{"half", 0, static_cast<std::uint32_t>(half.triangles.size())}};
+    for (SceneTriangle& t : half.triangles) t.material = middle(t).x > 0.0 ? 1 : 0;
+    const DeviceScene scene = test::on_device(half);
+    const cl::CommandQueue& queue = test::device().queue;
+    const CachePasses passes(test::programs(), test::usual_build());
+    constexpr std::uint32_t size = 48;
+    TwoRecords two;
+    look_up(two.b, size);
+    GBufferPasses(test::programs(), test::usual_build())
+        .raster_views(queue, {0, 10, size, size, 6 * size * size}, two.b.views, scene,
+                      two.b.visibility, Pixels::visibility);
+    std::vector<float> records = test::download<float>(two.b.planes, RECORD_PLANES * plane);
+    records[(RECORD_NORMAL + 1) * plane + 2] = -1.0f;
+    two.b.planes = test::upload(records);
+    std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
+    for (std::size_t way = 0; way < CACHE_WAYS; ++way) lists[way * CACHE_LISTED] = 2;
+    two.b.lists = test::upload(lists);
+    two.b.sky = test::upload(std::vector<float>{3.0f, 5.0f, 0.5f});
+    CacheParams params{};
+    params.count = 2;
+    params.stride = plane;
+    params.size = size;
+    params.sky = {1.0f, 1.0f, 1.0f, 1.0f};
+    params.sky_width = params.sky_height = 1;
+    params.emission = CACHE_EMISSION_ALL;
+    params.emitter_step = params.thin = 1;
+    const glm::dvec3 glow = glm::dvec3(half.materials[1].emission) / scene.frame().exposure,
+                     sky(3.0, 5.0, 0.5), albedo(0.2, 0.5, 0.7);
+    for (const std::uint32_t every : {1u, 2u, 3u}) {
+        params.every = every;
+        passes.link(queue, params, two.tree, scene, no_emitters(), two.b);
+        const auto base = test::download<float>(two.b.base, 3 * plane),
+                   rows = test::download<float>(two.b.rows, 6 * plane);
+        for (int c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < 2; ++i) {
+                const auto of = static_cast<std::size_t>(c);
+                const double wanted =
+                    glm::half_pi<double>() * sky[c] + glm::quarter_pi<double>() * glow[c];
+                EXPECT_NEAR(base[of * plane + i], wanted, 0.015 * wanted) << every << " " << c;
+                double reflected = 0.0;
+                for (std::size_t j = 0; j < plane; ++j) reflected += rows[(3 * i + of) * plane + j];
+                EXPECT_NEAR(reflected, 0.455 * albedo[c], 0.01 * albedo[c]) << every << " " << c;
+            }
+    }
+    params.every = 4;  // 12 pixels are no multiple of 8
+    EXPECT_THROW(passes.link(queue, params, two.tree, scene, no_emitters(), two.b), Error);
+    params.every = 0;
+    EXPECT_THROW(passes.link(queue, params, two.tree, scene, no_emitters(), two.b), Error);
 }
 
 // Records on a tilted surface, by lookup.clh in double precision: weights by distance and facing,
@@ -290,7 +358,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     params.size = size;
     params.picks = 2;
     params.pick_stride = 16;
-    params.emitter_step = params.thin = 1;
+    params.emitter_step = params.thin = params.every = 1;
     CacheTree tree{};
     tree.record_count = records;
     tree.stride = stride;
@@ -351,7 +419,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     params.thin = 1;
     params.emitter_step = 0;  // nothing would take a turn
     EXPECT_THROW(link(buffers(nullptr)), Error);
-    params.emitter_step = 1;
+    params.emitter_step = params.every = 1;
     params.whole_emitters = 1;  // of none
     EXPECT_THROW(link(buffers(nullptr)), Error);
     params.whole_emitters = 0;

@@ -72,9 +72,10 @@ int sky_texel(const glm::dvec3& d, double turn) {
 
 // Three records of which the second was met, under a sky whose texels differ.
 struct UnderASky {
-    explicit UnderASky(const std::vector<Material>& materials)
-        : in(materials, {{{0, 0, 0}, up}, {{0.1, 0, 0}, up}, {{0.2, 0.1, 0}, tilted}}, 64) {
-        in.of = {1, 1, 2, 64};
+    explicit UnderASky(const std::vector<Material>& materials, std::uint32_t in_one_of = 1)
+        : every(in_one_of),
+          in(materials, {{{0, 0, 0}, up}, {{0.1, 0, 0}, up}, {{0.2, 0.1, 0}, tilted}}, 64) {
+        in.of = {1, 1, 2, 64 / every};
         test::Random random(7);
         for (int k = 0; k < sky_columns * sky_rows; ++k)
             sky.emplace_back(random(0.5, 4.0), random(0.5, 4.0), random(0.5, 4.0));
@@ -98,6 +99,7 @@ struct UnderASky {
         params.sky_height = sky_rows;
         params.sky_turn = static_cast<float>(turn);
         params.emitter_step = params.thin = 1;
+        params.every = every;
         CachePasses(test::programs(), test::usual_build())
             .around(test::device().queue, params, in.of, in.tree, in.scene, no_emitters(), in.b,
                     in.around)
@@ -112,11 +114,12 @@ struct UnderASky {
                                   factor{1.0, 0.5, 2.0};
     const double turn = 0.15;
     std::vector<glm::dvec3> sky;
+    std::uint32_t every;  // columns and rows
     Glossy in;
 };
 
-TEST_P(GlossPasses, HaveTheSkyAroundThem) {
-    UnderASky under(finishes);
+void look_at_the_sky(std::uint32_t every) {
+    UnderASky under(finishes, every);
     const CacheAround& of = under.in.of;
     const auto words =
         test::download<std::uint64_t>(under.in.around, around_bytes(of) / sizeof(std::uint64_t));
@@ -128,22 +131,26 @@ TEST_P(GlossPasses, HaveTheSkyAroundThem) {
             first[level] =
                 around_first(2, of.size, level) + (slot * 3 * of.size * of.size >> 2 * level);
         for (std::uint32_t face = 0; face < 5; ++face) {
-            const View& view = views[5 * (slot == 0 ? 0 : 2) + face];
-            for (std::uint32_t y = 0; y < view.height; ++y)
-                for (std::uint32_t x = 0; x < view.width; ++x, ++all) {
-                    const double across = (x + 0.5) / view.width * 2.0 - 1.0,
-                                 upward = 1.0 - (y + 0.5) / view.height * 2.0;
+            const std::uint32_t record = slot == 0 ? 0 : 2, shift = 5 * face + record;
+            const View& view = views[5 * record + face];
+            const std::uint32_t columns = view.width / every, rows = view.height / every;
+            for (std::uint32_t y = 0; y < rows; ++y)
+                for (std::uint32_t x = 0; x < columns; ++x, ++all) {
+                    const std::uint32_t column = x * every + shift % every,
+                                        row = y * every + shift / every % every;
+                    const double across = (column + 0.5) / view.width * 2.0 - 1.0,
+                                 upward = 1.0 - (row + 0.5) / view.height * 2.0;
                     const glm::dvec3 d =
                         glm::dvec3(view.forward) +
                         (double{view.window.x} + across * double{view.right.w}) *
                             glm::dvec3(view.right) +
                         (double{view.window.y} + upward * double{view.up.w}) * glm::dvec3(view.up);
-                    const glm::dvec3 found = unpacked(words[first[0] + y * view.width + x]),
+                    const glm::dvec3 found = unpacked(words[first[0] + y * columns + x]),
                                      wanted = under.toward(d);
                     other += glm::length(found - wanted) > 0.01 * glm::length(wanted);
                 }
             for (std::uint32_t level = 1; level < AROUND_LEVELS; ++level) {
-                const std::uint32_t width = view.width >> level, height = view.height >> level;
+                const std::uint32_t width = columns >> level, height = rows >> level;
                 for (std::uint32_t y = 0; y < height; ++y)
                     for (std::uint32_t x = 0; x < width; ++x) {
                         glm::dvec3 mean(0.0);
@@ -158,11 +165,45 @@ TEST_P(GlossPasses, HaveTheSkyAroundThem) {
                     }
             }
             for (std::uint32_t level = 0; level < AROUND_LEVELS; ++level)
-                first[level] += view.width * view.height >> 2 * level;
+                first[level] += columns * rows >> 2 * level;
         }
     }
     // The square below, and directions between two texels.
     EXPECT_LT(static_cast<double>(other), 0.002 * static_cast<double>(all));
+}
+
+TEST_P(GlossPasses, HaveTheSkyAroundThem) {
+    for (const std::uint32_t every : {1u, 2u}) look_at_the_sky(every);
+}
+
+// Light that corrections change scales what lobes reflect by it; as it is shown, by cache.show, it
+// does not, wherever between the records and beside them.
+TEST_P(GlossPasses, ReflectLightThatIsAsShownAsItIs) {
+    const glm::dvec3 up(0, 1, 0), colour(2.0, 1.0, 0.5);
+    Glossy in(finishes, {{{-1, 0, 0}, up}, {{1, 0, 0}, up}, {{1.2, 0, 2}, up}}, 16);
+    for (std::uint32_t slot = 0; slot < 3; ++slot) in.fill(slot, colour);
+    std::vector<float> light(3 * test::record_stride, 0.0f);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t r = 0; r < 3; ++r)
+            light[c * test::record_stride + r] = static_cast<float>(1 + 4 * r);
+    for (const glm::dvec3& place : {glm::dvec3(0.3, 0, 0.4), glm::dvec3(2.5, 0, 1.0)}) {
+        in.b.light = test::upload(std::vector<float>(3 * test::record_stride, 1.0f));
+        const std::vector<Point> point = {{place, up, glm::dvec3(0.7, 0.4, 0.2), 2, -1}};
+        const glm::dvec3 even = in.reflected(point)[0];
+        in.b.light = test::upload(light);
+        std::vector<float> planes(GBUFFER_PLANES * plane, 0.0f);
+        const glm::dvec3 local = in.scene.frame().scale * (place - in.scene.frame().origin);
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            planes[(GBUFFER_POSITION + c) * plane] = static_cast<float>(local[static_cast<int>(c)]);
+            planes[(GBUFFER_NORMAL + c) * plane] = static_cast<float>(up[static_cast<int>(c)]);
+        }
+        const cl::Buffer shown = test::empty<float>(3 * plane), doubt = test::empty<float>(plane);
+        CachePasses(test::programs(), test::usual_build())
+            .show(test::device().queue, {1, plane, 0, 0}, in.tree, in.b, points_of(planes, plane),
+                  shown, doubt);
+        const glm::dvec3 found = in.reflected(point, test::download<float>(shown, 1)[0])[0];
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], even[c], 1e-3 * even[c]) << c;
+    }
 }
 
 // Emission, and what surfaces reflect of the light of records: in a sphere the same everywhere.
@@ -198,7 +239,7 @@ TEST_P(GlossPasses, HaveWhatShinesAroundThem) {
     params.stride = test::record_stride;
     params.size = 8;
     params.emission = CACHE_EMISSION_ALL;
-    params.emitter_step = params.thin = 1;
+    params.emitter_step = params.thin = params.every = 1;
     const CacheAround of = {1, 0, 1, 8};
     const std::size_t words = around_bytes(of) / sizeof(std::uint64_t);
     const cl::Buffer around = test::empty<std::uint64_t>(words);

@@ -118,7 +118,7 @@ struct LitFloor {
     // by_spots: whether these tiles light by VPLs.
     void link_with(const std::vector<std::uint32_t>& tiles, bool by_spots) {
         params.spots = by_spots ? 1 : 0;
-        params.thin = params.emitter_step = 1;
+        params.thin = params.emitter_step = params.every = 1;
         params.emitter_count = params.whole_emitters =
             static_cast<std::uint32_t>(set.emitters.size());
         const View& shadows = set.views[0];

@@ -78,9 +78,10 @@ std::size_t most_around_bytes(const DeviceScene& scene, const IrradianceCacheOpt
 Estimate estimate(const cl::Device& device, const DeviceScene& scene,
                   const IrradianceCacheOptions& options) {
     const IrradianceCacheOptions o = checked(options, scene);
-    const auto most = static_cast<double>(most_records(o)), face = static_cast<double>(o.face);
+    const auto most = static_cast<double>(most_records(o)), face = static_cast<double>(o.face),
+               drawn_side = static_cast<double>(o.drawn_face(scene.environment().has_value()));
     const double records = 1.6 * o.seen + o.met + o.refined;  // as many as a room has
-    const double hemicube = 5.0 * sizeof(View) + 24.0 * face * face;
+    const double hemicube = 5.0 * sizeof(View) + 24.0 * drawn_side * drawn_side;
     const double per_record =
         hemicube + 12.0 * most + 36.0 + (PICK_PLANES + 2) * 4.0 * picks_per_record + 64.0;
     const auto vpls = static_cast<double>(most_vpls(o));
@@ -107,6 +108,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
                               const DeviceScene& of, const IrradianceCacheOptions& wanted)
     : scene(of),
       options(checked(wanted, of)),
+      drawn(options.drawn_face(of.environment().has_value())),
       picture(programs, queue, of, options.picture, cache_owner),
       passes(programs, options.picture.build),
       cubes(programs, options.picture.build),
@@ -141,7 +143,7 @@ void IrradianceCache::State::read_sky() {
 void IrradianceCache::State::add_to(BufferTable& table) {
     const char* lower = "seen, met, refined or face";
     const std::size_t word = sizeof(float), plane = stride * word;
-    const auto face = static_cast<std::size_t>(options.face);
+    const auto face = static_cast<std::size_t>(drawn);
     const auto vpls = static_cast<std::size_t>(options.spots);  // whose picks are scattered
     pick_stride = plane_stride(std::max({capacity, vpls, scattered}) * picks_per_record);
     table.add(b.planes, "records", lower, RECORD_PLANES * plane);
@@ -180,7 +182,8 @@ CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count)
     out.first = static_cast<std::uint32_t>(first);
     out.count = static_cast<std::uint32_t>(count);
     out.stride = stride;
-    out.size = static_cast<std::uint32_t>(options.face);
+    out.size = static_cast<std::uint32_t>(drawn);
+    out.every = static_cast<std::uint32_t>(drawn / options.face);
     out.sky_width = static_cast<std::uint32_t>(sky.width);
     out.sky_height = static_cast<std::uint32_t>(sky.height);
     if (sky.width > 0) {

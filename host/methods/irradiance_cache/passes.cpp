@@ -40,6 +40,10 @@ void need_link(const PassKernel& pass, const CacheParams& params, const CacheTre
              std::max<std::size_t>(
                  1, std::size_t{params.sky_width} * params.sky_height * (params.bright ? 2 : 1)));
     need_range(pass.name.c_str(), "thin", params.thin, 1u, 1u << 20);
+    need_range(pass.name.c_str(), "every", params.every, 1u, params.size / 8);
+    if (params.size % (8 * params.every) != 0)
+        throw Error(pass.name + ": every is " + std::to_string(params.every) + ", size " +
+                    std::to_string(params.size) + " a multiple of 8 every needed");
     need_range(pass.name.c_str(), "emitter_step", params.emitter_step, 1u, 1u << 20);
     need_range(pass.name.c_str(), "whole_emitters", params.whole_emitters, 0u,
                params.emitter_count);
@@ -294,9 +298,9 @@ cl::Event CachePasses::around(const cl::CommandQueue& queue, const CacheParams& 
     need_records(around_, params, b);
     need_link(around_, params, tree, emitters, b);
     need_around(around_, of, params.first + params.count, around);
-    if (of.size != params.size)
+    if (of.size != params.size / params.every)
         throw Error("cache.around: size is " + std::to_string(of.size) + ", " +
-                    std::to_string(params.size) + " needed");
+                    std::to_string(params.size / params.every) + " needed");
     need(around_, "light", b.light, 3 * word * tree.stride);
     return launch(around_, queue, std::size_t{5} * of.slots, wait, params, tree, scene.info(),
                   b.views, b.visibility, b.nodes, b.lists, b.planes, b.sky, scene,

@@ -44,8 +44,8 @@ void IrradianceCache::State::write_records() {
 }
 
 void IrradianceCache::State::draw(std::size_t first) {
-    draw_cubes({b.planes, chosen, b.views, b.visibility, stride,
-                static_cast<std::uint32_t>(options.face), first, records.size() - first});
+    draw_cubes({b.planes, chosen, b.views, b.visibility, stride, static_cast<std::uint32_t>(drawn),
+                first, records.size() - first});
 }
 
 void IrradianceCache::State::draw_cubes(const Hemicubes& of) {

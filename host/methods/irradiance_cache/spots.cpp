@@ -94,7 +94,7 @@ void IrradianceCache::State::add_spots(BufferTable& table) {
     table.add(spot.area, "small lit places", lower, tiles * word);
     table.add(spot.samples, "small lit places", lower, first * sizeof(SpotSample));
     table.add(spot.spots, "small lit places", lower, most * sizeof(Vpl));
-    const auto face = static_cast<std::size_t>(options.face);
+    const auto face = static_cast<std::size_t>(drawn);
     spot_stride = plane_stride(most);
     CacheBuffers& h = spot.hemicubes;
     table.add(h.planes, "VPLs", lower, RECORD_PLANES * word * spot_stride);
@@ -232,7 +232,7 @@ void IrradianceCache::State::draw_hemicubes(const std::vector<Vpl>& vpls, std::s
         }
     picture.record().write(spot.hemicubes.planes, planes.data(), planes.size() * sizeof(float));
     draw_cubes({spot.hemicubes.planes, chosen, spot.hemicubes.views, spot.hemicubes.visibility,
-                spot_stride, static_cast<std::uint32_t>(options.face), first, vpls.size() - first});
+                spot_stride, static_cast<std::uint32_t>(drawn), first, vpls.size() - first});
 }
 
 // What VPLs light close by, where no record stands, as inside the wall around a hole, are further

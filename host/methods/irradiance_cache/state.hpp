@@ -113,6 +113,7 @@ struct IrradianceCache::State {
 
     const DeviceScene& scene;
     IrradianceCacheOptions options;
+    int drawn;  // side of a face of records' hemicubes, pixels; options.face or twice that
     Picture picture;
     CachePasses passes;
     GBufferPasses cubes;

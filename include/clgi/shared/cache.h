@@ -39,7 +39,7 @@ typedef struct {
     uint first;   // record
     uint count;
     uint stride;  // of the planes of records
-    uint size;    // pixels, side of a hemicube's whole face, a multiple of 8
+    uint size;    // pixels, side of a hemicube's whole face, a multiple of 8 and of 8 every
     float4 sky;   // rgb times the sky's texel: exposed radiance
     uint sky_width;  // texels; 0: no sky
     uint sky_height;
@@ -57,6 +57,10 @@ typedef struct {
     uint lobes;  // 1: direct light is reflected by lobes, not as by diffuse surfaces
     uint skipped;  // emitters after the whole ones, which light no hemicube
     uint bright;   // 1: behind the sky's texels are those of its bright part, which shown light lacks
+    uint every;    // surfaces are looked at in one of so many columns and rows, at least 1
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
 } CacheParams;
 
 // What a light lights in small places, such as the sun's spot behind a hole, falls between the pixels
@@ -128,7 +132,7 @@ typedef struct {
     uint seen;   // records that come first
     uint met;    // that follow them
     uint slots;  // of all other records
-    uint size;   // pixels, side of a hemicube's whole face, a multiple of 8
+    uint size;   // pixels in which surfaces are looked at, side of a whole face, a multiple of 8
 } CacheAround;
 
 // The first pixel of a level; of AROUND_LEVELS: how many there are.
