@@ -182,7 +182,7 @@ PlanCost irradiance_cache(const Plan& plan) {
     const double shown = planes * options.seen + options.refined, records = shown + options.met,
                  pixels = 3.0 * options.face * options.face;
     // The sky is looked at in all pixels that are drawn.
-    const double drawn = 3.0 * std::pow(options.drawn_face(has_sky(plan)), 2.0),
+    const double drawn = 3.0 * std::pow(options.drawn_face(has_sky(plan), triangles(plan)), 2.0),
                  above = has_sky(plan) ? 8e-6 * drawn : 0.0;
     // A pixel of a hemicube is lit by all lamps, but by few of the samples of emissive surfaces.
     // Some pixels are looked up again while records are weighed.

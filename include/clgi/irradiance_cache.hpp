@@ -39,8 +39,11 @@ struct IrradianceCacheOptions {
 
     // Side of hemicubes as they are drawn, pixels. Where there is a sky, small faces are drawn
     // twice as large: it is looked at in all pixels, so that windows and what is bright in it do
-    // not fall between them, and surfaces, which take longer, in every other column and row.
-    int drawn_face(bool sky) const { return sky && face <= 24 ? 2 * face : face; }
+    // not fall between them, and surfaces, which take longer, in every other column and row. Not
+    // where the scene has so many triangles that drawing takes most of the time.
+    int drawn_face(bool sky, double triangles) const {
+        return sky && face <= 24 && triangles <= 65536.0 ? 2 * face : face;
+    }
 };
 
 // converged: the last reflection changed the light at no record by more than a thousandth of the

@@ -55,6 +55,10 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     return options;
 }
 
+int drawn_face(const IrradianceCacheOptions& options, const DeviceScene& scene) {
+    return options.drawn_face(scene.environment().has_value(), scene.info().triangle_count);
+}
+
 // Records on what pixels see: a block of pixels has up to four.
 std::size_t most_around(const IrradianceCacheOptions& options) {
     const auto pixels = static_cast<std::size_t>(options.picture.width) *
@@ -79,7 +83,7 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
                   const IrradianceCacheOptions& options) {
     const IrradianceCacheOptions o = checked(options, scene);
     const auto most = static_cast<double>(most_records(o)), face = static_cast<double>(o.face),
-               drawn_side = static_cast<double>(o.drawn_face(scene.environment().has_value()));
+               drawn_side = static_cast<double>(drawn_face(o, scene));
     const double records = 1.6 * o.seen + o.met + o.refined;  // as many as a room has
     const double hemicube = 5.0 * sizeof(View) + 24.0 * drawn_side * drawn_side;
     const double per_record =
@@ -108,7 +112,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
                               const DeviceScene& of, const IrradianceCacheOptions& wanted)
     : scene(of),
       options(checked(wanted, of)),
-      drawn(options.drawn_face(of.environment().has_value())),
+      drawn(drawn_face(options, of)),
       picture(programs, queue, of, options.picture, cache_owner),
       passes(programs, options.picture.build),
       cubes(programs, options.picture.build),
