@@ -84,7 +84,7 @@ public:
 
     // Another randomised shift of all low-discrepancy points (EmitterOptions::replicate).
     void set_replicate(std::uint32_t replicate);
-    // Another sample of a picture: other VPLs, and after four samples or sixteen or more other
+    // Another sample of a picture: other VPLs, and after two samples or sixteen or more other
     // points of emissive surfaces and shadow maps (EmitterOptions::sample,
     // Emitters::samples_a_map). Until then the next picture keeps the maps of the last one, of
     // geometry as it was then: call lights_changed() after it has moved.

@@ -3,13 +3,17 @@
 //
 //   R_i += sum over VPLs Phi cos cos' k V      k: the kernel of a disc (lights/disc.clh)
 //   V: 1 where the plane of what the VPL's hemicube shows there is not nearer than the record
-//                                                                     [derived: VPLs, Keller97]
+//
+// VPLs are lifted off the plane of the record, from h to sqrt(h^2 + d^2 / n): n others lie within d of it,
+// so it stands for a disc of that radius, over which light a centimetre from a lit place, such as within a
+// lamp's shade, is spread. On a plane of records the sum stays the flux of the VPL.
+//                      [derived: VPLs, Keller97; of a disc by the density of places]
 //
 // Work size    1D, one work-item a record; any local size; tail guarded
 // Writes       its own reflected light
 // Cost         about 120 flops a VPL that both face
 // SPDX-License-Identifier: MIT
-#include "clgi/shared/cache.h"
+#include "cache/lookup.clh"
 #include "clgi/shared/lights.h"
 #include "clgi/shared/scene.h"
 #include "gbuffer/locate.clh"
@@ -38,9 +42,12 @@ static int shine_sees(global const View* faces, global const ulong* visibility, 
 
 kernel void cache_shine(
     const CacheParams    params,
+    const CacheTree      tree,
     const SpotParams     of,
     global const View*   restrict views,       // five of each VPL
     global const ulong*  restrict visibility,  // of all VPLs
+    global const uint*   restrict nodes,
+    global const uint*   restrict lists,
     global const float*  restrict planes,      // [RECORD_PLANES][stride] of all records
     SCENE_ARGUMENTS,
     global const Vpl*    restrict spots,       // [sample_count]
@@ -53,14 +60,24 @@ kernel void cache_shine(
     float3 point = (float3)(at[0], at[stride], at[2 * stride]);
     at += RECORD_NORMAL * stride;
     float3 normal = (float3)(at[0], at[stride], at[2 * stride]), sum = (float3)(0.0f);
+    CacheShare beside = cache_lookup(&tree, nodes, lists, planes, point, normal, CACHE_FEW);
+    float others = 0.0f, widest = 0.0f;
+    for (uint i = 0; i < beside.count; ++i) {
+        if (beside.record[i] == record) continue;
+        widest = fmax(widest, dot(beside.place[i], beside.place[i]));
+        others += 1.0f;
+    }
+    float stands_for = widest / fmax(others, 1.0f);
     for (uint k = 0; k < of.sample_count; ++k) {
         Vpl spot = spots[k];
         float3 to = spot.position.xyz - point;
         float arriving = dot(to, normal), leaving = -dot(to, spot.normal.xyz);
         if (!(arriving > 0.0f && leaving > 0.0f)) continue;
-        if (!shine_sees(views + 5 * k, visibility, point, triangles, positions))
-            continue;
-        float factor = disc_kernel_one(arriving * leaving, dot(to, to), spot.position.w, spot.normal.w);
+        if (!shine_sees(views + 5 * k, visibility, point, triangles, positions)) continue;
+        float lifted = sqrt(fma(arriving, arriving, stands_for));
+        to += (lifted - arriving) * normal;
+        float factor = disc_kernel_one(-lifted * dot(to, spot.normal.xyz), dot(to, to),
+                                       spot.position.w, spot.normal.w);
         sum += spot.flux.xyz * (factor * (1.0f / CLGI_PI));
     }
     reflected[record] += sum.x;

@@ -115,6 +115,20 @@ struct LitFloor {
         return read<Vpl>(spot.spots, samples.size());
     }
 
+    // So many records stand in for what faces any way.
+    CacheTree list(std::uint32_t count) {
+        CacheTree tree{};
+        tree.centre = {0.0f, 0.0f, 0.0f, 4.0f};
+        tree.node_count = tree.record_count = 1;
+        tree.stride = places;
+        std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
+        for (std::uint32_t k = 0; k < count; ++k)
+            for (std::size_t way = 0; way < CACHE_WAYS; ++way) lists[way * CACHE_LISTED + k] = k;
+        records.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
+        records.lists = test::upload(lists);
+        return tree;
+    }
+
     // by_spots: whether these tiles light by VPLs.
     void link_with(const std::vector<std::uint32_t>& tiles, bool by_spots) {
         params.spots = by_spots ? 1 : 0;
@@ -124,13 +138,7 @@ struct LitFloor {
         const View& shadows = set.views[0];
         gbuffer.raster_views(queue, {0, 1, shadows.width, shadows.height, set.pixels},
                              emitters.views, *scene, emitters.visibility, Pixels::depth);
-        CacheTree tree{};
-        tree.centre = {0.0f, 0.0f, 0.0f, 4.0f};
-        tree.node_count = tree.record_count = 1;
-        tree.stride = places;
-        records.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
-        records.lists =
-            test::upload(std::vector<std::uint32_t>(CACHE_WAYS * CACHE_LISTED, CACHE_NONE));
+        const CacheTree tree = list(0);
         records.sky = test::empty<float>(4);
         for (cl::Buffer* light :
              {&records.rows, &records.base, &records.reflected, &records.bright})
@@ -296,8 +304,9 @@ TEST_P(SpotPasses, ShareTheLightWithPixels) {
     of.link_with(of.wanted, true);
     const std::vector<float> rest = read<float>(of.records.reflected, 3 * places);
     of.hemicubes_of(vpls);
-    of.passes.shine(of.queue, of.params, {1, static_cast<std::uint32_t>(vpls.size()), 0, 0},
-                    *of.scene, of.records, of.spot);
+    of.passes.shine(of.queue, of.params, of.list(1),
+                    {1, static_cast<std::uint32_t>(vpls.size()), 0, 0}, *of.scene, of.records,
+                    of.spot);
     const std::vector<float> both = read<float>(of.records.reflected, 3 * places);
     for (std::size_t c = 0; c < 3; ++c) {
         const float whole = all[c * places];
@@ -320,24 +329,32 @@ TEST_P(SpotPasses, PlaceVplsInACone) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 0.006 * wanted[c]) << c;
 }
 
-// By a second implementation, in double precision; the plate hides some of them.
+// By a second implementation, in double precision; the plate hides some of them. Other records
+// beside it, in whatever order and facing its way, spread their light over what it stands for.
 TEST_P(SpotPasses, LightRecordsThatTheySee) {
     LitFloor of(sun());
     std::vector<float> planes(RECORD_PLANES * places, 0.0f);
-    const auto put = [&](std::uint32_t first, const glm::dvec3& value) {
+    const auto put = [&](std::uint32_t first, std::uint32_t record, const glm::dvec3& value) {
         for (std::uint32_t c = 0; c < 3; ++c)
-            planes[(first + c) * places] = static_cast<float>(value[static_cast<int>(c)]);
+            planes[(first + c) * places + record] = static_cast<float>(value[static_cast<int>(c)]);
     };
     const auto local = [&](const glm::dvec3& at) {
         return of.scale * (at - of.scene->frame().origin);
     };
     const glm::dvec3 at(0.3, 3.0, 0.2), facing = glm::normalize(glm::dvec3(0.2, -1.0, 0.1));
-    put(RECORD_POSITION, local(at));
-    put(RECORD_NORMAL, facing);
+    put(RECORD_POSITION, 0, local(at));
+    put(RECORD_NORMAL, 0, facing);
+    const glm::dvec3 beside[] = {{0.5, 0.1, 0.0}, {-0.2, 0.0, 0.9}, {0.3, 0.0, 0.4}};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        put(RECORD_POSITION, k + 1, local(at + beside[k]));
+        put(RECORD_NORMAL, k + 1, k < 2 ? facing : -facing);
+    }
     of.records.planes = test::upload(planes);
 
     std::vector<Vpl> vpls;
-    glm::dvec3 wanted(0.0);
+    // Alone; with one other that faces its way; with two.
+    const double wide[] = {0.0, 0.26, 0.85 / 2.0};
+    glm::dvec3 wanted[3] = {};
     int hidden = 0;
     const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope, 1.0, 0.0));
     for (std::uint32_t k = 0; k < 12; ++k) {
@@ -355,11 +372,16 @@ TEST_P(SpotPasses, LightRecordsThatTheySee) {
             ++hidden;
             continue;
         }
-        const glm::dvec3 to = local(from) - local(at);
-        const double square = glm::dot(to, to),
-                     cosines = glm::dot(to, facing) * -glm::dot(to, normal) / square;
-        wanted += flux * cosines * (square + radius2) /
-                  (glm::pi<double>() * (square * (square + radius2) + radius2 * radius2));
+        for (int others = 0; others < 3; ++others) {
+            glm::dvec3 to = local(from) - local(at);
+            const double height = glm::dot(to, facing);
+            to += (std::hypot(height, std::sqrt(wide[others]) * of.scale) - height) * facing;
+            const double square = glm::dot(to, to),
+                         cosines = glm::dot(to, facing) * -glm::dot(to, normal) / square;
+            wanted[others] +=
+                flux * cosines * (square + radius2) /
+                (glm::pi<double>() * (square * (square + radius2) + radius2 * radius2));
+        }
     }
     ASSERT_GT(hidden, 2);
     ASSERT_LT(hidden, 10);
@@ -370,14 +392,18 @@ TEST_P(SpotPasses, LightRecordsThatTheySee) {
     std::vector<float> before(3 * places, 0.0f);
     before[0] = 1.0f;
     before[places] = 2.0f;
-    of.records.reflected = test::upload(before);
-    of.passes.shine(of.queue, of.params, {1, 13, 0, 0}, *of.scene, of.records, of.spot);
-    const auto found = read<float>(of.records.reflected, 3 * places);
-    for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_NEAR(found[c * places], before[c * places] + wanted[static_cast<int>(c)],
-                    1e-4 * wanted[static_cast<int>(c)])
-            << c;
-    EXPECT_EQ(found[1], 0.0f);  // of no record
+    // The fourth faces the other way and is none of them.
+    for (const std::uint32_t records : {1u, 2u, 3u, 4u}) {
+        of.records.reflected = test::upload(before);
+        of.passes.shine(of.queue, of.params, of.list(records), {1, 13, 0, 0}, *of.scene, of.records,
+                        of.spot);
+        const auto found = read<float>(of.records.reflected, 3 * places);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double more = wanted[std::min(records, 3u) - 1][static_cast<int>(c)];
+            EXPECT_NEAR(found[c * places], before[c * places] + more, 1e-4 * more) << c;
+        }
+        EXPECT_EQ(found[1], 0.0f);  // of no record that is lit here
+    }
 }
 
 }  // namespace

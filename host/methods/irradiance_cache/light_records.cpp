@@ -48,7 +48,7 @@ void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
     });
     if (spots.sample_count == 0) return;
     record("cache.shine", count * spots.sample_count, [&](const WaitList& wait) {
-        return passes.shine(record.queue(), of, spots, scene, b, spot, wait);
+        return passes.shine(record.queue(), of, tree, spots, scene, b, spot, wait);
     });
 }
 

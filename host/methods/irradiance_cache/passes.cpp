@@ -196,16 +196,18 @@ cl::Event CachePasses::spots(const cl::CommandQueue& queue, const SpotParams& pa
 }
 
 cl::Event CachePasses::shine(const cl::CommandQueue& queue, const CacheParams& params,
-                             const SpotParams& of, const DeviceScene& scene, const CacheBuffers& b,
+                             const CacheTree& tree, const SpotParams& of,
+                             const DeviceScene& scene, const CacheBuffers& b,
                              const SpotBuffers& spots, const WaitList& wait) const {
     need_records(shine_, params, b);
+    need_tree(shine_, tree, b);
     need(shine_, "spots", spots.spots, of.sample_count * sizeof(Vpl));
     need(shine_, "reflected", b.reflected, 3 * word * params.stride);
     need(shine_, "hemicubes.views", spots.hemicubes.views, 5 * sizeof(View) * of.sample_count);
     need(shine_, "hemicubes.visibility", spots.hemicubes.visibility,
          3 * sizeof(std::uint64_t) * params.size * params.size * of.sample_count);
-    return launch(shine_, queue, params.count, wait, params, of, spots.hemicubes.views,
-                  spots.hemicubes.visibility, b.planes, scene, spots.spots, b.reflected);
+    return launch(shine_, queue, params.count, wait, params, tree, of, spots.hemicubes.views,
+                  spots.hemicubes.visibility, b.nodes, b.lists, b.planes, scene, spots.spots, b.reflected);
 }
 
 cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,

@@ -69,7 +69,7 @@ void Emitters::adopt(Emitters&& planned) {
 }
 
 std::uint32_t Emitters::samples_a_map(std::size_t pixels) const {
-    constexpr std::size_t few = 4, many = 16;
+    constexpr std::size_t few = 2, many = 16;
     constexpr std::size_t cheaper = 16;  // a pixel of a map than one of a picture
     const bool soft = scene_->has_blended() || set_.soft();
     return static_cast<std::uint32_t>(

@@ -80,9 +80,9 @@ public:
                     const SpotBuffers& spots, const WaitList& wait = {}) const;
 
     // spots -> added to buffers.reflected of params.count records.
-    cl::Event shine(const cl::CommandQueue& queue, const CacheParams& params, const SpotParams& of,
-                    const DeviceScene& scene, const CacheBuffers& buffers, const SpotBuffers& spots,
-                    const WaitList& wait = {}) const;
+    cl::Event shine(const cl::CommandQueue& queue, const CacheParams& params, const CacheTree& tree,
+                    const SpotParams& of, const DeviceScene& scene, const CacheBuffers& buffers,
+                    const SpotBuffers& spots, const WaitList& wait = {}) const;
 
     // light -> next and shown, of params.record_count records.
     cl::Event bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
