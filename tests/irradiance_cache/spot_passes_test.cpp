@@ -11,6 +11,7 @@
 #include "math_modes.hpp"
 #include "methods/irradiance_cache/spot_tiles.hpp"
 #include "scenes.hpp"
+#include "two_records.hpp"
 
 namespace clgi {
 namespace {
@@ -117,16 +118,12 @@ struct LitFloor {
 
     // So many records stand in for what faces any way.
     CacheTree list(std::uint32_t count) {
-        CacheTree tree{};
-        tree.centre = {0.0f, 0.0f, 0.0f, 4.0f};
-        tree.node_count = tree.record_count = 1;
-        tree.stride = places;
         std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
         for (std::uint32_t k = 0; k < count; ++k)
             for (std::size_t way = 0; way < CACHE_WAYS; ++way) lists[way * CACHE_LISTED + k] = k;
         records.nodes = test::upload(std::vector<std::uint32_t>{CACHE_LEAF});
         records.lists = test::upload(lists);
-        return tree;
+        return one_leaf(1, places);
     }
 
     // by_spots: whether these tiles light by VPLs.
@@ -138,13 +135,12 @@ struct LitFloor {
         const View& shadows = set.views[0];
         gbuffer.raster_views(queue, {0, 1, shadows.width, shadows.height, set.pixels},
                              emitters.views, *scene, emitters.visibility, Pixels::depth);
-        const CacheTree tree = list(0);
         records.sky = test::empty<float>(4);
         for (cl::Buffer* light :
              {&records.rows, &records.base, &records.reflected, &records.bright})
             *light = test::empty<float>(3 * places);
         records.by_spots = test::upload(tiles);
-        passes.link(queue, params, tree, *scene, emitters, records);
+        passes.link(queue, params, list(0), *scene, emitters, records);
     }
 
     // Of VPLs on surfaces.
@@ -304,8 +300,8 @@ TEST_P(SpotPasses, ShareTheLightWithPixels) {
     of.link_with(of.wanted, true);
     const std::vector<float> rest = read<float>(of.records.reflected, 3 * places);
     of.hemicubes_of(vpls);
-    of.passes.shine(of.queue, of.params, of.list(1),
-                    {1, static_cast<std::uint32_t>(vpls.size()), 0, 0}, *of.scene, of.records,
+    const auto sent = static_cast<std::uint32_t>(vpls.size());
+    of.passes.shine(of.queue, of.params, of.list(1), {1, sent, 0, 0}, *of.scene, of.records,
                     of.spot);
     const std::vector<float> both = read<float>(of.records.reflected, 3 * places);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -338,9 +334,7 @@ TEST_P(SpotPasses, LightRecordsThatTheySee) {
         for (std::uint32_t c = 0; c < 3; ++c)
             planes[(first + c) * places + record] = static_cast<float>(value[static_cast<int>(c)]);
     };
-    const auto local = [&](const glm::dvec3& at) {
-        return of.scale * (at - of.scene->frame().origin);
-    };
+    const auto local = [&](glm::dvec3 at) { return of.scale * (at - of.scene->frame().origin); };
     const glm::dvec3 at(0.3, 3.0, 0.2), facing = glm::normalize(glm::dvec3(0.2, -1.0, 0.1));
     put(RECORD_POSITION, 0, local(at));
     put(RECORD_NORMAL, 0, facing);
@@ -368,10 +362,8 @@ TEST_P(SpotPasses, LightRecordsThatTheySee) {
         const double share = (2.0 - from.y) / (at.y - from.y);
         const double crossing = from.x + share * (at.x - from.x);
         ASSERT_GT(std::abs(crossing), 0.13);  // a pixel of their hemicubes
-        if (crossing < 0.0) {
-            ++hidden;
-            continue;
-        }
+        hidden += crossing < 0.0;
+        if (crossing < 0.0) continue;
         for (int others = 0; others < 3; ++others) {
             glm::dvec3 to = local(from) - local(at);
             const double height = glm::dot(to, facing);
@@ -383,15 +375,12 @@ TEST_P(SpotPasses, LightRecordsThatTheySee) {
                 (glm::pi<double>() * (square * (square + radius2) + radius2 * radius2));
         }
     }
-    ASSERT_GT(hidden, 2);
-    ASSERT_LT(hidden, 10);
-    // One that faces away.
-    vpls.push_back(vpls.back());
+    ASSERT_TRUE(hidden > 2 && hidden < 10);
+    vpls.push_back(vpls.back());  // one that faces away
     for (int c = 0; c < 3; ++c) vpls.back().normal[c] *= -1.0f;
     of.hemicubes_of(vpls);
     std::vector<float> before(3 * places, 0.0f);
-    before[0] = 1.0f;
-    before[places] = 2.0f;
+    before[0] = before[places] = 2.0f;
     // The fourth faces the other way and is none of them.
     for (const std::uint32_t records : {1u, 2u, 3u, 4u}) {
         of.records.reflected = test::upload(before);
@@ -402,7 +391,7 @@ TEST_P(SpotPasses, LightRecordsThatTheySee) {
             const double more = wanted[std::min(records, 3u) - 1][static_cast<int>(c)];
             EXPECT_NEAR(found[c * places], before[c * places] + more, 1e-4 * more) << c;
         }
-        EXPECT_EQ(found[1], 0.0f);  // of no record that is lit here
+        EXPECT_EQ(found[1], 0.0f);
     }
 }
 

@@ -157,6 +157,7 @@ TEST_P(LightAtlasMode, OneAtATimeConvergesToAllAtATime) {
 TEST_P(LightAtlasMode, KeepsTransportOrNotForAboutTheSameLight) {
     for (const bool one_at_a_time : {false, true}) {
         LightAtlasOptions options = test::bake_options(GetParam());
+        options.build.form = Form::packets;
         options.bounces = one_at_a_time ? 0 : 4;
         options.threshold = 1e-3f;
         options.one_at_a_time = one_at_a_time;

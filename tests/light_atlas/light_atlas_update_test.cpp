@@ -180,7 +180,8 @@ TEST(LightAtlasUpdate, AfterACancelledRunBakesAnew) {
 
 // Where what texels see is not kept, an update is a bake; and the light is the same, to the bit.
 TEST(LightAtlasUpdate, WithoutKeptVisibilityBakesAnew) {
-    const LightAtlasOptions usual = test::bake_options();
+    LightAtlasOptions usual = test::bake_options();
+    usual.build.form = Form::packets;  // whose batches are small beside what is kept
     Changing kept(usual);
     ASSERT_TRUE(kept.solver.run());
     EXPECT_TRUE(kept.solver.status().visibility_kept);
@@ -205,7 +206,9 @@ TEST(LightAtlasUpdate, WithoutKeptVisibilityBakesAnew) {
 }
 
 TEST(LightAtlasUpdate, DrawsNoHemicubeAgain) {
-    Changing lamp_room;
+    LightAtlasOptions options = test::bake_options();
+    options.build.form = Form::packets;  // eight VPLs at a time
+    Changing lamp_room(options);
     const auto count = [&](const char* name) {
         std::size_t out = 0;
         for (const PassEvent& event : lamp_room.solver.events())

@@ -115,9 +115,11 @@ TEST(Occlusion, PassesOverClustersBehindWhatIsSeen) {
     ASSERT_GT(std::count(moved.begin(), moved.end(), true), 20);
 
     Camera camera = test::camera_at({0.1, 0.05, 1.0}, {0.05, 0.1, 0.0}, 1.0f);
+    // Groups pass over none.
+    const GBufferPasses packets(test::programs(), {.form = Form::packets});
     const auto shown = [&](const View& view) {  // of those that are moved
         std::size_t count = 0;
-        for (const std::uint64_t word : words<std::uint64_t>(scene, view, true))
+        for (const std::uint64_t word : words<std::uint64_t>(scene, view, true, packets))
             count += word != test::no_triangle &&
                      moved[static_cast<std::uint32_t>(word) / CLUSTER_TRIANGLES];
         return count;

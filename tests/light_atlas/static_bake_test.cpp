@@ -154,6 +154,7 @@ TEST_P(BakePoints, HaveTheSameLightHoweverItIsKept) {
                                                   options, points);
     };
     LightAtlasOptions options = test::bake_options(GetParam());
+    options.build.form = Form::packets;  // whose batches are small beside what is kept
     const auto kept = bake(options);
     ASSERT_TRUE(kept->run());
     EXPECT_TRUE(kept->status().visibility_kept);

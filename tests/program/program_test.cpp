@@ -208,9 +208,9 @@ TEST_F(Program, AFailingCompilerOrTooLittleMemoryEndsWithThree) {
                 "POCL_KERNEL_CACHE=0 POCL_EXTRA_BUILD_FLAGS=-Dkernel=no_such_word");
         EXPECT_EQ(refused.code, 3) << refused.err;
         EXPECT_EQ(own_lines(refused.err), 1) << refused.err;  // PoCL's clang writes some as well
-        EXPECT_NE(refused.err.find("clgi: error: program: gbuffer/clear.cl does not build on"),
-                  std::string::npos)
+        EXPECT_NE(refused.err.find("clgi: error: program: gbuffer/"), std::string::npos)
             << refused.err;
+        EXPECT_NE(refused.err.find(".cl does not build on"), std::string::npos) << refused.err;
         EXPECT_NE(refused.err.find("no_such_word"), std::string::npos) << refused.err;  // the log
     }
     expect_one_error_line(run(out, "CLGI_DEVICE=nobody::"), 3);

@@ -205,7 +205,7 @@ TEST_F(VerifyProgram, JudgesPicturesOfSeveralSamplesByWholePixels) {
         return json::parse(read("s.json")).at("samples");
     };
     const json still = stats("--time-budget 0.2s --verify 0.2s");
-    EXPECT_GE(still.at("count"), 4);
+    EXPECT_GE(still.at("count"), 2);
     EXPECT_LE(still.at("count"), 1024);
     EXPECT_GT(still.at("refine_ms"), 0.0);
     EXPECT_EQ(clgi::io::load_image(exr).attributes.at("clgi:filter"), "box");
