@@ -12,16 +12,14 @@
 #include "cache/around.clh"
 #include "cache/link.clh"
 
-// From pixel k, exposed; 0 where there is nothing.
+// From pixel k, exposed; 0 where there is nothing. found: irradiance of what the pixels see.
 static float3 around_radiance(const LinkWorld* world, const View* view, const LinkPacket* packet,
-                              global const float* light, int k) {
+                              const float found[3][CLGI_WIDTH], int k) {
     float per_factor = 1.0f / packet->at.factor[k];
     float3 sends, reflects;
-    CacheShare share;
-    if (!link_surface(world, packet, k, &sends, &reflects, &share))
+    if (!link_surface(world, packet, k, &sends, &reflects))
         return link_above(world, view, &packet->at, 0, k) * world->params->sky.xyz * per_factor;
-    CacheLight found = cache_light(&share, light, world->tree->stride);
-    return (link_lane(packet->once, k) + (sends + reflects * found.irradiance) * per_factor) *
+    return (link_lane(packet->once, k) + (sends + reflects * link_lane(found, k)) * per_factor) *
            (1.0f / CLGI_PI);
 }
 
@@ -41,12 +39,18 @@ kernel void cache_around(
     uint to = around_face(&of, slot, face, 0), pixels = across * down;
     for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
         LinkPacket packet;
-        if (stands)
+        float found[3][CLGI_WIDTH];
+        if (stands) {
             link_packet(&world, &view, visibility, face, pixel, link_block(record, face, pixel),
                         &packet);
+            CacheVector there = cache_light(&packet.share, light, tree.stride);
+            packet_store(there.x, found[0]);
+            packet_store(there.y, found[1]);
+            packet_store(there.z, found[2]);
+        }
         for (int k = 0; k < CLGI_WIDTH; ++k)
             around[to + pixel + k] =
-                stands ? around_pack(around_radiance(&world, &view, &packet, light, k)) : (uint2)(0);
+                stands ? around_pack(around_radiance(&world, &view, &packet, found, k)) : (uint2)(0);
     }
     for (uint level = 1; level < AROUND_LEVELS; ++level) {
         uint from = to, width = across >> level, height = down >> level;

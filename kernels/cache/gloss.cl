@@ -10,8 +10,8 @@
 // lobe's mean albedo does.
 //             [Krivanek05: radiance that is cached; Krivanek08: filtered importance sampling; derived]
 //
-// Work size    1D, one work-item a pixel; any local size; tail guarded
-// Writes       radiance of its own pixel; values that are not finite are counted and left out
+// Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
+// Writes       radiance of its own pixels; values that are not finite are counted and left out
 // Cost         a look-up, and some 250 flops and two scattered reads a direction
 // SPDX-License-Identifier: MIT
 #include "cache/around.clh"
@@ -56,6 +56,19 @@ CLGI_INLINE float3 gloss_numbers(uint pixel, uint index) {
     return convert_float3(at >> 8) * (1.0f / 16777216.0f);
 }
 
+// Whose turn it is, `left` of the way through the records that have anything around them.
+CLGI_INLINE uint gloss_record(const CacheShare* share, const float weight[CACHE_LISTED][CLGI_WIDTH],
+                              float left, int lane) {
+    uint record = 0;
+    for (uint i = 0; i < share->count; ++i) {
+        if (!(weight[i][lane] > 0.0f)) continue;
+        record = (uint)share->record[i][lane];
+        if (left < weight[i][lane]) break;
+        left -= weight[i][lane];
+    }
+    return record;
+}
+
 kernel void cache_gloss(
     const CacheGlossParams        params,
     const CacheAround             of,
@@ -73,62 +86,80 @@ kernel void cache_gloss(
     global float*                 restrict radiance,    // [RADIANCE_PLANES][stride] cd/m^2
     global uint*                  restrict non_finite)  // [1]
 {
-    uint pixel = (uint)get_global_id(0), stride = params.stride;
-    if (pixel >= params.pixel_count) return;
-    float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, pixel);
-    if (!(dot(normal, normal) > 0.0f)) return;
-    float4 surface = pixel_surface(ids, materials, stride, pixel);
-    float metallic = surface.x, alpha = surface.y;
-    if (!(metallic + surface.z + surface.w > 0.0f)) return;
-    float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, pixel), base, shown;
-    base.x = row_load_one(gbuffer_row(planes, GBUFFER_BASE, stride), pixel);
-    base.y = row_load_one(gbuffer_row(planes, GBUFFER_BASE + 1, stride), pixel);
-    base.z = row_load_one(gbuffer_row(planes, GBUFFER_BASE + 2, stride), pixel);
-    shown.x = row_load_one(irradiance_row(irradiance, 0, stride), pixel);
-    shown.y = row_load_one(irradiance_row(irradiance, 1, stride), pixel);
-    shown.z = row_load_one(irradiance_row(irradiance, 2, stride), pixel);
-
-    CacheShare share = cache_lookup(&tree, nodes, lists, records, point, normal, CACHE_LISTED);
-    cache_carry_on(&share);
-    float3 before = cache_light(&share, light, tree.stride).irradiance;
-    float all = 0.0f;
+    uint first = (uint)get_global_id(0) * CLGI_WIDTH, stride = params.stride;
+    if (first >= params.pixel_count) return;
+    int lanes = (int)min(params.pixel_count - first, (uint)CLGI_WIDTH), glossy[CLGI_WIDTH], any = 0;
+    for (int k = 0; k < lanes; ++k) {
+        float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, first + k);
+        float4 surface = pixel_surface(ids, materials, stride, first + k);
+        glossy[k] = dot(normal, normal) > 0.0f && surface.x + surface.z + surface.w > 0.0f;
+        any |= glossy[k];
+    }
+    if (!any) return;
+    CacheVector points = cache_points(planes, GBUFFER_POSITION, stride, first);
+    CacheVector normals = cache_points(planes, GBUFFER_NORMAL, stride, first);
+    CacheShare share;
+    CacheVector places[CACHE_LISTED];
+    cache_lookup(&tree, nodes, lists, records, points, normals, CACHE_LISTED, &share, places);
+    cache_carry_on(&share, places);
+    CacheVector before = cache_light(&share, light, tree.stride);
+    floatp all = packet_zero;
+    float weight[CACHE_LISTED][CLGI_WIDTH], sums[CLGI_WIDTH], was[CLGI_WIDTH];
     for (uint i = 0; i < share.count; ++i) {
-        if (share.record[i] >= of.seen && share.record[i] < of.seen + of.met) share.weight[i] = 0.0f;
-        all += share.weight[i];
+        intp record = packet_load(share.record[i]);
+        intp met = (record >= (int)of.seen) & (record < (int)(of.seen + of.met));
+        floatp has = packet_select(share.weight[i], packet_zero, met);
+        packet_store(has, weight[i]);
+        all += has;
     }
+    packet_store(all, sums);
+    packet_store(luminance(before.x, before.y, before.z), was);
 
-    // The frame of the lobe: y across the eye's direction.
-    normal = mapped_normal(ids[GBUFFER_MAPPED_NORMAL * stride + pixel], normalize(normal));
-    float3 eye = params.eye.w != 0.0f ? params.eye.xyz : normalize(params.eye.xyz - point);
-    float facing = dot(normal, eye);
-    float3 x = eye - facing * normal;
-    float3 helper = fabs(normal.x) < 0.6f ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 1.0f, 0.0f);
-    x = dot(x, x) > 1e-8f ? normalize(x) : normalize(cross(normal, helper));
-    float3 y = cross(normal, x);
+    for (int k = 0; k < lanes; ++k) {
+        if (!glossy[k]) continue;
+        uint pixel = first + k;
+        float4 surface = pixel_surface(ids, materials, stride, pixel);
+        float metallic = surface.x, alpha = surface.y;
+        float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, pixel), base, shown;
+        base.x = row_load_one(gbuffer_row(planes, GBUFFER_BASE, stride), pixel);
+        base.y = row_load_one(gbuffer_row(planes, GBUFFER_BASE + 1, stride), pixel);
+        base.z = row_load_one(gbuffer_row(planes, GBUFFER_BASE + 2, stride), pixel);
+        shown.x = row_load_one(irradiance_row(irradiance, 0, stride), pixel);
+        shown.y = row_load_one(irradiance_row(irradiance, 1, stride), pixel);
+        shown.z = row_load_one(irradiance_row(irradiance, 2, stride), pixel);
 
-    float3 sum = (float3)(0.0f);
-    for (uint k = 0; all > 0.0f && k < params.directions; ++k) {
-        float3 numbers = gloss_numbers(pixel, params.first_direction + k);
-        LobeSample at = lobe_sample(clamp(fabs(facing), 1e-3f, 1.0f), alpha, numbers.x, numbers.y);
-        if (!(at.masked > 0.0f)) continue;
-        float left = numbers.z * all;
-        uint i = 0;
-        while (i + 1 < share.count && left >= share.weight[i]) left -= share.weight[i++];
-        float3 from = gloss_around(&of, views, around, share.record[i],
-                                   at.toward.x * x + at.toward.y * y + at.toward.z * normal,
-                                   1.0f / (at.density * (float)params.directions));
-        float fresnel = fma(surface.w - surface.z, at.away, surface.z);
-        float white = fma(1.0f - metallic, fresnel, metallic * at.away);
-        float tint = metallic * (1.0f - alpha * alpha) * (1.0f - at.away);
-        sum += at.masked * (white + tint * base) * from;
+        // The frame of the lobe: y across the eye's direction.
+        float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, pixel);
+        normal = mapped_normal(ids[GBUFFER_MAPPED_NORMAL * stride + pixel], normalize(normal));
+        float3 eye = params.eye.w != 0.0f ? params.eye.xyz : normalize(params.eye.xyz - point);
+        float facing = dot(normal, eye);
+        float3 x = eye - facing * normal;
+        float3 helper = fabs(normal.x) < 0.6f ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 1.0f, 0.0f);
+        x = dot(x, x) > 1e-8f ? normalize(x) : normalize(cross(normal, helper));
+        float3 y = cross(normal, x);
+
+        float3 sum = (float3)(0.0f);
+        for (uint n = 0; sums[k] > 0.0f && n < params.directions; ++n) {
+            float3 numbers = gloss_numbers(pixel, params.first_direction + n);
+            LobeSample at = lobe_sample(clamp(fabs(facing), 1e-3f, 1.0f), alpha, numbers.x, numbers.y);
+            if (!(at.masked > 0.0f)) continue;
+            float3 from = gloss_around(&of, views, around,
+                                       gloss_record(&share, weight, numbers.z * sums[k], k),
+                                       at.toward.x * x + at.toward.y * y + at.toward.z * normal,
+                                       1.0f / (at.density * (float)params.directions));
+            float fresnel = fma(surface.w - surface.z, at.away, surface.z);
+            float white = fma(1.0f - metallic, fresnel, metallic * at.away);
+            float tint = metallic * (1.0f - alpha * alpha) * (1.0f - at.away);
+            sum += at.masked * (white + tint * base) * from;
+        }
+        float is = luminance(shown.x, shown.y, shown.z);
+        sum *= (was[k] > 0.0f ? clamp(is / was[k], 0.0f, CHANGE_MOST) : 1.0f) / (float)params.directions;
+        if (!(sums[k] > 0.0f)) {
+            float4 means = pixel_reflectance(ids, materials, stride, pixel);
+            sum = (means.y + means.z * base) * shown * (1.0f / CLGI_PI);
+        }
+        add_reflected(pixel, params.exposure, sum.x, radiance, non_finite);
+        add_reflected(stride + pixel, params.exposure, sum.y, radiance, non_finite);
+        add_reflected(2 * stride + pixel, params.exposure, sum.z, radiance, non_finite);
     }
-    float was = luminance(before.x, before.y, before.z), is = luminance(shown.x, shown.y, shown.z);
-    sum *= (was > 0.0f ? clamp(is / was, 0.0f, CHANGE_MOST) : 1.0f) / (float)params.directions;
-    if (!(all > 0.0f)) {
-        float4 means = pixel_reflectance(ids, materials, stride, pixel);
-        sum = (means.y + means.z * base) * shown * (1.0f / CLGI_PI);
-    }
-    add_reflected(pixel, params.exposure, sum.x, radiance, non_finite);
-    add_reflected(stride + pixel, params.exposure, sum.y, radiance, non_finite);
-    add_reflected(2 * stride + pixel, params.exposure, sum.z, radiance, non_finite);
 }

@@ -58,15 +58,14 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
                 if (!skies) all += packet.at.factor[k];
                 looked += packet.at.seen[k] >= 0 ? packet.at.factor[k] : 0.0f;
                 float3 sends, reflects;
-                CacheShare share;
-                if (!link_surface(&world, &packet, k, &sends, &reflects, &share)) continue;
+                if (!link_surface(&world, &packet, k, &sends, &reflects)) continue;
                 own += sends;
                 once += packet.at.factor[k] * link_lane(packet.once, k);
-                for (uint i = 0; i < share.count; ++i) {
-                    global float* to = row + share.record[i];
-                    to[0] += share.weight[i] * reflects.x;
-                    to[stride] += share.weight[i] * reflects.y;
-                    to[2 * stride] += share.weight[i] * reflects.z;
+                for (uint i = 0; i < packet.share.count; ++i) {
+                    global float* to = row + packet.share.record[i][k];
+                    to[0] += packet.weight[i][k] * reflects.x;
+                    to[stride] += packet.weight[i][k] * reflects.y;
+                    to[2 * stride] += packet.weight[i][k] * reflects.z;
                 }
             }
         }

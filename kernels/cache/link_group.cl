@@ -58,8 +58,7 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
                 if (!skies) brings[0][lane] = packet.at.factor[0];
                 brings[14][lane] = packet.at.seen[0] >= 0 ? packet.at.factor[0] : 0.0f;
                 float3 sends, rho;
-                CacheShare share;
-                if (link_surface(&world, &packet, 0, &sends, &rho, &share)) {
+                if (link_surface(&world, &packet, 0, &sends, &rho)) {
                     float3 once = packet.at.factor[0] * link_lane(packet.once, 0);
                     brings[1][lane] = sends.x;
                     brings[2][lane] = sends.y;
@@ -70,10 +69,10 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
                     reflects[0][lane] = rho.x;
                     reflects[1][lane] = rho.y;
                     reflects[2][lane] = rho.z;
-                    count[lane] = share.count;
-                    for (uint i = 0; i < share.count; ++i) {
-                        records[i][lane] = share.record[i];
-                        weights[i][lane] = share.weight[i];
+                    count[lane] = packet.share.count;
+                    for (uint i = 0; i < packet.share.count; ++i) {
+                        records[i][lane] = (uint)packet.share.record[i][0];
+                        weights[i][lane] = packet.weight[i][0];
                     }
                 }
             }

@@ -40,6 +40,27 @@ static int shine_sees(global const View* faces, global const ulong* visibility, 
     return !(plane / toward > 0.0f && plane / toward < 1.0f - SHINE_SLACK);
 }
 
+// Square of the radius that a record stands for.
+static float shine_area(const CacheTree* tree, global const uint* nodes, global const uint* lists,
+                        global const float* planes, uint record, float3 point, float3 normal) {
+    CacheVector here = {packet_splat(point.x), packet_splat(point.y), packet_splat(point.z)};
+    CacheVector up = {packet_splat(normal.x), packet_splat(normal.y), packet_splat(normal.z)};
+    CacheShare beside;
+    cache_lookup(tree, nodes, lists, planes, here, up, CACHE_FEW, &beside, 0);
+    float others = 0.0f, widest = 0.0f;
+    for (uint i = 0; i < beside.count; ++i) {
+        float weight[CLGI_WIDTH];
+        packet_store(beside.weight[i], weight);
+        uint other = (uint)beside.record[i][0];
+        if (other == record || !(weight[0] > 0.0f)) continue;
+        global const float* at = planes + other;
+        float3 d = (float3)(at[0], at[tree->stride], at[2 * tree->stride]) - point;
+        widest = fmax(widest, dot(d, d));
+        others += 1.0f;
+    }
+    return widest / fmax(others, 1.0f);
+}
+
 kernel void cache_shine(
     const CacheParams    params,
     const CacheTree      tree,
@@ -60,14 +81,7 @@ kernel void cache_shine(
     float3 point = (float3)(at[0], at[stride], at[2 * stride]);
     at += RECORD_NORMAL * stride;
     float3 normal = (float3)(at[0], at[stride], at[2 * stride]), sum = (float3)(0.0f);
-    CacheShare beside = cache_lookup(&tree, nodes, lists, planes, point, normal, CACHE_FEW);
-    float others = 0.0f, widest = 0.0f;
-    for (uint i = 0; i < beside.count; ++i) {
-        if (beside.record[i] == record) continue;
-        widest = fmax(widest, dot(beside.place[i], beside.place[i]));
-        others += 1.0f;
-    }
-    float stands_for = widest / fmax(others, 1.0f);
+    float stands_for = shine_area(&tree, nodes, lists, planes, record, point, normal);
     for (uint k = 0; k < of.sample_count; ++k) {
         Vpl spot = spots[k];
         float3 to = spot.position.xyz - point;

@@ -3,12 +3,14 @@
 // Doubt is how much the records of a pixel differ (lookup.clh): where they do, light changes between
 // them, and more of them would change it.
 //
-// Work size    1D, one work-item a pixel; any local size; tail guarded
-// Writes       irradiance and doubt of its own pixel, 0 where nothing is or no record stands in
+// Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
+// Writes       irradiance and doubt of its own pixels, 0 where nothing is or no record stands in
 // SPDX-License-Identifier: MIT
 #include "cache/lookup.clh"
-#include "finite.clh"
-#include "planes.clh"
+
+static uintp cache_magnitude(CacheVector v) {
+    return max(packet_magnitude(v.x), max(packet_magnitude(v.y), packet_magnitude(v.z)));
+}
 
 kernel void cache_show(
     const CacheShowParams  params,
@@ -23,33 +25,25 @@ kernel void cache_show(
     global float*          restrict doubt,       // [stride] exposed lux squared
     global float*          restrict of_more)     // as irradiance, of `more`
 {
-    uint at = (uint)get_global_id(0);
+    uint at = (uint)get_global_id(0) * CLGI_WIDTH;
     if (at >= params.point_count) return;
-    float3 point = gbuffer_load3(planes, GBUFFER_POSITION, params.stride, at);
-    float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, params.stride, at);
-    float sum[3] = {0.0f, 0.0f, 0.0f}, second[3] = {0.0f, 0.0f, 0.0f}, spread = 0.0f;
-    if (!is_finite3(point) || !is_finite3(normal)) {
-        for (int c = 0; c < 3; ++c) sum[c] = second[c] = as_float(0x7fc00000u);
-    } else if (dot(normal, normal) > 0.0f) {
-        CacheShare share = cache_lookup(&tree, nodes, lists, records, point, normal,
-                                        CACHE_LISTED);
-        cache_carry_on(&share);
-        CacheLight found = cache_light(&share, light, tree.stride);
-        sum[0] = found.irradiance.x;
-        sum[1] = found.irradiance.y;
-        sum[2] = found.irradiance.z;
-        spread = found.spread;
-        if (params.more) {
-            found = cache_light(&share, more, tree.stride);
-            second[0] = found.irradiance.x;
-            second[1] = found.irradiance.y;
-            second[2] = found.irradiance.z;
-        }
-    }
-    doubt[at] = spread;
-    for (int c = 0; c < 3; ++c)
-        row_store_one(sum[c], irradiance_row(irradiance, c, params.stride), at);
+    CacheVector point = cache_points(planes, GBUFFER_POSITION, params.stride, at);
+    CacheVector normal = cache_points(planes, GBUFFER_NORMAL, params.stride, at);
+    floatp none = packet_splat(as_float(0x7fc00000u));
+    intp broken = max(cache_magnitude(point), cache_magnitude(normal)) >= NOT_FINITE;
+    CacheShare share;
+    CacheVector places[CACHE_LISTED];
+    cache_lookup(&tree, nodes, lists, records, point, normal, CACHE_LISTED, &share, places);
+    cache_carry_on(&share, places);
+    CacheVector found = cache_light(&share, light, tree.stride);
+    floatp spread = cache_spread(&share, light, tree.stride, found);
+    packet_store(packet_select(spread, packet_zero, broken), doubt + at);
+    row_store(packet_select(found.x, none, broken), irradiance_row(irradiance, 0, params.stride), at);
+    row_store(packet_select(found.y, none, broken), irradiance_row(irradiance, 1, params.stride), at);
+    row_store(packet_select(found.z, none, broken), irradiance_row(irradiance, 2, params.stride), at);
     if (!params.more) return;
-    for (int c = 0; c < 3; ++c)
-        row_store_one(second[c], irradiance_row(of_more, c, params.stride), at);
+    found = cache_light(&share, more, tree.stride);
+    row_store(packet_select(found.x, none, broken), irradiance_row(of_more, 0, params.stride), at);
+    row_store(packet_select(found.y, none, broken), irradiance_row(of_more, 1, params.stride), at);
+    row_store(packet_select(found.z, none, broken), irradiance_row(of_more, 2, params.stride), at);
 }

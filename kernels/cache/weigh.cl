@@ -6,7 +6,7 @@
 // none of them shows, because all lie on one side of it.
 //                              [derived: error of a source, to be weighed by importance, Smits92]
 //
-// Work size    1D, one work-item a pick; any local size; tail guarded
+// Work size    1D, one work-item for every CLGI_WIDTH picks (rounded up); any local size
 // Writes       its own worth, and the record that counts most there; CACHE_NONE where none does
 // SPDX-License-Identifier: MIT
 #include "cache/lookup.clh"
@@ -24,28 +24,24 @@ kernel void cache_weigh(
     global float*        restrict worth,    // [pick_stride] exposed lux
     global uint*         restrict nearest)  // [pick_stride]
 {
-    uint item = (uint)get_global_id(0);
+    uint item = (uint)get_global_id(0) * CLGI_WIDTH;
     if (item >= params.count * params.picks) return;
-    global const float* at = places + item;
     uint stride = params.pick_stride;
-    float3 point = (float3)(at[0], at[stride], at[2 * stride]);
-    float reflectance = at[PICK_REFLECTANCE * stride];
-    at += RECORD_NORMAL * stride;
-    float3 normal = (float3)(at[0], at[stride], at[2 * stride]);
-    float found = 0.0f, most = 0.0f;
-    uint record = CACHE_NONE;
-    if (dot(normal, normal) > 0.0f) {
-        CacheShare share = cache_lookup(&tree, nodes, lists, records, point, normal, CACHE_LISTED);
-        CacheLight there = cache_light(&share, light, tree.stride);
-        float change = CACHE_COARSE * luminance(there.irradiance.x, there.irradiance.y,
-                                                there.irradiance.z);
-        found = reflectance * sqrt(fma(change, change, there.spread));
-        for (uint i = 0; i < share.count; ++i) {
-            if (share.weight[i] <= most) continue;
-            most = share.weight[i];
-            record = share.record[i];
-        }
+    CacheVector point, normal;
+    packet_load3(places + item, stride, &point.x, &point.y, &point.z);
+    packet_load3(places + RECORD_NORMAL * stride + item, stride, &normal.x, &normal.y, &normal.z);
+    CacheShare share;
+    cache_lookup(&tree, nodes, lists, records, point, normal, CACHE_LISTED, &share, 0);
+    CacheVector there = cache_light(&share, light, tree.stride);
+    floatp change = CACHE_COARSE * luminance(there.x, there.y, there.z), most = packet_zero;
+    floatp spread = cache_spread(&share, light, tree.stride, there);
+    intp record = (intp)((int)CACHE_NONE);
+    for (uint i = 0; i < share.count; ++i) {
+        intp more = share.weight[i] > most;
+        most = packet_select(most, share.weight[i], more);
+        record = packet_select(record, packet_load(share.record[i]), more);
     }
-    worth[item] = found;
-    nearest[item] = record;
+    floatp reflectance = packet_load(places + PICK_REFLECTANCE * stride + item);
+    packet_store(reflectance * sqrt(fma(change, change, spread)), worth + item);
+    packet_store(as_uintp(record), nearest + item);
 }

@@ -10,6 +10,7 @@
 
 #include "device.hpp"
 #include "math_modes.hpp"
+#include "shares_by_hand.hpp"
 #include "two_records.hpp"
 
 namespace clgi {
@@ -40,13 +41,13 @@ TEST(CachePasses, ShowsTheMeanOfRecordsAndHowFarTheyDiffer) {
         EXPECT_NEAR(found[c * stride + 1], two.values[1][c], 0.01f * two.values[1][c]);
         EXPECT_EQ(found[c * stride + 2], 0.0f);
         EXPECT_EQ(found[c * stride + 3], 0.0f);
-        EXPECT_EQ(found[c * stride + 4], -1.0f);
+        EXPECT_EQ(found[c * stride + next_packet], -1.0f);
     }
     EXPECT_NEAR(doubts[0], two.half * two.half, 1e-5f);
     EXPECT_LT(doubts[1], 0.02f * two.half * two.half);
     EXPECT_EQ(doubts[2], 0.0f);
     EXPECT_EQ(doubts[3], 0.0f);
-    EXPECT_EQ(doubts[4], -1.0f);
+    EXPECT_EQ(doubts[next_packet], -1.0f);
 }
 
 // worth = rho sqrt(spread + (Y / 10)^2), by hand: in the middle, beside each record, of one that
@@ -82,8 +83,8 @@ TEST(CachePasses, WeighWhatPicksSend) {
         EXPECT_EQ(found[none], 0.0f);
         EXPECT_EQ(cells[none], CACHE_NONE);
     }
-    EXPECT_EQ(found[5], -1.0f);
-    EXPECT_EQ(cells[5], 77u);
+    EXPECT_EQ(found[next_packet], -1.0f);
+    EXPECT_EQ(cells[next_packet], 77u);
 }
 
 // Records on a tilted surface, by lookup.clh in double precision: weights by distance and facing,
@@ -98,6 +99,7 @@ TEST(CachePasses, CarriesOnWhatChangesEvenlyBetweenRecords) {
                      across = glm::normalize(glm::cross(normal, glm::dvec3(0, 0, 1))),
                      along = glm::cross(normal, across);
     std::vector<glm::dvec3> places;
+    const std::vector<glm::dvec3> normals(count, normal);
     std::vector<float> records(RECORD_PLANES * stride, 0.0f), light(3 * stride, 0.0f),
         planes(GBUFFER_PLANES * stride, 0.0f);
     std::vector<std::uint32_t> lists(CACHE_WAYS * CACHE_LISTED, CACHE_NONE);
@@ -135,47 +137,17 @@ TEST(CachePasses, CarriesOnWhatChangesEvenlyBetweenRecords) {
     queue.enqueueReadBuffer(irradiance, CL_TRUE, 0, found.size() * sizeof(float), found.data());
 
     for (std::uint32_t k = 0; k < points.size(); ++k) {
-        std::vector<double> apart, share;
-        double mean = 0.0, last = 0.0, sum = 0.0;
-        for (const glm::dvec3& place : places) {
-            const glm::dvec3 d = points[k] - place;
-            apart.push_back(glm::dot(d, d));
-            mean += 0.1 * apart.back() / count;
-            last = std::max(last, apart.back());
-        }
-        for (const double a : apart) {
-            share.push_back(std::pow(1.0 - 0.999 * a / last, 2.0) / (1.0 + a / mean));
-            sum += share.back();
-        }
-        glm::dvec3 middle(0.0), weighted(0.0);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            share[i] /= sum;
-            middle += share[i] * (places[i] - points[k]);
-        }
-        glm::dmat3 spread(0.0);
-        double trace = glm::dot(middle, middle);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const glm::dvec3 d = places[i] - points[k] - middle;
-            spread += share[i] * glm::outerProduct(d, d);
-            trace += share[i] * glm::dot(d, d);
-            for (std::uint32_t c = 0; c < 3; ++c)
-                weighted[static_cast<int>(c)] += share[i] * field(places[i], c);
-        }
-        const glm::dvec3 slope = glm::inverse(spread + glm::dmat3(0.05 * trace)) * middle;
-        double shares = 0.0;
-        glm::dvec3 wanted(0.0);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const double to = 1.0 - glm::dot(slope, places[i] - points[k] - middle);
-            share[i] *= std::clamp(to, 0.0, 3.0);
-            shares += share[i];
-            for (std::uint32_t c = 0; c < 3; ++c)
-                wanted[static_cast<int>(c)] += share[i] * field(places[i], c);
-        }
+        const std::vector<double> share = shares_by_hand(places, normals, points[k], normal);
+        const std::vector<double> carried = carried_by_hand(share, places, points[k]);
         for (std::uint32_t c = 0; c < 3; ++c) {
-            const double by_hand = wanted[static_cast<int>(c)] / shares, is = found[c * stride + k],
-                         even = field(points[k], c);
+            double weighted = 0.0, by_hand = 0.0;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                weighted += share[i] * field(places[i], c);
+                by_hand += carried[i] * field(places[i], c);
+            }
+            const double is = found[c * stride + k], even = field(points[k], c);
             EXPECT_NEAR(is, by_hand, 2e-5 * by_hand) << k << " " << c;
-            const double before = std::abs(weighted[static_cast<int>(c)] - even);
+            const double before = std::abs(weighted - even);
             EXPECT_LT(std::abs(is - even), (k == 0 ? 0.3 : 0.9) * before)
                 << k << " " << c << " " << before;
         }

@@ -278,7 +278,7 @@ TEST_P(SkyPasses, ShowTwoLightsAtOnce) {
         EXPECT_NEAR(second[c * plane + 1], -two.values[0][from], 0.05f);
         EXPECT_EQ(second[c * plane + 2], 0.0f);
         EXPECT_EQ(second[c * plane + 3], 0.0f);
-        EXPECT_EQ(second[c * plane + 4], -1.0f);
+        EXPECT_EQ(second[c * plane + next_packet], -1.0f);
     }
 }
 

@@ -35,7 +35,8 @@ inline EmitterBuffers no_emitters() {
     return out;
 }
 
-constexpr std::uint32_t plane = 16;  // stride of small planes
+constexpr std::uint32_t plane = 32;        // stride of small planes
+constexpr std::uint32_t next_packet = 16;  // whatever the width of packets, which are written whole
 
 // Two records that face up, a metre to the left and to the right of the origin.
 struct TwoRecords {

@@ -196,9 +196,9 @@ cl::Event CachePasses::spots(const cl::CommandQueue& queue, const SpotParams& pa
 }
 
 cl::Event CachePasses::shine(const cl::CommandQueue& queue, const CacheParams& params,
-                             const CacheTree& tree, const SpotParams& of,
-                             const DeviceScene& scene, const CacheBuffers& b,
-                             const SpotBuffers& spots, const WaitList& wait) const {
+                             const CacheTree& tree, const SpotParams& of, const DeviceScene& scene,
+                             const CacheBuffers& b, const SpotBuffers& spots,
+                             const WaitList& wait) const {
     need_records(shine_, params, b);
     need_tree(shine_, tree, b);
     need(shine_, "spots", spots.spots, of.sample_count * sizeof(Vpl));
@@ -207,7 +207,8 @@ cl::Event CachePasses::shine(const cl::CommandQueue& queue, const CacheParams& p
     need(shine_, "hemicubes.visibility", spots.hemicubes.visibility,
          3 * sizeof(std::uint64_t) * params.size * params.size * of.sample_count);
     return launch(shine_, queue, params.count, wait, params, tree, of, spots.hemicubes.views,
-                  spots.hemicubes.visibility, b.nodes, b.lists, b.planes, scene, spots.spots, b.reflected);
+                  spots.hemicubes.visibility, b.nodes, b.lists, b.planes, scene, spots.spots,
+                  b.reflected);
 }
 
 cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBounceParams& params,
@@ -233,8 +234,8 @@ cl::Event CachePasses::weigh(const cl::CommandQueue& queue, const CacheParams& p
     need(weigh_, "places", places, PICK_PLANES * word * params.pick_stride);
     need(weigh_, "worth", worth, word * params.pick_stride);
     need(weigh_, "nearest", nearest, word * params.pick_stride);
-    return launch(weigh_, queue, picks, wait, params, tree, b.nodes, b.lists, b.planes, b.light,
-                  places, worth, nearest);
+    return launch(weigh_, queue, packets(weigh_, picks), wait, params, tree, b.nodes, b.lists,
+                  b.planes, b.light, places, worth, nearest);
 }
 
 cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams& params,
@@ -260,8 +261,9 @@ cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams
     need(show_, "more.light", shown.light, 3 * word * tree.stride);
     need(show_, "more.irradiance", shown.irradiance,
          irradiance_bytes(show_.storage, params.stride));
-    return launch(show_, queue, params.point_count, wait, params, tree, b.nodes, b.lists, b.planes,
-                  b.light, points.planes, shown.light, irradiance, doubt, shown.irradiance);
+    return launch(show_, queue, packets(show_, params.point_count), wait, params, tree, b.nodes,
+                  b.lists, b.planes, b.light, points.planes, shown.light, irradiance, doubt,
+                  shown.irradiance);
 }
 
 cl::Event CachePasses::sight(const cl::CommandQueue& queue, const CacheParams& params,
@@ -325,8 +327,8 @@ cl::Event CachePasses::gloss(const cl::CommandQueue& queue, const CacheGlossPara
     need(gloss_, "irradiance", picture.irradiance, irradiance_bytes(gloss_.storage, params.stride));
     need(gloss_, "radiance", picture.radiance, RADIANCE_PLANES * word * params.stride);
     need(gloss_, "non_finite", picture.non_finite, word);
-    return launch(gloss_, queue, params.pixel_count, wait, params, of, tree, b.nodes, b.lists,
-                  b.planes, b.light, b.views, picture.around, scene.materials(),
+    return launch(gloss_, queue, packets(gloss_, params.pixel_count), wait, params, of, tree,
+                  b.nodes, b.lists, b.planes, b.light, b.views, picture.around, scene.materials(),
                   picture.points.planes, picture.points.ids, picture.irradiance, picture.radiance,
                   picture.non_finite);
 }
