@@ -10,6 +10,7 @@
 #include "core/opencl/timing.hpp"
 #include "plan/expected_error.hpp"
 #include "plan/picture_luminance.hpp"
+#include "plan/sky.hpp"
 #include "scene/luminance.hpp"
 
 namespace clgi {
@@ -18,6 +19,7 @@ namespace {
 constexpr int longest_side = 160;  // pixels
 constexpr int probe_vpls = 256;
 constexpr double coarse = 0.25;  // direct light, against the defaults
+constexpr int sky_lights = 4;    // reflections of the sky's light are asked for, not its shadows
 
 void make_fine(EmitterOptions& options, double fineness) {
     const EmitterOptions usual;
@@ -52,6 +54,7 @@ ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const
     make_small(options, plan.request);
     options.emitters.vpls = probe_vpls;
     make_fine(options.emitters, coarse);
+    options.emitters.environment_lights = sky_lights;
     options.negative_vpls = 0;
     options.low_resolution_step = 1;
     options.build = plan.request.build;
@@ -80,7 +83,8 @@ ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const
         out.reflected =
             seen ? over_level(lumen / (std::numbers::pi * plan.analysis.surfaces.area)) : unknown;
     }
-    if (!has_exact_direct_light(plan)) {
+    // Methods for a sky are measured with their direct light.
+    if (!has_exact_direct_light(plan) && !has_sky(plan)) {
         make_fine(options.emitters, 2.0 * coarse);
         solver.reconfigure(options);
         out.direct_error =
