@@ -58,11 +58,15 @@ std::optional<double> time_budget(const RenderFlags& flags, const PlanRequest& r
     return renders_once(flags) && !request.error ? request.seconds : std::nullopt;
 }
 
-// The trial, or the plan itself where a trial would leave too little.
-Plan begun(const cl::Device& device, const Plan& plan, double budget) {
+// The trial or, where that would leave too little, the only picture, which leaves time for samples.
+// spent: seconds of the budget, by the plan.
+Plan begun(const cl::Device& device, const Plan& plan, double budget, double spent) {
     constexpr double share = 0.15, most = 0.3;  // of the budget
+    constexpr double alone = 0.7;               // of what is left
     const Plan trial = trial_plan(device, plan, share * budget);
-    return trial.cost.total_ms() <= 1e3 * most * budget ? trial : plan;
+    if (trial.cost.total_ms() <= 1e3 * most * budget) return trial;
+    const double left = alone * (budget - spent);
+    return left > 0.0 ? trial_plan(device, plan, left) : trial;
 }
 
 // Plans for what is left of it: for all of it, or for the part that leaves the least error together
@@ -157,14 +161,14 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
     first.milliseconds = first.plan.analysis.milliseconds;
     if (first.plan.reach) first.milliseconds += first.plan.reach->milliseconds;
     if (first.plan.probe) first.milliseconds += first.plan.probe->milliseconds;
-    if (budget) first.plan = begun(session.device, first.plan, *budget);
+    double spent = budget ? 1e-3 * first.milliseconds : 0.0;  // of a budget, with the plan
+    if (budget) first.plan = begun(session.device, first.plan, *budget, spent);
     if (!warning.empty()) notice(false, "warning: " + warning);
     catch_interrupts();
 
     std::vector<RenderedAttempt> attempts;
     std::unique_ptr<RenderAttempt> best;
     std::optional<Planned> next = first;
-    double spent = budget ? 1e-3 * first.milliseconds : 0.0;  // of a budget, with the plan
     bool found = false;
     while (next) {
         const auto planned = std::make_shared<const Planned>(*next);

@@ -29,7 +29,7 @@ struct IrradianceCacheOptions {
     // Directions of the sky that each sample of a picture but the first takes, with shadow maps,
     // for light of the sky between records; 0 to 4096. 0, or a picture of one sample: by hemicubes
     // alone.
-    int sky_lights = 16;
+    int sky_lights = 32;
     // true: emissive surfaces light by hemicubes, as lamps of any shape and number do best; false:
     // those within the scene's focus by points with shadow maps (EmitterOptions::area_samples),
     // whose shadows are sharper.

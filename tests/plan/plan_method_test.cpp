@@ -40,11 +40,8 @@ TEST(Plan, TakesMethodsThatCanDoWhatIsOn) {
                   f.surfaces.cutouts = true;
                   w.seconds = 1.0;
               }),
-              Method::light_atlas);
-    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest& w) {
-                  f.surfaces.double_sided_area = 1.0;
-                  w.seconds = 1.0;
-              }),
+              Method::irradiance_cache);
+    EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest&) { f.surfaces.double_sided_area = 1.0; }),
               Method::antiradiance);
     EXPECT_EQ(method([](SceneAnalysis& f, PlanRequest&) { f.surfaces.triangles = 500000; }),
               Method::second_order);
