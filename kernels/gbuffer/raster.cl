@@ -11,6 +11,7 @@
 // SPDX-License-Identifier: MIT
 #include "gbuffer/batch.clh"
 #include "gbuffer/small.clh"
+#include "gbuffer/unseen.clh"
 
 kernel void gbuffer_raster(
     const RasterParams           params,
@@ -29,7 +30,7 @@ kernel void gbuffer_raster(
     if (first >= params.triangle_count) return;
     uint slot = (uint)get_global_id(1);
     View view = views[params.first_view + slot];
-    if (params.cull && batch_unseen(&view, clusters + first / CLUSTER_TRIANGLES)) return;
+    if (params.cull && cluster_unseen(&view, clusters, first / CLUSTER_TRIANGLES)) return;
     uint last = min(first + BATCH_TRIANGLES, params.triangle_count);
 
     Batch batch;

@@ -9,6 +9,7 @@
 #include "gbuffer/batch.clh"
 #include "gbuffer/small.clh"
 #include "gbuffer/tile.clh"
+#include "gbuffer/unseen.clh"
 
 #define VIEW_LANES 256
 #define MOST_POLYGONS 32
@@ -65,7 +66,7 @@ kernel void gbuffer_raster_views_group(RASTER_VIEWS_ARGUMENTS) {
             if (lane == 0) seen_count = 0;
             barrier(CLK_LOCAL_MEM_FENCE);
             uint cluster = first + lane;
-            if (cluster < cluster_count && !(params.cull && batch_unseen(&view, clusters + cluster)))
+            if (cluster < cluster_count && !(params.cull && cluster_unseen(&view, clusters, cluster)))
                 seen[atomic_inc(&seen_count)] = cluster;
             barrier(CLK_LOCAL_MEM_FENCE);
             uint places = seen_count * CLUSTER_TRIANGLES;

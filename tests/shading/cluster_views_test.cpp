@@ -36,13 +36,17 @@ void open_clusters(const DeviceScene& scene) {
                                             all.size() * sizeof(Cluster), all.data());
 }
 
-// Facets of one size on a bent sheet: clusters with narrow cones, and sizes of the same order as
-// their distance from the eye.
-Scene sheet() {
+glm::dvec3 on_sheet(double u, double v) {
+    return {u, 0.4 * std::cos(3.0 * u) * std::cos(2.0 * v), v};
+}
+
+// Facets of one size on a bent sheet, seen from one side or from both: clusters with narrow cones,
+// and sizes of the same order as their distance from the eye.
+Scene sheet(bool double_sided) {
     Scene scene = test::plain_scene();
+    scene.materials[0].double_sided = double_sided;
     const auto at = [](int column, int row) {
-        const double u = column / 12.0 - 1.0, v = row / 12.0 - 1.0;
-        return glm::dvec3(u, 0.4 * std::cos(3.0 * u) * std::cos(2.0 * v), v);
+        return on_sheet(column / 12.0 - 1.0, row / 12.0 - 1.0);
     };
     for (int row = 0; row < 24; ++row)
         for (int column = 0; column < 24; ++column) {
@@ -73,12 +77,16 @@ Scene layers() {
     return scene;
 }
 
-// Eyes before, behind, beside and within what is seen; straight windows and windows aside.
+// Eyes before, behind, beside, within and close above what is seen; straight windows and windows
+// aside.
 std::vector<View> views_of(const DeviceScene& scene, std::uint64_t seed) {
     std::vector<View> out;
     test::Random random(seed);
     for (int i = 0; i < 24; ++i) {
-        const glm::vec3 eye = test::random_vec3(random, i % 3 ? -1.2 : -0.5, i % 3 ? 1.2 : 0.5);
+        glm::vec3 eye = test::random_vec3(random, i % 3 ? -1.2 : -0.5, i % 3 ? 1.2 : 0.5);
+        if (i % 6 == 2)  // close above the sheet
+            eye = on_sheet(random(-0.6, 0.6), random(-0.6, 0.6)) +
+                  glm::dvec3(0, random(0.01, 0.06), 0);
         Camera camera =
             test::camera_at(glm::dvec3(eye), glm::dvec3(test::random_vec3(random, -0.6, 0.6)),
                             static_cast<float>(random(0.3, 1.2)));
@@ -125,7 +133,8 @@ TEST(ClusterViews, LoseNothingOfTheNearestLayer) {
 
 TEST(ClusterViews, LoseNothing) {
     Scene dense = bumpy_mesh();
-    for (const Scene& world : {sheet(), test::patchwork(900, 111, false), std::move(dense)}) {
+    for (const Scene& world :
+         {sheet(false), sheet(true), test::patchwork(900, 111, false), std::move(dense)}) {
         const DeviceScene scene = test::on_device(world), open = test::on_device(world);
         ASSERT_GT(scene.info().cluster_count, 1u);
         open_clusters(open);
