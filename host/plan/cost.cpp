@@ -190,12 +190,17 @@ PlanCost irradiance_cache(const Plan& plan) {
     const Lamps lamps = lamps_of(plan, plan.picture.emitters, false);
     const double samples =
         plan.on(Effect::area_light) ? static_cast<double>(plan.picture.emitters.area_samples) : 0.0;
-    const double lit = lamps.emitters - samples + std::min(samples, samples_at_once);
-    const double look = (4e-5 + 1e-5 * lit) * pixels;
+    const double looked = lamps.emitters - samples + std::min(samples, samples_at_once);
+    const double look = (4e-5 + 1e-5 * looked) * pixels;
+    // VPLs on small places that lights light have hemicubes of their own.
+    const LightAnalysis& lights = plan.analysis.lights;
+    const bool lit = lights.points + lights.spots + lights.directional > 0;
+    const double vpls = is_fine(plan) && lit ? 4.0 * options.spots : 0.0;
+    const double drawing = 0.08 + 2.8e-3 * std::sqrt(triangles(plan));
     Amount frame = picture(plan, false);
-    frame += {records * (0.08 + above + 2.8e-3 * std::sqrt(triangles(plan)) + weighed * look) +
-                  2e-6 * records * records,
-              records * (8.0 * drawn + 12.0 * records)};
+    frame +=
+        {records * (drawing + above + weighed * look) + vpls * drawing + 2e-6 * records * records,
+         records * (8.0 * drawn + 12.0 * records)};
     if (plan.on(Effect::gloss))  // what records have around them, and directions of lobes
         frame +=
             {shown * look + 8e-4 * plan.request.width * plan.request.height, 10.5 * shown * pixels};

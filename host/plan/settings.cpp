@@ -125,9 +125,8 @@ void use_preset(Plan& plan, const Preset& preset) {
         case Method::irradiance_cache:
             plan.cache.emission = plan.on(Effect::area_light) && lamps_are_large(plan);
             plan.cache.seen = preset.places;
-            // Finely modelled surfaces under a sky differ more among themselves than what lights
-            // them does.
-            plan.cache.met = (kind_of(plan) == SceneKind::fine_sky ? 1 : 3) * preset.places;
+            // Finely modelled surfaces differ more among themselves than what lights them does.
+            plan.cache.met = (is_fine(plan) ? 1 : 3) * preset.places;
             plan.cache.refined = preset.places;
             plan.cache.face = preset.directions;
             break;

@@ -73,6 +73,34 @@ TEST(PlanChecks, LeaveDirectLightToSamples) {
     EXPECT_NEAR(usual, 0.4 / std::sqrt(fineness_of(plan)), 1e-9);
 }
 
+// A sun's map of four times the side leaves half of a picture's error, and a fourth of what samples
+// leave; beside a lamp, half of that too.
+TEST(PlanChecks, LeaveEdgesOfSunsToFineMaps) {
+    Plan plan = plan_of(0.1, std::nullopt, Method::direct);
+    const auto set = [&](Effect effect, bool on) {
+        plan.effects[static_cast<std::size_t>(effect)].on = on;
+    };
+    for (const Effect lights : {Effect::point_light, Effect::spot_light, Effect::area_light,
+                                Effect::environment_light, Effect::first_bounce})
+        set(lights, false);
+    plan.effects[static_cast<std::size_t>(Effect::first_bounce)].bound = 0.0;
+    set(Effect::directional_light, true);
+    set(Effect::direct_shadows, true);
+    plan.probe = ProbeResult{};
+    plan.probe->direct_error = 0.4;
+    const auto error = [&](int fineness) {
+        plan.picture.emitters = EmitterOptions();
+        plan.picture.emitters.shadow_size *= fineness;
+        plan.picture.emitters.face_size *= fineness;
+        return expected_error(plan, {Method::direct, 0, 0, {}}).value();
+    };
+    EXPECT_NEAR(error(4), 0.5 * error(1), 1e-9);
+    plan.request.refined = true;
+    EXPECT_NEAR(error(4), 0.25 * error(1), 1e-9);
+    set(Effect::point_light, true);
+    EXPECT_NEAR(error(4), 0.5 * error(1), 1e-9);
+}
+
 // A method that errs a thousand times more than expected is not the next one, if others suit.
 TEST(PlanChecks, GoOnToAnotherMethod) {
     const Plan first = plan_of(0.1, std::nullopt);
