@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/kit/pass_timing.hpp"
 #include "core/opencl/timing.hpp"
 #include "plan/expected_error.hpp"
 #include "plan/picture_luminance.hpp"
@@ -60,9 +61,14 @@ ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const
     options.build = plan.request.build;
     options.indirect = plan.on(Effect::first_bounce);
     SecondOrderSolver solver(programs, queue, scene, options);
-    const auto picture = [&] { return picture_luminance(queue, solver, solver.render(camera)); };
-    const auto start = timing::Clock::now();  // kernels are built
     ProbeResult out;
+    const auto picture = [&] {
+        const auto start = timing::Clock::now();
+        std::vector<double> found = picture_luminance(queue, solver, solver.render(camera));
+        out.milliseconds += timing::without_compiling(
+            queue, timing::milliseconds(timing::Clock::now() - start), solver.events());
+        return found;
+    };
     const std::vector<double> lit = picture();
     const double level = mean(lit);
     // A picture without light tells nothing about light that arrives over more bounces, and VPLs
@@ -90,7 +96,6 @@ ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const
         out.direct_error =
             over_level(std::sqrt(coarse * mean_square_difference(direct, picture())));
     }
-    out.milliseconds = timing::milliseconds(timing::Clock::now() - start);
     return out;
 }
 

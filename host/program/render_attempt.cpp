@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/kit/pass_timing.hpp"
 #include "lab/preview.hpp"
 #include "lab/replicates.hpp"
 #include "lab/timing.hpp"
@@ -116,11 +117,20 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error) {
             looked = renderer_.samples();
             if (renderer_.sampling_error() <= error) break;
         }
-        const double taken = lab::time_frame(session_.queue, [&] { renderer_.refine(); });
+        const std::size_t before = renderer_.times().size();
+        const double taken = without_compiling(
+            lab::time_frame(session_.queue, [&] { renderer_.refine(); }),
+            std::span(renderer_.times()).subspan(std::min(before, renderer_.times().size())));
         longest = std::max(longest, taken);
         spent += taken;
     }
     picture_ = lab::radiance_picture(renderer_);
+}
+
+double RenderAttempt::without_compiling(double milliseconds, std::span<const PassEvent> passes) {
+    const double out = timing::without_compiling(session_.queue, milliseconds, passes);
+    record_.build_ms += milliseconds - out;
+    return out;
 }
 
 std::optional<Sampling> RenderAttempt::sampling() const {
@@ -133,7 +143,7 @@ std::optional<Sampling> RenderAttempt::sampling() const {
 // changed.
 void RenderAttempt::render(int frame) {
     const bool always = options_.method != Method::light_atlas && !renders_once(flags_);
-    record_.frame_ms.push_back(lab::time_frame(session_.queue, [&] {
+    const double taken = lab::time_frame(session_.queue, [&] {
         const Motion::Step step = motion_.at(frame);
         last_camera_ = step.camera;
         if (!renders_once(flags_)) follow(step, flags_.fps || frame == 0);
@@ -142,7 +152,9 @@ void RenderAttempt::render(int frame) {
             gl_->render(renderer_, step.camera);
         else
             renderer_.render(step.camera);
-    }));
+    });
+    record_.frame_ms.push_back(renders_once(flags_) ? without_compiling(taken, renderer_.times())
+                                                    : taken);
     if (AntiradianceSolver* solver = renderer_.antiradiance())
         exchanges_.add(frame, solver->status(), solver->options());
     record_.passes.push_back(lab::pass_times(renderer_.times()));
