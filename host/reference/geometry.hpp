@@ -11,6 +11,10 @@ namespace clgi::reference {
 
 constexpr float pi = 3.14159265358979f;
 
+// By how much of its largest coordinate a point that is computed on a triangle may be off, with a
+// margin.
+constexpr float rounding = 64.0f * 0x1p-24f;
+
 struct Geometry {
     explicit Geometry(const Scene& scene);
 

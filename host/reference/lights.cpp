@@ -114,7 +114,7 @@ std::optional<Arrival> Lights::from_surface(const glm::vec3& point, Random& rand
     const Surface surface = surface_at(geometry_, hit, out.direction);
     out.density = density(hit, point);
     if (!surface.reflects || !(out.density > 0.0f)) return std::nullopt;
-    out.from = off_surface(out.from, surface.geometric);
+    out.from += surface.lift * surface.geometric;
     out.irradiance = surface.emission / out.density;
     return out;
 }

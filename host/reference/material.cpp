@@ -97,6 +97,17 @@ glm::vec3 geometric_normal(const Geometry& geometry, std::uint32_t index) {
     return length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
 }
 
+// By the corners of the triangle, not by the size of the scene: in a room in the middle of a large
+// terrain positions are as exact as in the room alone.
+float lift_of(const Geometry& geometry, std::uint32_t index) {
+    float largest = 0.0f;
+    for (const std::uint32_t vertex : geometry.triangles[index].vertex) {
+        const glm::vec3 size = glm::abs(geometry.positions[vertex]);
+        largest = std::max({largest, size.x, size.y, size.z});
+    }
+    return rounding * largest;
+}
+
 Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::vec3& direction,
                    const Hit& texture_at) {
     const Material& material = geometry.materials[geometry.triangles[hit.triangle].material];
@@ -106,6 +117,7 @@ Surface surface_at(const Geometry& geometry, const Hit& hit, const glm::vec3& di
     const bool front = glm::dot(wound, direction) < 0.0f;
     const float side = front ? 1.0f : -1.0f;
     out.geometric = side * wound;
+    out.lift = lift_of(geometry, hit.triangle);
     out.normal = side * between(geometry.normals, geometry, hit);
     const float length = glm::length(out.normal);
     // A shading normal that vanishes or faces away from the viewer gives way to the geometric one.

@@ -12,6 +12,7 @@ namespace clgi::reference {
 struct Surface {
     glm::vec3 position;
     glm::vec3 geometric;  // unit, towards the viewer
+    float lift;           // how far off it rays begin and end: more than positions are rounded by
     glm::vec3 normal;     // shading, unit, towards the viewer
     glm::vec3 albedo;     // diffuse reflectance in even light
     glm::vec3 base;       // colour
@@ -21,6 +22,11 @@ struct Surface {
     glm::vec3 emission;   // cd/m^2 on the side that is seen
     bool reflects;        // the side that is seen is one that sends light
 };
+
+// The point moved off its surface, to the side that is seen.
+inline glm::vec3 off_surface(const Surface& surface) {
+    return surface.position + surface.lift * surface.geometric;
+}
 
 // direction: of the ray that met it, unit. texture_at: where textures are
 // read, a point of the triangle's plane.

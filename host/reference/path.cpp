@@ -71,8 +71,7 @@ bool Paths::glossy(int bounces) const {
 glm::vec3 Paths::sent_on(const std::optional<Arrival>& light, float share, const Surface& surface,
                          const Bsdf& bsdf, bool glossy, Random& random) const {
     if (!light || !above(surface, light->direction)) return glm::vec3(0.0f);
-    if (tracer_.blocked(off_surface(surface.position, surface.geometric), light->from,
-                        chance(geometry_, random)))
+    if (tracer_.blocked(off_surface(surface), light->from, chance(geometry_, random)))
         return glm::vec3(0.0f);
     return share * reflected(bsdf, glossy, light->direction) * light->irradiance *
            glm::dot(surface.normal, light->direction);
@@ -143,7 +142,7 @@ glm::vec3 Paths::walk(Surface surface, glm::vec3 direction, int last, Random& ra
                 {surface.position, onward,
                  luminance(weight * reflected(bsdf, effects_.indirect_gloss, onward)) * cosine,
                  luminance(sum)});
-        Ray ray{off_surface(surface.position, surface.geometric), onward};
+        Ray ray{off_surface(surface), onward};
         ray.chance = chance(geometry_, random);
         const std::optional<Hit> hit = tracer_.first(ray);
         if (!hit) {
@@ -186,7 +185,7 @@ glm::vec3 Paths::unshadowed(const Surface& surface, const glm::vec3& direction,
     const float density = bsdf.density(onward, effects_.indirect_gloss);
     if (!above(surface, onward) || !(density > 0.0f)) return sum;
     thread_local std::vector<Hit> hits;
-    Ray ray{off_surface(surface.position, surface.geometric), onward};
+    Ray ray{off_surface(surface), onward};
     ray.chance = chance(geometry_, random);
     tracer_.all(ray, hits);
     // Embree finds them in any order, and sums depend on it.

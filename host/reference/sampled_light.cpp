@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reference/sampled_light.hpp"
 
+#include <algorithm>
+
 namespace clgi::reference {
 namespace {
 
@@ -45,6 +47,9 @@ glm::vec3 light_at(const Place& place, const Geometry& geometry, const Paths& pa
     // Reflects all, evenly, pi times over: radiance is irradiance.
     Surface surface{};
     surface.position = geometry.to_local(place.position);
+    // The triangle is not known: as the largest of the scene.
+    const glm::vec3 size = glm::abs(surface.position);
+    surface.lift = rounding * std::max({size.x, size.y, size.z, 1.0f});
     surface.normal = place.normal;
     surface.geometric = place.geometric == glm::vec3(0.0f) ? place.normal : place.geometric;
     surface.albedo = surface.base = glm::vec3(pi);

@@ -40,14 +40,6 @@ private:
 
 // Where a ray from a vertex begins, in lengths of a unit direction: behind the triangles that touch
 // the vertex, in a scene of radius 1, whatever the rounding of distances.
-constexpr float at_surface = 64.0f * 0x1p-24f;
-
-// A point moved off its surface, to the side of `normal`, by more than the rounding of positions
-// and of the distances that rays across a scene of radius 1 report.
-inline glm::vec3 off_surface(const glm::vec3& position, const glm::vec3& normal) {
-    const glm::vec3 size = glm::abs(position);
-    const float largest = glm::max(glm::max(size.x, size.y), glm::max(size.z, 1.0f));
-    return position + normal * (largest * 64.0f * 0x1p-24f);
-}
+constexpr float at_surface = rounding;
 
 }  // namespace clgi::reference
