@@ -118,9 +118,10 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error) {
             if (renderer_.sampling_error() <= error) break;
         }
         const std::size_t before = renderer_.times().size();
-        const double taken = without_compiling(
-            lab::time_frame(session_.queue, [&] { renderer_.refine(); }),
-            std::span(renderer_.times()).subspan(std::min(before, renderer_.times().size())));
+        const double all = lab::time_frame(session_.queue, [&] { renderer_.refine(); });
+        const std::vector<PassEvent>& passes = renderer_.times();  // of all samples
+        const double taken =
+            without_compiling(all, std::span(passes).subspan(std::min(before, passes.size())));
         longest = std::max(longest, taken);
         spent += taken;
     }
