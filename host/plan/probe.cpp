@@ -89,8 +89,9 @@ ProbeResult probe(const cl::CommandQueue& queue, const Programs& programs, const
         out.reflected =
             seen ? over_level(lumen / (std::numbers::pi * plan.analysis.surfaces.area)) : unknown;
     }
-    // Methods for a sky are measured with their direct light.
-    if (!has_exact_direct_light(plan) && !has_sky(plan)) {
+    // Methods that plans take for a sky are measured with their direct light.
+    const bool measured = has_sky(plan) && !plan.request.method;
+    if (!has_exact_direct_light(plan) && !measured) {
         make_fine(options.emitters, 2.0 * coarse);
         solver.reconfigure(options);
         out.direct_error =
