@@ -86,20 +86,22 @@ struct Glossy {
     std::vector<glm::dvec3> reflected(const std::vector<Point>& points, float irradiance = 1.0f) {
         std::vector<float> planes(GBUFFER_PLANES * pixel_stride, 0.0f);
         std::vector<std::int32_t> ids(GBUFFER_ID_PLANES * pixel_stride, -1);
-        for (std::uint32_t p = 0; p < points.size(); ++p) {
-            const glm::dvec3 local = scene.frame().scale * (points[p].place - scene.frame().origin);
+        const auto count = static_cast<std::uint32_t>(points.size());
+        for (std::uint32_t p = 0; p <= count; ++p) {  // one more than are asked for
+            const Point& point = points[std::min(p, count - 1)];
+            const glm::dvec3 local = scene.frame().scale * (point.place - scene.frame().origin);
             for (std::uint32_t c = 0; c < 3; ++c) {
                 const int axis = static_cast<int>(c);
                 planes[(GBUFFER_POSITION + c) * pixel_stride + p] = static_cast<float>(local[axis]);
                 planes[(GBUFFER_NORMAL + c) * pixel_stride + p] =
-                    static_cast<float>(points[p].normal[axis]);
+                    static_cast<float>(point.normal[axis]);
                 planes[(GBUFFER_BASE + c) * pixel_stride + p] =
-                    static_cast<float>(points[p].base[axis]);
+                    static_cast<float>(point.base[axis]);
             }
-            ids[GBUFFER_MATERIAL * pixel_stride + p] = points[p].material;
-            ids[GBUFFER_MAPPED_NORMAL * pixel_stride + p] = points[p].mapped;
+            ids[GBUFFER_MATERIAL * pixel_stride + p] = point.material;
+            ids[GBUFFER_MAPPED_NORMAL * pixel_stride + p] = point.mapped;
         }
-        params.pixel_count = static_cast<std::uint32_t>(points.size());
+        params.pixel_count = count;
         GBuffer gbuffer = points_of(planes, pixel_stride);
         gbuffer.ids = test::upload(ids);
         const cl::Buffer radiance =
@@ -119,7 +121,7 @@ struct Glossy {
         for (std::uint32_t p = 0; p < points.size(); ++p)
             for (std::uint32_t c = 0; c < 3; ++c)
                 out[p][static_cast<int>(c)] = double{values[c * pixel_stride + p]} - 0.5;
-        EXPECT_EQ(values[points.size()], 0.5f);
+        EXPECT_EQ(values[count], 0.5f);
         return out;
     }
 
