@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <clgi/advanced/static_scene.hpp>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/kit/pass_timing.hpp"
@@ -117,20 +118,20 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error) {
             looked = renderer_.samples();
             if (renderer_.sampling_error() <= error) break;
         }
-        const std::size_t before = renderer_.times().size();
-        const double all = lab::time_frame(session_.queue, [&] { renderer_.refine(); });
-        const std::vector<PassEvent>& passes = renderer_.times();  // of all samples
-        const double taken =
-            without_compiling(all, std::span(passes).subspan(std::min(before, passes.size())));
+        const double taken = time_apart([&] { renderer_.refine(); });
         longest = std::max(longest, taken);
         spent += taken;
     }
     picture_ = lab::radiance_picture(renderer_);
 }
 
-double RenderAttempt::without_compiling(double milliseconds, std::span<const PassEvent> passes) {
-    const double out = timing::without_compiling(session_.queue, milliseconds, passes);
-    record_.build_ms += milliseconds - out;
+double RenderAttempt::time_apart(const std::function<void()>& draw) {
+    const std::size_t before = renderer_.times().size();
+    const double all = lab::time_frame(session_.queue, draw);
+    const std::span<const PassEvent> passes = renderer_.times();  // some are of what came before
+    const double out = timing::without_compiling(session_.queue, all,
+                                                 passes.subspan(std::min(before, passes.size())));
+    record_.build_ms += all - out;
     return out;
 }
 
@@ -144,7 +145,7 @@ std::optional<Sampling> RenderAttempt::sampling() const {
 // changed.
 void RenderAttempt::render(int frame) {
     const bool always = options_.method != Method::light_atlas && !renders_once(flags_);
-    const double taken = lab::time_frame(session_.queue, [&] {
+    const auto draw = [&] {
         const Motion::Step step = motion_.at(frame);
         last_camera_ = step.camera;
         if (!renders_once(flags_)) follow(step, flags_.fps || frame == 0);
@@ -153,9 +154,9 @@ void RenderAttempt::render(int frame) {
             gl_->render(renderer_, step.camera);
         else
             renderer_.render(step.camera);
-    });
-    record_.frame_ms.push_back(renders_once(flags_) ? without_compiling(taken, renderer_.times())
-                                                    : taken);
+    };
+    record_.frame_ms.push_back(renders_once(flags_) ? time_apart(draw)
+                                                    : lab::time_frame(session_.queue, draw));
     if (AntiradianceSolver* solver = renderer_.antiradiance())
         exchanges_.add(frame, solver->status(), solver->options());
     record_.passes.push_back(lab::pass_times(renderer_.times()));

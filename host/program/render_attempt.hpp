@@ -3,9 +3,9 @@
 #pragma once
 
 #include <clgi/renderer.hpp>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 
 #include "program/gl_frames.hpp"
 #include "program/motion.hpp"
@@ -54,8 +54,8 @@ private:
     void warm_up();
     bool gave_up() const { return renderer_.status().given_up; }
     void prepare(const Progress& progress);
-    // As timing::without_compiling(); the rest counts as time of building.
-    double without_compiling(double milliseconds, std::span<const PassEvent> passes);
+    // ms that a picture or a sample takes; compiling meanwhile counts as time of building.
+    double time_apart(const std::function<void()>& draw);
     void follow(const Motion::Step& step, bool vectors);
     void render(int frame);
     void tune(const TuningTarget& target);

@@ -59,14 +59,13 @@ std::optional<double> time_budget(const RenderFlags& flags, const PlanRequest& r
 }
 
 // The trial or, where that would leave too little, the only picture, which leaves time for samples.
-// spent: seconds of the budget, by the plan.
-Plan begun(const cl::Device& device, const Plan& plan, double budget, double spent) {
-    constexpr double share = 0.15, most = 0.3;  // of the budget
-    constexpr double alone = 0.7;               // of what is left
+// left: seconds of the budget behind the plan.
+Plan begun(const cl::Device& device, const Plan& plan, double budget, double left) {
+    constexpr double share = 0.15;             // of the budget
+    constexpr double most = 0.3, alone = 0.7;  // of what is left
     const Plan trial = trial_plan(device, plan, share * budget);
-    if (trial.cost.total_ms() <= 1e3 * most * budget) return trial;
-    const double left = alone * (budget - spent);
-    return left > 0.0 ? trial_plan(device, plan, left) : trial;
+    if (trial.cost.total_ms() <= 1e3 * most * left) return trial;
+    return trial_plan(device, plan, alone * left);
 }
 
 // Plans for what is left of it: for all of it, or for the part that leaves the least error together
@@ -162,7 +161,10 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
     if (first.plan.reach) first.milliseconds += first.plan.reach->milliseconds;
     if (first.plan.probe) first.milliseconds += first.plan.probe->milliseconds;
     double spent = budget ? 1e-3 * first.milliseconds : 0.0;  // of a budget, with the plan
-    if (budget) first.plan = begun(session.device, first.plan, *budget, spent);
+    constexpr double least = 0.01;                            // of a budget, whatever the plan took
+    if (budget)
+        first.plan =
+            begun(session.device, first.plan, *budget, std::max(*budget - spent, least * *budget));
     if (!warning.empty()) notice(false, "warning: " + warning);
     catch_interrupts();
 

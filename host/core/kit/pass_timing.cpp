@@ -5,8 +5,9 @@ namespace clgi::timing {
 
 double without_compiling(const cl::CommandQueue& queue, double milliseconds,
                          std::span<const PassEvent> passes) {
-    constexpr double usual = 2.0,
-                     aside = 150.0;  // of the passes' time; ms: one kernel takes as long
+    constexpr double usual = 2.0;    // times the passes' time
+    constexpr double aside = 150.0;  // ms: one kernel takes as long
+    if (passes.empty()) return milliseconds;
     if (!(queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_PROFILING_ENABLE)) return milliseconds;
     // Elsewhere passes are quick, and most of the time is the host's.
     const auto device = queue.getInfo<CL_QUEUE_DEVICE>();
