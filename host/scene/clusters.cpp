@@ -97,4 +97,20 @@ std::vector<Cluster> make_clusters(const std::vector<glm::uvec4>& triangles,
     return out;
 }
 
+std::vector<PartCorners> make_parts(const std::vector<glm::uvec4>& triangles,
+                                    const std::vector<glm::vec4>& positions) {
+    const std::size_t clusters = (triangles.size() + CLUSTER_TRIANGLES - 1) / CLUSTER_TRIANGLES;
+    std::vector<PartCorners> out(clusters * CLUSTER_PARTS);
+    for (std::size_t i = 0; i < out.size() * PART_TRIANGLES; ++i) {
+        const glm::uvec4& triangle = triangles[std::min(i, triangles.size() - 1)];
+        PartCorners& part = out[i / PART_TRIANGLES];
+        const std::size_t lane = i % PART_TRIANGLES;
+        for (int c = 0; c < 3; ++c)
+            for (int axis = 0; axis < 3; ++axis)
+                part.corner[c][axis][lane] = positions[triangle[c]][axis];
+        part.word[lane] = triangle.w;
+    }
+    return out;
+}
+
 }  // namespace clgi

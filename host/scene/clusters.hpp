@@ -1,4 +1,4 @@
-// Boxes around runs of triangles, as kernels/scene/clusters.cl computes them.
+// Boxes around runs of triangles, and their corners side by side, as kernels/scene/clusters.cl computes them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -10,5 +10,9 @@ namespace clgi {
 // triangles: three vertices and the fourth word of each. positions: local frame, finite.
 std::vector<Cluster> make_clusters(const std::vector<glm::uvec4>& triangles,
                                    const std::vector<glm::vec4>& positions);
+
+// [clusters][CLUSTER_PARTS] of as many clusters.
+std::vector<PartCorners> make_parts(const std::vector<glm::uvec4>& triangles,
+                             const std::vector<glm::vec4>& positions);
 
 }  // namespace clgi

@@ -70,7 +70,7 @@ cl::Event ScenePasses::clusters(const cl::CommandQueue& queue, DeviceScene& scen
                                 const WaitList& wait) const {
     const SceneInfo& info = scene.info();
     return launch(clusters_, queue, info.cluster_count, wait, info.triangle_count,
-                  scene.triangles(), scene.positions(), scene.clusters());
+                  scene.triangles(), scene.positions(), scene.clusters(), scene.parts());
 }
 
 cl::Event ScenePasses::pose(const cl::CommandQueue& queue, const PoseParams& params,

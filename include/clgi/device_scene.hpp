@@ -118,6 +118,8 @@ public:
     // [info().cluster_count] Cluster: box and normal cone of runs of triangles, to cull many at
     // once.
     const cl::Buffer& clusters() const { return clusters_; }
+    // [info().cluster_count][CLUSTER_PARTS] PartCorners: corners of triangles, side by side.
+    const cl::Buffer& parts() const { return parts_; }
     // [height][width][3] float of the environment's picture, before its factor.
     const cl::Buffer& environment_texels() const { return environment_texels_; }
 
@@ -150,7 +152,7 @@ private:
     bool has_blended_ = false;
     std::size_t bytes_ = 0;
     cl::Buffer triangles_, positions_, normals_, uvs_, colors_, materials_, textures_, texels_,
-        decode_, environment_texels_, clusters_;
+        decode_, environment_texels_, clusters_, parts_;
 };
 
 // What a material reflects of even light: shares of the base colour that are diffuse and in a lobe,

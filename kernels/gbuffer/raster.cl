@@ -19,6 +19,7 @@ kernel void gbuffer_raster(
     global const uint4*          restrict triangles,   // [triangle_count]
     global const float4*         restrict positions,   // [vertex_count] local frame
     global const Cluster*        restrict clusters,    // [cluster_count]
+    global const PartCorners*           restrict parts,       // [cluster_count][CLUSTER_PARTS]
     global PixelWord*            restrict visibility,  // [pixels of all views]
     global RasterPolygon*        restrict polygons,    // [views][capacity]
     global RasterRun*            restrict runs,        // [views][capacity]
@@ -31,10 +32,8 @@ kernel void gbuffer_raster(
     uint slot = (uint)get_global_id(1);
     View view = views[params.first_view + slot];
     if (params.cull && cluster_unseen(&view, clusters, first / CLUSTER_TRIANGLES)) return;
-    uint last = min(first + BATCH_TRIANGLES, params.triangle_count);
-
     Batch batch;
-    batch_sort(&view, &params, first, last, ALL_PARTS, triangles, positions, &batch);
+    batch_sort_nth(&view, &params, item, triangles, positions, parts, &batch);
     for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
         small_draw(&view, params.stage, batch.small + n, min(batch.small_count - n, CLGI_WIDTH),
                    triangles, positions, visibility, 1);

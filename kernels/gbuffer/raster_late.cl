@@ -13,6 +13,7 @@ kernel void gbuffer_raster_late(
     global const View*         restrict views,       // [first_view + views]
     global const uint*         restrict late,        // [views][late_capacity] batches
     global const RasterCount*  restrict counts,      // [views]
+    global const PartCorners*         restrict parts,       // [cluster_count][CLUSTER_PARTS]
     SCENE_ARGUMENTS,
     global PixelWord*          restrict visibility)  // [pixels of all views]
 {
@@ -21,10 +22,9 @@ kernel void gbuffer_raster_late(
     if (item >= counts[slot].late) return;
     View view = views[params.first_view + slot];
     SceneBuffers scene = SCENE_BUFFERS;
-    uint first = late[slot * params.late_capacity + item] * BATCH_TRIANGLES;
-    uint last = min(first + BATCH_TRIANGLES, params.triangle_count);
     Batch batch;
-    batch_sort(&view, &params, first, last, ALL_PARTS, triangles, positions, &batch);
+    batch_sort_nth(&view, &params, late[slot * params.late_capacity + item], triangles, positions,
+                   parts, &batch);
     for (int n = 0; n < batch.rest_count; n += CLGI_WIDTH) {
         RasterPolygon made[CLGI_WIDTH];
         int count = batch_polygons(&view, batch.rest + n, min(batch.rest_count - n, CLGI_WIDTH),

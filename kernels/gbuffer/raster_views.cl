@@ -8,40 +8,38 @@
 // Work size    1D, one work-item a view; any local size
 // Writes       the words of its own view's pixels
 // SPDX-License-Identifier: MIT
+
+// Runs of triangles that are drawn between two looks at all pixels: one for so many pixels, within
+// limits. A look then costs less than they do.
+#define PIXELS_A_RUN (64 / PART_RUNS)
+#define LEAST_RUNS_A_LOOK (32 * PART_RUNS)
+#define MOST_RUNS_A_LOOK (224 * PART_RUNS)
+#define MOST_BATCH_RUNS (256 * PART_RUNS)
+
 #include "gbuffer/batch.clh"
 #include "gbuffer/near_first.clh"
 #include "gbuffer/occlusion.clh"
 #include "gbuffer/small.clh"
 #include "gbuffer/tile.clh"
 
-// Clusters that are drawn between two looks at all pixels: one for so many pixels, within limits. A
-// look then costs less than they do.
-#define PIXELS_A_CLUSTER 512
-#define LEAST_CLUSTERS_A_LOOK 8
-#define MOST_CLUSTERS_A_LOOK 32
-
-static void draw_cluster(const View* view, const RasterParams* params, uint cluster, uint parts,
-                         const Occlusion* occlusion, const SceneBuffers* scene,
-                         global PixelWord* visibility) {
-    uint end = min((cluster + 1) * CLUSTER_TRIANGLES, params->triangle_count);
-    for (uint first = cluster * CLUSTER_TRIANGLES; first < end; first += BATCH_TRIANGLES) {
-        Batch batch;
-        batch_sort(view, params, first, min(first + BATCH_TRIANGLES, end), parts,
-                   scene->triangles, scene->positions, &batch);
-        for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
-            small_draw(view, RASTER_FUSED, batch.small + n, min(batch.small_count - n, CLGI_WIDTH),
-                       scene->triangles, scene->positions, visibility, 0);
-        for (int n = 0; n < batch.rest_count; n += CLGI_WIDTH) {
-            RasterPolygon made[CLGI_WIDTH];
-            int count = batch_polygons(view, batch.rest + n, min(batch.rest_count - n, CLGI_WIDTH),
-                                       scene->triangles, scene->positions, made);
-            for (int k = 0; k < count; ++k) {
-                uint key = ~(as_uint(made[k].closest) | 1u);
-                if (!occlusion_hides(occlusion, made[k].left, made[k].top, made[k].right,
-                                     made[k].bottom, key))
-                    tile_draw_all(view, params->scene_flags, made + k, scene, visibility, 0,
-                                  RASTER_FUSED, 0, 1);
-            }
+static void draw_runs(const View* view, const RasterParams* params, uint* runs, int count,
+                      const Occlusion* occlusion, global const PartCorners* parts,
+                      const SceneBuffers* scene, global PixelWord* visibility) {
+    Batch batch;
+    batch_sort(view, params, runs, count, scene->triangles, scene->positions, parts, &batch);
+    for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
+        small_draw(view, RASTER_FUSED, batch.small + n, min(batch.small_count - n, CLGI_WIDTH),
+                   scene->triangles, scene->positions, visibility, 0);
+    for (int n = 0; n < batch.rest_count; n += CLGI_WIDTH) {
+        RasterPolygon made[CLGI_WIDTH];
+        int polygons = batch_polygons(view, batch.rest + n, min(batch.rest_count - n, CLGI_WIDTH),
+                                      scene->triangles, scene->positions, made);
+        for (int k = 0; k < polygons; ++k) {
+            uint key = ~(as_uint(made[k].closest) | 1u);
+            if (!occlusion_hides(occlusion, made[k].left, made[k].top, made[k].right,
+                                 made[k].bottom, key))
+                tile_draw_all(view, params->scene_flags, made + k, scene, visibility, 0,
+                              RASTER_FUSED, 0, 1);
         }
     }
 }
@@ -57,25 +55,31 @@ kernel void gbuffer_raster_views(RASTER_VIEWS_ARGUMENTS) {
 
     Occlusion occlusion;
     occlusion_begin(&view, &occlusion);
-    int drawn = 0;  // clusters since the last look
-    int most_drawn = clamp((int)(pixels / PIXELS_A_CLUSTER), LEAST_CLUSTERS_A_LOOK,
-                           MOST_CLUSTERS_A_LOOK);
+    uint runs[MOST_BATCH_RUNS + PACKET_RUNS];
+    int count = 0;
+    int enough = clamp((int)(pixels / PIXELS_A_RUN), LEAST_RUNS_A_LOOK, MOST_RUNS_A_LOOK);
     uint cluster_count = (params.triangle_count + CLUSTER_TRIANGLES - 1) / CLUSTER_TRIANGLES;
+    uint run_count = (params.triangle_count + RUN_TRIANGLES - 1) / RUN_TRIANGLES;
     for (uint next = 0; next < cluster_count;) {
         NearFirst list;
         next = near_first_list(&view, params.cull, clusters, next, cluster_count, &list);
         for (int n = 0; n < list.count; ++n) {
             uint cluster = list.cluster[list.order[n]];
-            uint parts = ALL_PARTS;
+            uint wanted = ALL_PARTS;
             if (params.cull) {
                 if (occlusion_hides_cluster(&occlusion, &view, clusters + cluster)) continue;
-                parts = occlusion_parts(&occlusion, &view, clusters + cluster);
-                if (parts == 0) continue;
+                wanted = occlusion_parts(&occlusion, &view, clusters + cluster);
             }
-            draw_cluster(&view, &params, cluster, parts, &occlusion, &scene, visibility);
-            if (++drawn < most_drawn) continue;
+            uint first = cluster * CLUSTER_RUNS;
+            for (uint k = 0; k < min(run_count - first, (uint)CLUSTER_RUNS); ++k) {
+                runs[count] = first + k;
+                count += wanted >> k / PART_RUNS & 1;
+            }
+            if (count < enough) continue;
+            draw_runs(&view, &params, runs, count, &occlusion, parts, &scene, visibility);
             occlusion_update(&view, visibility, &occlusion);
-            drawn = 0;
+            count = 0;
         }
     }
+    if (count > 0) draw_runs(&view, &params, runs, count, &occlusion, parts, &scene, visibility);
 }

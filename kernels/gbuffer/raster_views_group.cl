@@ -82,7 +82,10 @@ kernel void gbuffer_raster_views_group(RASTER_VIEWS_ARGUMENTS) {
                     uint index[CLGI_WIDTH];
                     for (int k = 0; k < CLGI_WIDTH; ++k) index[k] = triangle;
                     intp wanted, small;
-                    batch_classes(&view, &params, index, triangles, positions, &wanted, &small);
+                    TriangleCorners corners = params.cull
+                                                  ? triangles_load(index, parts)
+                                                  : triangles_gather(index, triangles, positions);
+                    batch_classes(&view, &params, &corners, &wanted, &small);
                     if (packet_any(small))
                         small_draw(&view, stage, index, 1, triangles, positions, visibility, 1);
                     else if (packet_any(wanted))

@@ -1,4 +1,5 @@
-// The box around every cluster of triangles, the cone of their normals and spheres around its parts.
+// The box around every cluster of triangles, the cone of their normals, spheres around its parts and
+// their corners.
 // [derived: minima and maxima are exact, so the boxes are those of the host at load, bit for bit]
 //
 // Work size    1D, one work-item a cluster; any local size; tail guarded
@@ -73,11 +74,27 @@ static void set_part(global const uint4* triangles, global const float4* positio
     cluster->part[3][part] = radius;
 }
 
+// Corners of triangles first .. first + PART_TRIANGLES - 1; past the last one, its own.
+static void set_corners(global const uint4* triangles, global const float4* positions, uint first,
+                        uint triangle_count, global PartCorners* part) {
+    for (uint k = 0; k < PART_TRIANGLES; ++k) {
+        uint4 corner = triangles[min(first + k, triangle_count - 1)];
+        float4 p[3] = {positions[corner.x], positions[corner.y], positions[corner.z]};
+        for (int c = 0; c < 3; ++c) {
+            part->corner[c][0][k] = p[c].x;
+            part->corner[c][1][k] = p[c].y;
+            part->corner[c][2][k] = p[c].z;
+        }
+        part->word[k] = corner.w;
+    }
+}
+
 kernel void scene_clusters(
     const uint             triangle_count,
     global const uint4*    restrict triangles,  // [triangle_count] three vertices, material
     global const float4*   restrict positions,  // [vertex_count] local frame
-    global Cluster*        restrict clusters)   // [triangle_count / CLUSTER_TRIANGLES, rounded up]
+    global Cluster*        restrict clusters,   // [triangle_count / CLUSTER_TRIANGLES, rounded up]
+    global PartCorners*           restrict parts)      // [clusters][CLUSTER_PARTS]
 {
     uint cluster = (uint)get_global_id(0);
     uint first = cluster * CLUSTER_TRIANGLES;
@@ -102,5 +119,7 @@ kernel void scene_clusters(
         uint begin = min(first + part * PART_TRIANGLES, last);
         set_part(triangles, positions, begin, min(begin + PART_TRIANGLES, last),
                  clusters + cluster, (int)part);
+        set_corners(triangles, positions, first + part * PART_TRIANGLES, triangle_count,
+                    parts + cluster * CLUSTER_PARTS + part);
     }
 }

@@ -157,6 +157,23 @@ TEST(Occlusion, GoesOnBeyondTheClustersThatAListHolds) {
     EXPECT_TRUE(words<std::uint64_t>(scene, view, true) == wanted);
 }
 
+// The last cluster has a part that is not full, and comes first: others follow in the same packet.
+TEST(Occlusion, DrawsAllThatFollowsAPartThatIsNotFull) {
+    test::Random random(4);
+    Scene world = test::plain_scene();
+    add_wall(world, random, 8, 0.0, 0);
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 at(0.2 * i - 0.3, -0.1, 3.0);
+        test::add_triangle(world, at, at + glm::dvec3(0.1, 0, 0), at + glm::dvec3(0, 0.1, 0));
+    }
+    const DeviceScene scene = test::on_device(world);
+    ASSERT_EQ(scene.triangle_order().back(), 130u);
+    const View view =
+        make_view(test::camera_at({0.0, 0.0, 4.0}, {0, 0, 0}, 0.7f), scene.frame(), 64, 64);
+    EXPECT_TRUE(words<std::uint64_t>(scene, view, true) ==
+                words<std::uint64_t>(scene, view, false));
+}
+
 // What a cluster's box may be on the device: anything that holds the cluster.
 using Widen = std::function<void(Cluster&)>;
 

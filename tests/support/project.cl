@@ -9,7 +9,7 @@ kernel void project(
 {
     uint vertex = (uint)get_global_id(0);
     float4 position = positions[vertex];
-    CornerPacket corner = triangles_corner(&view, &position);
+    CornerPacket corner = triangles_corner(&view, position.x, position.y, position.z);
     projected[vertex] = (int4)(corner.x, corner.y, as_int(triangles_closeness(&view, corner.z)),
                                corner.outside);
 }

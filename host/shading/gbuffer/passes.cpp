@@ -189,8 +189,8 @@ cl::Event GBufferPasses::raster(const cl::CommandQueue& queue, const ViewSpan& s
     need_lists(pass, span, buffers, scene.info().triangle_count);
     return launch_rows(pass, queue, batches(pass, scene), span.count, wait,
                        raster_params(span, scene, stage, buffers), views, scene.triangles(),
-                       scene.positions(), scene.clusters(), buffers.pixels, buffers.polygons,
-                       buffers.runs, buffers.late, buffers.counts);
+                       scene.positions(), scene.clusters(), scene.parts(), buffers.pixels,
+                       buffers.polygons, buffers.runs, buffers.late, buffers.counts);
 }
 
 cl::Event GBufferPasses::raster_late(const cl::CommandQueue& queue, const ViewSpan& span,
@@ -204,7 +204,7 @@ cl::Event GBufferPasses::raster_late(const cl::CommandQueue& queue, const ViewSp
     need_lists(pass, span, buffers, scene.info().triangle_count);
     return launch_rows(pass, queue, batches(pass, scene), span.count, wait,
                        raster_params(span, scene, stage, buffers), views, buffers.late,
-                       buffers.counts, scene, buffers.pixels);
+                       buffers.counts, scene.parts(), scene, buffers.pixels);
 }
 
 cl::Event GBufferPasses::raster_large(const cl::CommandQueue& queue, const ViewSpan& span,
@@ -230,7 +230,7 @@ cl::Event GBufferPasses::raster_views(const cl::CommandQueue& queue, const ViewS
     need_views(pass, span, views, pixels, kind);
     return launch(pass, queue, span.count * items_each(pass, groups_), wait,
                   raster_params(span, scene, RASTER_FUSED, {}), span.count, views, scene.clusters(),
-                  scene, pixels);
+                  scene.parts(), scene, pixels);
 }
 
 cl::Event GBufferPasses::resolve(const cl::CommandQueue& queue, const View& view,
