@@ -170,6 +170,42 @@ TEST(Clusters, AreNotTurnedByATriangleTooSmallToBeSeen) {
     EXPECT_EQ(clusters_of(scene)[0].cone, glm::vec4(0, 0, 1, 0));
 }
 
+// Sheets one before another, further apart than a cluster is wide, share none.
+TEST(Clusters, LieInOneLayerOfSeveral) {
+    Scene scene = test::plain_scene();
+    test::Random random(3);
+    const int sizes[] = {1000, 3000, 700, 5000};  // triangles
+    std::vector<std::uint32_t> layer;
+    for (std::uint32_t sheet = 0; sheet < 4; ++sheet)
+        for (int i = 0; i < sizes[sheet]; ++i) {
+            const glm::dvec3 at(random(0, 1), 0.6 * sheet, random(0, 1));
+            test::add_triangle(scene, at, at + glm::dvec3(0.01, 0, 0), at + glm::dvec3(0, 0, 0.01));
+            layer.push_back(sheet);
+        }
+    const DeviceScene device = test::on_device(scene);
+    std::size_t mixed = 0;
+    for (std::size_t t = 0; t < layer.size(); ++t)
+        mixed += layer[device.triangle_order()[t]] !=
+                 layer[device.triangle_order()[t / CLUSTER_TRIANGLES * CLUSTER_TRIANGLES]];
+    EXPECT_LT(mixed, 4u * CLUSTER_TRIANGLES);  // where a sheet ends
+}
+
+// Where all are in one place the order is the scene's, and in other places it soon is found.
+TEST(Clusters, TakeAnyPlaces) {
+    Scene heap = test::plain_scene(), spiral = test::plain_scene();
+    for (int i = 0; i < 20000; ++i) {
+        test::add_triangle(heap, {1, 2, 3}, {2, 2, 3}, {1, 3, 3});
+        const double size = std::exp2(-0.005 * i);
+        const glm::dvec3 at(size, -size, size);
+        test::add_triangle(spiral, at, 0.999 * at, at + glm::dvec3(0, 0, 0.001 * size));
+    }
+    const DeviceScene placed = test::on_device(heap);
+    EXPECT_TRUE(std::is_sorted(placed.triangle_order().begin(), placed.triangle_order().end()));
+    std::vector<std::uint32_t> order = test::on_device(spiral).triangle_order();
+    std::sort(order.begin(), order.end());
+    for (std::uint32_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], i);
+}
+
 // Triangles of one cluster are neighbours: that is what their boxes are good for.
 TEST(Clusters, AreSmallInADenseMesh) {
     const DeviceScene scene = test::on_device(bumpy_mesh());
