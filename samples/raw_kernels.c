@@ -197,14 +197,14 @@ static cl_mem draw(const View* view) {
     const cl_mem planes = buffer((size_t)gbuffer_planes * stride * sizeof(cl_float), NULL);
     const cl_mem ids = buffer((size_t)id_planes * stride * sizeof(cl_int), NULL);
 
-    /* One work-item draws the whole view; clusters and parts are not read where cull is 0. */
+    /* One work-item draws the whole view; clusters, stretches and parts are not read where cull is 0. */
     const RasterParams params = {triangle_count, 0, small_triangle, 0, 0, 0, 0, 0};
     const cl_uint count = 1;
-    const cl_mem seen[] = {views, empty, empty};
+    const cl_mem seen[] = {views, empty, empty, empty};
     cl_kernel kernel = load("gbuffer", "raster_views");
     cl_uint next = set_values(kernel, 0, sizeof params, &params);
     next = set_values(kernel, next, sizeof count, &count);
-    next = set_buffers(kernel, next, 3, seen);
+    next = set_buffers(kernel, next, 4, seen);
     set_buffers(kernel, set_buffers(kernel, next, 9, scene), 1, &visibility);
     run(kernel, 1);
 

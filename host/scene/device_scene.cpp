@@ -211,6 +211,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     info_.vertex_count = static_cast<std::uint32_t>(positions.size());
     info_.triangle_count = static_cast<std::uint32_t>(triangles.size());
     std::vector<Cluster> clusters = make_clusters(triangles, positions);
+    std::vector<Stretch> stretches = make_stretches(clusters);
     std::vector<PartCorners> parts = make_parts(triangles, positions);
     info_.cluster_count = static_cast<std::uint32_t>(clusters.size());
     if (!scene.uvs.empty()) info_.flags |= SCENE_HAS_UVS;
@@ -226,6 +227,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     uvs_ = upload("texture coordinates", uvs);
     colors_ = upload("vertex colors", colors);
     clusters_ = upload("clusters", std::move(clusters), CL_MEM_READ_WRITE);
+    stretches_ = upload("stretches", std::move(stretches), CL_MEM_READ_WRITE);
     parts_ = upload("corners of triangles", std::move(parts), CL_MEM_READ_WRITE);
     materials_ = upload("materials", std::move(materials));
     textures_ = upload("texture records", std::move(pool.records));

@@ -44,6 +44,7 @@ MoveParams move_params(const DeviceScene& scene, std::uint32_t first, std::uint3
 ScenePasses::ScenePasses(const Programs& programs, const BuildOptions& options)
     : move_(programs.kernel("scene", "move", options)),
       clusters_(programs.kernel("scene", "clusters", options)),
+      stretches_(programs.kernel("scene", "stretches", options)),
       pose_(programs.kernel("scene", "pose", options)),
       flatten_(programs.kernel("scene", "flatten", options)) {}
 
@@ -71,6 +72,13 @@ cl::Event ScenePasses::clusters(const cl::CommandQueue& queue, DeviceScene& scen
     const SceneInfo& info = scene.info();
     return launch(clusters_, queue, info.cluster_count, wait, info.triangle_count,
                   scene.triangles(), scene.positions(), scene.clusters(), scene.parts());
+}
+
+cl::Event ScenePasses::stretches(const cl::CommandQueue& queue, DeviceScene& scene,
+                                 const WaitList& wait) const {
+    const std::uint32_t clusters = scene.info().cluster_count;
+    return launch(stretches_, queue, (clusters + STRETCH_CLUSTERS - 1) / STRETCH_CLUSTERS, wait,
+                  clusters, scene.clusters(), scene.stretches());
 }
 
 cl::Event ScenePasses::pose(const cl::CommandQueue& queue, const PoseParams& params,

@@ -93,6 +93,7 @@ cl::Event SceneMover::enqueue(const MoveParams& params, const cl::Buffer& positi
         passes_.move(queue_, params, scene_, {vertex_order_, positions, normals, status_}, before);
     last_.assign(1, moved);
     last_.assign(1, passes_.clusters(queue_, scene_, {moved}));
+    last_.assign(1, passes_.stretches(queue_, scene_, last_));
     return last_.front();
 }
 

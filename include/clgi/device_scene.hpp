@@ -118,6 +118,8 @@ public:
     // [info().cluster_count] Cluster: box and normal cone of runs of triangles, to cull many at
     // once.
     const cl::Buffer& clusters() const { return clusters_; }
+    // [info().cluster_count / STRETCH_CLUSTERS, rounded up] Stretch: boxes around clusters.
+    const cl::Buffer& stretches() const { return stretches_; }
     // [info().cluster_count][CLUSTER_PARTS] PartCorners: corners of triangles, side by side.
     const cl::Buffer& parts() const { return parts_; }
     // [height][width][3] float of the environment's picture, before its factor.
@@ -152,7 +154,7 @@ private:
     bool has_blended_ = false;
     std::size_t bytes_ = 0;
     cl::Buffer triangles_, positions_, normals_, uvs_, colors_, materials_, textures_, texels_,
-        decode_, environment_texels_, clusters_, parts_;
+        decode_, environment_texels_, clusters_, stretches_, parts_;
 };
 
 // What a material reflects of even light: shares of the base colour that are diffuse and in a lobe,

@@ -62,7 +62,7 @@ kernel void gbuffer_raster_views(RASTER_VIEWS_ARGUMENTS) {
     uint run_count = (params.triangle_count + RUN_TRIANGLES - 1) / RUN_TRIANGLES;
     for (uint next = 0; next < cluster_count;) {
         NearFirst list;
-        next = near_first_list(&view, params.cull, clusters, next, cluster_count, &list);
+        next = near_first_list(&view, params.cull, clusters, stretches, next, cluster_count, &list);
         for (int n = 0; n < list.count; ++n) {
             uint cluster = list.cluster[list.order[n]];
             uint wanted = ALL_PARTS;

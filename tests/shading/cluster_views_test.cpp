@@ -34,6 +34,9 @@ void open_clusters(const DeviceScene& scene) {
         {glm::vec4(glm::vec3(-far), 0), glm::vec4(glm::vec3(far), 0), {0, 0, 0, 2}});
     test::device().queue.enqueueWriteBuffer(scene.clusters(), CL_TRUE, 0,
                                             all.size() * sizeof(Cluster), all.data());
+    const std::vector<Stretch> wide(all.size() / STRETCH_CLUSTERS + 1, {all[0].low, all[0].high});
+    test::device().queue.enqueueWriteBuffer(scene.stretches(), CL_TRUE, 0,
+                                            scene.stretches().getInfo<CL_MEM_SIZE>(), wide.data());
 }
 
 glm::dvec3 on_sheet(double u, double v) {

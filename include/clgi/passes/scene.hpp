@@ -51,9 +51,13 @@ public:
     cl::Event move(const cl::CommandQueue& queue, const MoveParams& params, DeviceScene& scene,
                    const MoveBuffers& buffers, const WaitList& wait = {}) const;
 
-    // Writes scene.clusters() for the positions as they are.
+    // Writes scene.clusters() and scene.parts() for the positions as they are.
     cl::Event clusters(const cl::CommandQueue& queue, DeviceScene& scene,
                        const WaitList& wait = {}) const;
+
+    // Writes scene.stretches() for the clusters as they are.
+    cl::Event stretches(const cl::CommandQueue& queue, DeviceScene& scene,
+                      const WaitList& wait = {}) const;
 
     // Posed vertices get positions and, unless their range is flat, normals. Indices in the buffers
     // are not checked.
@@ -65,7 +69,7 @@ public:
                       const PoseBuffers& buffers, const WaitList& wait = {}) const;
 
 private:
-    PassKernel move_, clusters_, pose_, flatten_;
+    PassKernel move_, clusters_, stretches_, pose_, flatten_;
 };
 
 }  // namespace clgi

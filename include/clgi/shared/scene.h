@@ -93,6 +93,14 @@ typedef struct {
     float part[4][CLUSTER_PARTS];
 } Cluster;
 
+// The box around consecutive clusters.
+enum { STRETCH_CLUSTERS = 16 };  // the last one may have fewer
+
+typedef struct {
+    float4 low;  // xyz, local frame; w: 0
+    float4 high;
+} Stretch;
+
 // The corners of a part's triangles side by side, so that a packet of them is read in one piece. What
 // lies beyond the scene's last triangle repeats it.
 typedef struct {
