@@ -192,15 +192,18 @@ PlanCost irradiance_cache(const Plan& plan) {
         plan.on(Effect::area_light) ? static_cast<double>(plan.picture.emitters.area_samples) : 0.0;
     const double looked = lamps.emitters - samples + std::min(samples, samples_at_once);
     const double look = (4e-5 + 1e-5 * looked) * pixels;
-    // VPLs on small places that lights light have hemicubes of their own.
+    // Small places that lights light: records are drawn again to find them, lights' views of them
+    // too, and VPLs on them have hemicubes of their own.
     const LightAnalysis& lights = plan.analysis.lights;
     const bool lit = lights.points + lights.spots + lights.directional > 0;
-    const double vpls = is_fine(plan) && lit ? 4.0 * options.spots : 0.0;
-    const double drawing = 0.08 + 2.8e-3 * std::sqrt(triangles(plan));
+    const bool small = is_fine(plan) && lit && options.spots > 0;
+    const double again = small ? 8.0 * options.spots : 0.0,
+                 places = small ? 1e-3 * triangles(plan) : 0.0;
+    const double drawing = 0.05 + 1e-3 * std::sqrt(triangles(plan));
     Amount frame = picture(plan, false);
-    frame +=
-        {records * (drawing + above + weighed * look) + vpls * drawing + 2e-6 * records * records,
-         records * (8.0 * drawn + 12.0 * records)};
+    frame += {records * (drawing + above + weighed * look) + again * drawing + places +
+                  2e-6 * records * records,
+              records * (8.0 * drawn + 12.0 * records)};
     if (plan.on(Effect::gloss))  // what records have around them, and directions of lobes
         frame +=
             {shown * look + 8e-4 * plan.request.width * plan.request.height, 10.5 * shown * pixels};
