@@ -91,6 +91,51 @@ TEST(CacheTree, ListsTheNearestRecord) {
     EXPECT_GE(found, 490);  // of 500; the list is that of the leaf's centre
 }
 
+// At centres of leaves: no record that is left out counts as nearer than one that is listed, among
+// all that face the way.
+TEST(CacheTree, LeavesOutNoneThatIsNearer) {
+    std::vector<CacheRecord> records = in_a_box(700);
+    test::Random random(9);
+    for (CacheRecord& record : records)  // few are parallel to an axis
+        record.normal =
+            glm::normalize(record.normal + glm::vec3(test::random_vec3(random, -0.6, 0.6)));
+    const RecordTree tree = make_tree(records);
+    for (int k = 0; k < 3000; ++k) {
+        const CacheRecord& about = records[static_cast<std::size_t>(random.integer(0, 699))];
+        const glm::vec3 p = about.position + glm::vec3(test::random_vec3(random, -1, 1));
+        const glm::vec3 n(test::random_vec3(random, -1, 1));
+        glm::vec3 centre = tree.centre;
+        double half = tree.half_side;
+        for (std::uint32_t node = tree.nodes[0]; !(node & CACHE_LEAF);) {
+            half *= 0.5;
+            std::uint32_t child = 0;
+            for (int c = 0; c < 3; ++c) {
+                const bool high = p[c] > centre[c];
+                child |= high ? 1u << c : 0u;
+                centre[c] += static_cast<float>(high ? half : -half);
+            }
+            node = tree.nodes[node + child];
+        }
+        const auto distance = [&](std::uint32_t i) {
+            const glm::dvec3 d = glm::dvec3(centre) - glm::dvec3(records[i].position);
+            const double off = std::abs(glm::dot(d, glm::dvec3(records[i].normal)));
+            return glm::dot(d, d) + 16.0 * std::pow(std::max(off - 1.7 * half, 0.0), 2.0);
+        };
+        const std::uint32_t way = way_of(n);
+        std::vector<double> all, found;
+        for (std::uint32_t i = 0; i < records.size(); ++i) {
+            const float along = records[i].normal[static_cast<int>(way / 2)];
+            if ((way % 2 == 0 ? along : -along) > 0.1f) all.push_back(distance(i));
+        }
+        std::sort(all.begin(), all.end());
+        for (const std::uint32_t i : listed_at(tree, p, n))
+            if (i != CACHE_NONE) found.push_back(distance(i));
+        ASSERT_EQ(found.size(), std::min<std::size_t>(all.size(), CACHE_LISTED));
+        for (std::size_t i = 0; i < found.size(); ++i)
+            ASSERT_NEAR(found[i], all[i], 1e-5 * (1.0 + all[i])) << k << ", " << i;
+    }
+}
+
 // The library's walk and the one above, at corners of leaves and for normals of any length and way.
 TEST(CacheTree, IsWalkedAsKernelsDo) {
     const std::vector<CacheRecord> records = in_a_box(400);

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "core/on_threads.hpp"
@@ -104,54 +105,69 @@ private:
         return way % 2 == 0 ? value : -value;
     }
 
-    // Square of a distance at which a record counts; farther off its own plane counts as farther
-    // away. nearer: by so much, of both.
-    static float apart(const CacheRecord& record, const glm::vec3& place, float half_side,
-                       float nearer) {
-        const glm::vec3 d = place - record.position;
-        const float far = std::max(glm::length(d) - nearer, 0.0f);
-        const float off =
-            std::max(std::abs(glm::dot(d, record.normal)) - nearer - off_within * half_side, 0.0f);
-        return far * far + 16.0f * off * off;
-    }
+    // Squares of distances at which a record counts: farther off its own plane counts as farther
+    // away.
+    static float counted(float square, float off) { return square + 16.0f * off * off; }
 
     // Without those that enough others are nearer than, wherever in the cube a leaf lies.
     std::vector<std::uint32_t> nearest(const glm::vec3& centre, float half_side,
-                                       const std::vector<std::uint32_t>& candidates) const {
+                                       const std::vector<std::uint32_t>& candidates) {
         if (candidates.size() <= CACHE_LISTED) return candidates;
-        const float reach = std::sqrt(3.0f) * half_side;
-        std::vector<float> most;
-        most.reserve(candidates.size());
-        for (const std::uint32_t i : candidates)
-            most.push_back(apart(records_[i], centre, 0.0f, -reach));
-        std::nth_element(most.begin(), most.begin() + CACHE_LISTED - 1, most.end());
-        const float enough = most[CACHE_LISTED - 1];
+        most_.clear();
+        least_.clear();
+        for (const std::uint32_t i : candidates) {
+            float off = 0.0f, reach = 0.0f, near = 0.0f, far = 0.0f;
+            for (int axis = 0; axis < 3; ++axis) {
+                const float d = centre[axis] - records_[i].position[axis],
+                            n = records_[i].normal[axis], away = std::abs(d),
+                            nearer = std::max(away - half_side, 0.0f), farther = away + half_side;
+                off += d * n;
+                reach += half_side * std::abs(n);
+                near += nearer * nearer;
+                far += farther * farther;
+            }
+            off = std::abs(off);
+            most_.push_back(counted(far, off + reach));
+            least_.push_back(counted(near, std::max(off - reach - off_within * half_side, 0.0f)));
+        }
+        std::nth_element(most_.begin(), most_.begin() + CACHE_LISTED - 1, most_.end());
+        const float enough = most_[CACHE_LISTED - 1];
         std::vector<std::uint32_t> out;
-        for (const std::uint32_t i : candidates)
-            if (apart(records_[i], centre, half_side, reach) <= enough) out.push_back(i);
+        for (std::size_t k = 0; k < candidates.size(); ++k)
+            if (least_[k] <= enough) out.push_back(candidates[k]);
         return out;
     }
 
-    // Of one leaf.
+    // Of one leaf: the nearest, each put in its place among those before.
     void list(std::size_t number) {
         const Leaf& leaf = leaves_[number];
         std::uint32_t* to = &out_.lists[number * CACHE_WAYS * CACHE_LISTED];
-        std::vector<std::pair<float, std::uint32_t>> near;
+        const float within = off_within * leaf.half_side;
         for (const std::vector<std::uint32_t>& some : *leaf.candidates) {
-            near.clear();
-            for (const std::uint32_t i : some)
-                near.emplace_back(apart(records_[i], leaf.centre, leaf.half_side, 0.0f), i);
-            const std::size_t count = std::min<std::size_t>(near.size(), CACHE_LISTED);
-            std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count),
-                              near.end());
-            for (std::size_t k = 0; k < CACHE_LISTED; ++k)
-                *to++ = k < count ? near[k].second : CACHE_NONE;
+            float near[CACHE_LISTED];
+            std::fill(to, to + CACHE_LISTED, static_cast<std::uint32_t>(CACHE_NONE));
+            std::fill(near, near + CACHE_LISTED, std::numeric_limits<float>::infinity());
+            for (const std::uint32_t i : some) {
+                const glm::vec3 d = leaf.centre - records_[i].position;
+                const float off = std::abs(glm::dot(d, records_[i].normal));
+                const float found = counted(glm::dot(d, d), std::max(off - within, 0.0f));
+                if (!(found < near[CACHE_LISTED - 1])) continue;
+                int place = CACHE_LISTED - 1;
+                for (; place > 0 && found < near[place - 1]; --place) {
+                    near[place] = near[place - 1];
+                    to[place] = to[place - 1];
+                }
+                near[place] = found;
+                to[place] = i;
+            }
+            to += CACHE_LISTED;
         }
     }
 
     const std::vector<CacheRecord>& records_;
     RecordTree& out_;
     std::vector<Leaf> leaves_;
+    std::vector<float> most_, least_;  // of the candidates of a node
 };
 
 }  // namespace
