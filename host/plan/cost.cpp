@@ -199,7 +199,7 @@ PlanCost irradiance_cache(const Plan& plan) {
     const bool small = is_fine(plan) && lit && options.spots > 0;
     const double again = small ? 8.0 * options.spots : 0.0,
                  places = small ? 1e-3 * triangles(plan) : 0.0;
-    const double drawing = 0.05 + 0.85e-3 * std::sqrt(triangles(plan));
+    const double drawing = 0.05 + 1e-3 * std::sqrt(triangles(plan));
     Amount frame = picture(plan, false);
     frame += {records * (drawing + above + weighed * look) + again * drawing + places +
                   2e-6 * records * records,

@@ -95,6 +95,7 @@ const std::vector<Preset>& presets() {
         {Method::irradiance_cache, 8, 66, {0, 0, 0, 0, 0, 0, 0.38}},
         {Method::irradiance_cache, 8, 100, {0, 0, 0, 0, 0, 0, 0.33}},
         {Method::irradiance_cache, 8, 150, {0, 0, 0, 0, 0, 0, 0.28}},
+        {Method::irradiance_cache, 8, 175, {0, 0, 0, 0, 0, 0, 0.265}},
         {Method::irradiance_cache, 8, 200, {0, 0, 0, 0, 0, 0, 0.25}},
         {Method::irradiance_cache, 16, 66, {0, 0, 0, 0, 0, 0, 0.33}},
         {Method::irradiance_cache, 16, 100, {0.03, 0.09, 0.155, 0.18, 0.3, 0.08, 0.31}},
