@@ -100,6 +100,23 @@ TEST(Occlusion, ChangesNoWord) {
     }
 }
 
+// In groups a lane has a triangle, also where packets are asked for.
+TEST(Occlusion, IsNothingToGroups) {
+    const DeviceScene scene = test::on_device(walls_and_heap());
+    const std::vector<View> views = views_of(scene);
+    for (const int width : test::widths()) {
+        BuildOptions build;
+        build.form = Form::groups;
+        build.packet_width = width;
+        build.textures = false;
+        const GBufferPasses passes(test::device().context, test::device().device, build);
+        for (std::size_t v = 0; v < 4; ++v)
+            EXPECT_TRUE(words<std::uint64_t>(scene, views[v], true, passes) ==
+                        words<std::uint64_t>(scene, views[v], false))
+                << "view " << v << ", packets of " << width;
+    }
+}
+
 // A sheet before a wall, whose clusters pretend to lie behind it.
 TEST(Occlusion, PassesOverClustersBehindWhatIsSeen) {
     test::Random random(1);
