@@ -197,7 +197,7 @@ static cl_mem draw(const View* view) {
     const cl_mem planes = buffer((size_t)gbuffer_planes * stride * sizeof(cl_float), NULL);
     const cl_mem ids = buffer((size_t)id_planes * stride * sizeof(cl_int), NULL);
 
-    /* One work-item draws the whole view; clusters, stretches and parts are not read where cull is 0. */
+    /* One work-item draws the whole view; what it could pass over is not read where cull is 0. */
     const RasterParams params = {triangle_count, 0, small_triangle, 0, 0, 0, 0, 0};
     const cl_uint count = 1;
     const cl_mem seen[] = {views, empty, empty, empty};

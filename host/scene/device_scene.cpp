@@ -242,8 +242,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     bytes_ = upload.bytes;
 }
 
-// In the order in which the triangles of a scene loaded like this would lie on the device, so that
-// moved ones are sampled as loaded ones are.
+// Along a Z-order curve, so that moved ones are sampled as loaded ones are.
 void DeviceScene::list_emissive() {
     std::vector<std::pair<std::uint32_t, const Glowing*>> order;
     for (const Glowing& g : glowing_)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <future>
 
+#include "core/on_threads.hpp"
+
 namespace clgi {
 namespace {
 
@@ -33,7 +35,7 @@ struct Item {
 constexpr std::ptrdiff_t worth_a_thread = 1 << 16;  // triangles
 constexpr std::ptrdiff_t least_share = 16;          // a side has no fewer than one in so many
 
-void gather_near(Item* first, Item* last) {
+void gather_near(Item* first, Item* last, int threads) {
     const std::ptrdiff_t count = last - first;
     if (count <= PART_TRIANGLES) {
         std::sort(first, last,
@@ -63,12 +65,12 @@ void gather_near(Item* first, Item* last) {
         return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis]
                                                 : a.triangle < b.triangle;
     });
-    if (count < worth_a_thread) {
-        gather_near(first, middle);
-        gather_near(middle, last);
+    if (threads < 2 || count < worth_a_thread) {
+        gather_near(first, middle, 1);
+        gather_near(middle, last, 1);
     } else {
-        auto other = std::async(std::launch::async, gather_near, first, middle);
-        gather_near(middle, last);
+        auto other = std::async(std::launch::async, gather_near, first, middle, threads / 2);
+        gather_near(middle, last, threads - threads / 2);
         other.get();
     }
 }
@@ -88,7 +90,7 @@ SpatialOrder spatial_order(const std::vector<glm::vec4>& local,
         items.push_back({0.5f * (glm::min(a, glm::min(b, c)) + glm::max(a, glm::max(b, c))),
                          static_cast<std::uint32_t>(items.size())});
     }
-    gather_near(items.data(), items.data() + items.size());
+    gather_near(items.data(), items.data() + items.size(), thread_count(0));
     SpatialOrder order;
     order.triangles.reserve(items.size());
     for (const Item& item : items) order.triangles.push_back(item.triangle);

@@ -14,7 +14,7 @@ struct SpatialOrder {
     std::vector<std::uint32_t> renumbered;  // device index of each scene vertex that is used
 };
 
-// Where a triangle lies on a Z-order curve. Corners in the local frame.
+// Where a triangle lies on a Z-order curve, for emissive ones alone. Corners in the local frame.
 std::uint32_t place_on_curve(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 // Triangles so that every cluster, and every part of one, has triangles that are close together: they

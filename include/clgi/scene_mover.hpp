@@ -46,8 +46,8 @@ public:
     SceneMover& operator=(const SceneMover&) = delete;
 
     // Enqueues the move after `wait` and after earlier moves; the returned event completes when
-    // positions, normals and clusters are written. Whatever reads the scene must wait for it, and
-    // `wait` must cover whatever still reads: the event of the last frame.
+    // positions, normals, clusters, their parts and stretches are written. Whatever reads the scene
+    // must wait for it, and `wait` must cover whatever still reads: the event of the last frame.
     //
     // The local frame stays as it is: its precision, its radius and its box, on which far planes
     // and the views of directional lights depend, suit the scene that was loaded. status().fits

@@ -19,7 +19,7 @@ kernel void gbuffer_raster(
     global const uint4*          restrict triangles,   // [triangle_count]
     global const float4*         restrict positions,   // [vertex_count] local frame
     global const Cluster*        restrict clusters,    // [cluster_count]
-    global const PartCorners*           restrict parts,       // [cluster_count][CLUSTER_PARTS]
+    global const PartCorners*    restrict parts,       // [cluster_count][CLUSTER_PARTS]
     global PixelWord*            restrict visibility,  // [pixels of all views]
     global RasterPolygon*        restrict polygons,    // [views][capacity]
     global RasterRun*            restrict runs,        // [views][capacity]

@@ -13,7 +13,7 @@ kernel void gbuffer_raster_late(
     global const View*         restrict views,       // [first_view + views]
     global const uint*         restrict late,        // [views][late_capacity] batches
     global const RasterCount*  restrict counts,      // [views]
-    global const PartCorners*         restrict parts,       // [cluster_count][CLUSTER_PARTS]
+    global const PartCorners*  restrict parts,       // [cluster_count][CLUSTER_PARTS]
     SCENE_ARGUMENTS,
     global PixelWord*          restrict visibility)  // [pixels of all views]
 {

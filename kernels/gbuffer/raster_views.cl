@@ -14,7 +14,7 @@
 #define PIXELS_A_RUN (64 / PART_RUNS)
 #define LEAST_RUNS_A_LOOK (32 * PART_RUNS)
 #define MOST_RUNS_A_LOOK (224 * PART_RUNS)
-#define MOST_BATCH_RUNS (256 * PART_RUNS)
+#define MOST_BATCH_RUNS (MOST_RUNS_A_LOOK + CLUSTER_RUNS)
 
 #include "gbuffer/batch.clh"
 #include "gbuffer/near_first.clh"

@@ -3,7 +3,7 @@
 // [derived: minima and maxima are exact, so the boxes are those of the host at load, bit for bit]
 //
 // Work size    1D, one work-item a cluster; any local size; tail guarded
-// Writes       its own cluster
+// Writes       its own cluster and the parts of it
 // SPDX-License-Identifier: MIT
 #include "clgi/shared/scene.h"
 
@@ -94,7 +94,7 @@ kernel void scene_clusters(
     global const uint4*    restrict triangles,  // [triangle_count] three vertices, material
     global const float4*   restrict positions,  // [vertex_count] local frame
     global Cluster*        restrict clusters,   // [triangle_count / CLUSTER_TRIANGLES, rounded up]
-    global PartCorners*           restrict parts)      // [clusters][CLUSTER_PARTS]
+    global PartCorners*    restrict parts)      // [clusters][CLUSTER_PARTS]
 {
     uint cluster = (uint)get_global_id(0);
     uint first = cluster * CLUSTER_TRIANGLES;

@@ -6,9 +6,9 @@
 #include "clgi/shared/scene.h"
 
 kernel void scene_stretches(
-    const uint              cluster_count,
-    global const Cluster*   restrict clusters,  // [cluster_count]
-    global Stretch*          restrict stretches)   // [cluster_count / STRETCH_CLUSTERS, rounded up]
+    const uint             cluster_count,
+    global const Cluster*  restrict clusters,   // [cluster_count]
+    global Stretch*        restrict stretches)  // [cluster_count / STRETCH_CLUSTERS, rounded up]
 {
     uint stretch = (uint)get_global_id(0);
     uint first = stretch * STRETCH_CLUSTERS;

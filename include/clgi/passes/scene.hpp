@@ -51,13 +51,14 @@ public:
     cl::Event move(const cl::CommandQueue& queue, const MoveParams& params, DeviceScene& scene,
                    const MoveBuffers& buffers, const WaitList& wait = {}) const;
 
-    // Writes scene.clusters() and scene.parts() for the positions as they are.
+    // Writes scene.clusters() and scene.parts() for the positions as they are. stretches() must
+    // follow: what has left the box of its stretch would not be drawn by raster_views.
     cl::Event clusters(const cl::CommandQueue& queue, DeviceScene& scene,
                        const WaitList& wait = {}) const;
 
     // Writes scene.stretches() for the clusters as they are.
     cl::Event stretches(const cl::CommandQueue& queue, DeviceScene& scene,
-                      const WaitList& wait = {}) const;
+                        const WaitList& wait = {}) const;
 
     // Posed vertices get positions and, unless their range is flat, normals. Indices in the buffers
     // are not checked.
