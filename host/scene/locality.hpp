@@ -17,10 +17,10 @@ struct SpatialOrder {
 // Where a triangle lies on a Z-order curve, for emissive ones alone. Corners in the local frame.
 std::uint32_t place_on_curve(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-// Triangles so that every cluster, and every part of one, has triangles that are close together: they
-// are divided at the centre of the box around the middles of their boxes, across its longest axis, at
-// whole clusters and then at whole parts. In a part they have scene order. Vertices in the order of
-// their first use. local: positions with coordinates in [-1, 1].
+// Triangles so that every cluster, and every part of one, has triangles that are close together:
+// they are divided at the centre of the box around the middles of their boxes, across its longest
+// axis, at whole clusters and then at whole parts. In a part they have scene order. Vertices in the
+// order of their first use. local: positions with coordinates in [-1, 1].
 SpatialOrder spatial_order(const std::vector<glm::vec4>& local,
                            const std::vector<SceneTriangle>& triangles);
 

@@ -101,8 +101,8 @@ typedef struct {
     float4 high;
 } Stretch;
 
-// The corners of a part's triangles side by side, so that a packet of them is read in one piece. What
-// lies beyond the scene's last triangle repeats it.
+// The corners of a part's triangles side by side, so that a packet of them is read in one piece.
+// What lies beyond the scene's last triangle repeats it.
 typedef struct {
     float corner[3][3][PART_TRIANGLES];  // x, y and z of each corner, local frame
     uint word[PART_TRIANGLES];           // the fourth word of each triangle
