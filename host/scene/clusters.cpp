@@ -97,19 +97,6 @@ std::vector<Cluster> make_clusters(const std::vector<glm::uvec4>& triangles,
     return out;
 }
 
-std::vector<Stretch> make_stretches(const std::vector<Cluster>& clusters) {
-    std::vector<Stretch> out;
-    for (std::size_t c = 0; c < clusters.size(); ++c) {
-        if (c % STRETCH_CLUSTERS == 0) out.push_back({clusters[c].low, clusters[c].high});
-        for (int axis = 0; axis < 3; ++axis) {
-            float &low = out.back().low[axis], &high = out.back().high[axis];
-            if (clusters[c].low[axis] < low) low = clusters[c].low[axis];
-            if (clusters[c].high[axis] > high) high = clusters[c].high[axis];
-        }
-    }
-    return out;
-}
-
 std::vector<PartCorners> make_parts(const std::vector<glm::uvec4>& triangles,
                                     const std::vector<glm::vec4>& positions) {
     const std::size_t clusters = (triangles.size() + CLUSTER_TRIANGLES - 1) / CLUSTER_TRIANGLES;

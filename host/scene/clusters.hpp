@@ -1,5 +1,5 @@
-// Boxes around runs of triangles, and their corners side by side, as kernels/scene/clusters.cl and
-// stretches.cl compute them.
+// Boxes around runs of triangles, and their corners side by side, as kernels/scene/clusters.cl
+// computes them.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,9 +11,6 @@ namespace clgi {
 // triangles: three vertices and the fourth word of each. positions: local frame, finite.
 std::vector<Cluster> make_clusters(const std::vector<glm::uvec4>& triangles,
                                    const std::vector<glm::vec4>& positions);
-
-// [clusters / STRETCH_CLUSTERS, rounded up]
-std::vector<Stretch> make_stretches(const std::vector<Cluster>& clusters);
 
 // [clusters][CLUSTER_PARTS] of as many clusters.
 std::vector<PartCorners> make_parts(const std::vector<glm::uvec4>& triangles,

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "core/opencl/error_text.hpp"
+#include "scene/box_tree.hpp"
 #include "scene/clusters.hpp"
 #include "scene/emission.hpp"
 #include "scene/environment.hpp"
@@ -211,7 +212,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     info_.vertex_count = static_cast<std::uint32_t>(positions.size());
     info_.triangle_count = static_cast<std::uint32_t>(triangles.size());
     std::vector<Cluster> clusters = make_clusters(triangles, positions);
-    std::vector<Stretch> stretches = make_stretches(clusters);
+    BoxTree tree = make_box_tree(clusters);
     std::vector<PartCorners> parts = make_parts(triangles, positions);
     info_.cluster_count = static_cast<std::uint32_t>(clusters.size());
     if (!scene.uvs.empty()) info_.flags |= SCENE_HAS_UVS;
@@ -227,7 +228,8 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     uvs_ = upload("texture coordinates", uvs);
     colors_ = upload("vertex colors", colors);
     clusters_ = upload("clusters", std::move(clusters), CL_MEM_READ_WRITE);
-    stretches_ = upload("stretches", std::move(stretches), CL_MEM_READ_WRITE);
+    nodes_ = upload("boxes around clusters", std::move(tree.nodes), CL_MEM_READ_WRITE);
+    node_levels_ = std::move(tree.levels);
     parts_ = upload("corners of triangles", std::move(parts), CL_MEM_READ_WRITE);
     materials_ = upload("materials", std::move(materials));
     textures_ = upload("texture records", std::move(pool.records));

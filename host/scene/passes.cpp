@@ -44,7 +44,7 @@ MoveParams move_params(const DeviceScene& scene, std::uint32_t first, std::uint3
 ScenePasses::ScenePasses(const Programs& programs, const BuildOptions& options)
     : move_(programs.kernel("scene", "move", options)),
       clusters_(programs.kernel("scene", "clusters", options)),
-      stretches_(programs.kernel("scene", "stretches", options)),
+      nodes_(programs.kernel("scene", "nodes", options)),
       pose_(programs.kernel("scene", "pose", options)),
       flatten_(programs.kernel("scene", "flatten", options)) {}
 
@@ -74,11 +74,15 @@ cl::Event ScenePasses::clusters(const cl::CommandQueue& queue, DeviceScene& scen
                   scene.triangles(), scene.positions(), scene.clusters(), scene.parts());
 }
 
-cl::Event ScenePasses::stretches(const cl::CommandQueue& queue, DeviceScene& scene,
-                                 const WaitList& wait) const {
-    const std::uint32_t clusters = scene.info().cluster_count;
-    return launch(stretches_, queue, (clusters + STRETCH_CLUSTERS - 1) / STRETCH_CLUSTERS, wait,
-                  clusters, scene.clusters(), scene.stretches());
+cl::Event ScenePasses::nodes(const cl::CommandQueue& queue, DeviceScene& scene, std::size_t level,
+                             const WaitList& wait) const {
+    const std::vector<std::uint32_t>& levels = scene.node_levels();
+    if (level + 1 >= levels.size())
+        throw Error("scene.nodes: level is " + std::to_string(level) + ", below " +
+                    std::to_string(levels.size() - 1) + " needed");
+    const std::uint32_t count = levels[level + 1] - levels[level];
+    return launch(nodes_, queue, count, wait, levels[level], count, scene.clusters(),
+                  scene.nodes());
 }
 
 cl::Event ScenePasses::pose(const cl::CommandQueue& queue, const PoseParams& params,

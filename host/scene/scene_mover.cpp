@@ -93,7 +93,8 @@ cl::Event SceneMover::enqueue(const MoveParams& params, const cl::Buffer& positi
         passes_.move(queue_, params, scene_, {vertex_order_, positions, normals, status_}, before);
     last_.assign(1, moved);
     last_.assign(1, passes_.clusters(queue_, scene_, {moved}));
-    last_.assign(1, passes_.stretches(queue_, scene_, last_));
+    for (std::size_t level = scene_.node_levels().size() - 1; level-- > 0;)
+        last_.assign(1, passes_.nodes(queue_, scene_, level, last_));
     return last_.front();
 }
 

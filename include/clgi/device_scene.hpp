@@ -118,8 +118,10 @@ public:
     // [info().cluster_count] Cluster: box and normal cone of runs of triangles, to cull many at
     // once.
     const cl::Buffer& clusters() const { return clusters_; }
-    // [info().cluster_count / STRETCH_CLUSTERS, rounded up] Stretch: boxes around clusters.
-    const cl::Buffer& stretches() const { return stretches_; }
+    // [node_levels().back()] BoxNode: a tree of boxes over the clusters, level by level.
+    const cl::Buffer& nodes() const { return nodes_; }
+    // The first node of each level from the root on, and then the number of all nodes.
+    const std::vector<std::uint32_t>& node_levels() const { return node_levels_; }
     // [info().cluster_count][CLUSTER_PARTS] PartCorners: corners of triangles, side by side.
     const cl::Buffer& parts() const { return parts_; }
     // [height][width][3] float of the environment's picture, before its factor.
@@ -143,7 +145,7 @@ private:
     std::vector<Light> lights_;
     std::vector<Glowing> glowing_;
     std::vector<EmissiveTriangle> emissive_;
-    std::vector<std::uint32_t> triangle_order_, vertex_order_;
+    std::vector<std::uint32_t> triangle_order_, vertex_order_, node_levels_;
     std::size_t file_vertex_count_ = 0;
     std::optional<Environment> environment_;
     float uploaded_rotation_ = 0.0f;  // of the environment
@@ -154,7 +156,7 @@ private:
     bool has_blended_ = false;
     std::size_t bytes_ = 0;
     cl::Buffer triangles_, positions_, normals_, uvs_, colors_, materials_, textures_, texels_,
-        decode_, environment_texels_, clusters_, stretches_, parts_;
+        decode_, environment_texels_, clusters_, nodes_, parts_;
 };
 
 // What a material reflects of even light: shares of the base colour that are diffuse and in a lobe,

@@ -60,9 +60,10 @@ kernel void gbuffer_raster_views(RASTER_VIEWS_ARGUMENTS) {
     int enough = clamp((int)(pixels / PIXELS_A_RUN), LEAST_RUNS_A_LOOK, MOST_RUNS_A_LOOK);
     uint cluster_count = (params.triangle_count + CLUSTER_TRIANGLES - 1) / CLUSTER_TRIANGLES;
     uint run_count = (params.triangle_count + RUN_TRIANGLES - 1) / RUN_TRIANGLES;
-    for (uint next = 0; next < cluster_count;) {
-        NearFirst list;
-        next = near_first_list(&view, params.cull, clusters, stretches, next, cluster_count, &list);
+    NearFirst list;
+    near_first_begin(&list);
+    while (cluster_count > 0 &&
+           near_first_list(&view, params.cull, clusters, nodes, cluster_count, &list)) {
         for (int n = 0; n < list.count; ++n) {
             uint cluster = list.cluster[list.order[n]];
             uint wanted = ALL_PARTS;

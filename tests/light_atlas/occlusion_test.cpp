@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <clgi/passes/scene.hpp>
 #include <functional>
 
 #include "depth_words.hpp"
@@ -124,7 +125,7 @@ TEST(Occlusion, PassesOverClustersBehindWhatIsSeen) {
     add_wall(world, random, 160, 0.3, 0);
     const std::size_t sheet = world.triangles.size();
     add_wall(world, random, 120, 0.0, 0);
-    const DeviceScene scene = test::on_device(world);
+    DeviceScene scene = test::on_device(world);
     auto clusters = test::download<Cluster>(scene.clusters(), scene.info().cluster_count);
     std::vector<bool> moved(clusters.size(), true);
     for (std::size_t t = 0; t < world.triangles.size(); ++t)
@@ -153,6 +154,9 @@ TEST(Occlusion, PassesOverClustersBehindWhatIsSeen) {
         if (moved[c]) clusters[c].low.z = clusters[c].high.z = back;
     test::device().queue.enqueueWriteBuffer(scene.clusters(), CL_TRUE, 0,
                                             clusters.size() * sizeof(Cluster), clusters.data());
+    const ScenePasses passes(test::programs());
+    for (std::size_t level = scene.node_levels().size() - 1; level-- > 0;)
+        passes.nodes(test::device().queue, scene, level);
     // All but a few that hide behind what was drawn since the last look.
     EXPECT_LE(shown(view), 25u);
     EXPECT_LE(shown(flat), 25u);

@@ -115,26 +115,6 @@ std::vector<PartCorners> parts_of(const DeviceScene& scene) {
                                        scene.info().cluster_count * std::size_t{CLUSTER_PARTS});
 }
 
-std::vector<Stretch> stretches_of(const DeviceScene& scene) {
-    return test::download<Stretch>(scene.stretches(), (scene.info().cluster_count + 15u) / 16u);
-}
-
-TEST(Clusters, HaveBoxesAroundEverySixteen) {
-    for (const int count : {1, 1024, 1025, 5000}) {
-        const Uploaded on(dust(count));
-        const std::vector<Stretch> stretches = stretches_of(on.scene);
-        for (std::size_t s = 0; s < stretches.size(); ++s) {
-            glm::vec4 low(std::numeric_limits<float>::infinity()), high = -low;
-            for (std::size_t c = 16 * s; c < std::min(16 * s + 16, on.clusters.size()); ++c) {
-                low = glm::min(low, on.clusters[c].low);
-                high = glm::max(high, on.clusters[c].high);
-            }
-            EXPECT_EQ(stretches[s].low, low) << count << ", " << s;
-            EXPECT_EQ(stretches[s].high, high) << count << ", " << s;
-        }
-    }
-}
-
 // The last triangle stands for those that a part lacks.
 TEST(Clusters, HaveTheCornersOfTheirTriangles) {
     for (const int count : {1, 8, 9, 63, 65, 1000}) {
@@ -245,7 +225,6 @@ TEST(Clusters, OfNoTrianglesAreNone) {
     EXPECT_GE(scene.clusters().getInfo<CL_MEM_SIZE>(), sizeof(Cluster));
     const ScenePasses passes(test::programs());
     passes.clusters(test::device().queue, scene).wait();
-    passes.stretches(test::device().queue, scene).wait();
 }
 
 TEST(Clusters, AreTheSameBitsFromTheDevice) {
@@ -261,11 +240,7 @@ TEST(Clusters, AreTheSameBitsFromTheDevice) {
             const std::size_t corner_bytes = corners.size() * sizeof(PartCorners);
             on.queue.enqueueFillBuffer(scene.clusters(), cl_uchar{0xff}, 0, bytes);
             on.queue.enqueueFillBuffer(scene.parts(), cl_uchar{0xff}, 0, corner_bytes);
-            const std::vector<Stretch> boxes = stretches_of(scene);
-            const std::size_t box_bytes = boxes.size() * sizeof(Stretch);
-            on.queue.enqueueFillBuffer(scene.stretches(), cl_uchar{0xff}, 0, box_bytes);
-            passes.stretches(on.queue, scene, {passes.clusters(on.queue, scene)});
-            EXPECT_EQ(std::memcmp(boxes.data(), stretches_of(scene).data(), box_bytes), 0);
+            passes.clusters(on.queue, scene);
             EXPECT_EQ(std::memcmp(host.data(), clusters_of(scene).data(), bytes), 0);
             EXPECT_EQ(std::memcmp(corners.data(), parts_of(scene).data(), corner_bytes), 0);
         }

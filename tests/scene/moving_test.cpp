@@ -5,6 +5,7 @@
 #include <clgi/scene_mover.hpp>
 #include <limits>
 
+#include "box_trees.hpp"
 #include "frames.hpp"
 #include "turning.hpp"
 
@@ -158,17 +159,7 @@ TEST(MovingGeometry, MovesTheBoxesOfClusters) {
         EXPECT_EQ(glm::vec3(clusters[c].low), low) << c;
         EXPECT_EQ(glm::vec3(clusters[c].high), high) << c;
     }
-    const auto stretches =
-        test::download<Stretch>(scene.stretches(), (clusters.size() + 15) / STRETCH_CLUSTERS);
-    for (std::size_t s = 0; s < stretches.size(); ++s) {
-        glm::vec4 low(std::numeric_limits<float>::infinity()), high = -low;
-        for (std::size_t c = 16 * s; c < std::min(16 * s + 16, clusters.size()); ++c) {
-            low = glm::min(low, clusters[c].low);
-            high = glm::max(high, clusters[c].high);
-        }
-        EXPECT_EQ(stretches[s].low, low) << s;
-        EXPECT_EQ(stretches[s].high, high) << s;
-    }
+    test::expect_boxes(scene, "moved");
 }
 
 TEST(MovingGeometry, KeepsVerticesThatAreNotFinite) {

@@ -34,9 +34,15 @@ void open_clusters(const DeviceScene& scene) {
         {glm::vec4(glm::vec3(-far), 0), glm::vec4(glm::vec3(far), 0), {0, 0, 0, 2}});
     test::device().queue.enqueueWriteBuffer(scene.clusters(), CL_TRUE, 0,
                                             all.size() * sizeof(Cluster), all.data());
-    const std::vector<Stretch> wide(all.size() / STRETCH_CLUSTERS + 1, {all[0].low, all[0].high});
-    test::device().queue.enqueueWriteBuffer(scene.stretches(), CL_TRUE, 0,
-                                            scene.stretches().getInfo<CL_MEM_SIZE>(), wide.data());
+    auto nodes = test::download<BoxNode>(scene.nodes(), scene.node_levels().back());
+    for (BoxNode& node : nodes)
+        for (int k = 0; k < NODE_BOXES; ++k)
+            for (int axis = 0; axis < 3 && node.child[k] != NODE_NONE; ++axis) {
+                node.low[axis][k] = -far;
+                node.high[axis][k] = far;
+            }
+    test::device().queue.enqueueWriteBuffer(scene.nodes(), CL_TRUE, 0,
+                                            nodes.size() * sizeof(BoxNode), nodes.data());
 }
 
 glm::dvec3 on_sheet(double u, double v) {

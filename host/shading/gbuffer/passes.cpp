@@ -230,7 +230,7 @@ cl::Event GBufferPasses::raster_views(const cl::CommandQueue& queue, const ViewS
     need_views(pass, span, views, pixels, kind);
     return launch(pass, queue, span.count * items_each(pass, groups_), wait,
                   raster_params(span, scene, RASTER_FUSED, {}), span.count, views, scene.clusters(),
-                  scene.stretches(), scene.parts(), scene, pixels);
+                  scene.nodes(), scene.parts(), scene, pixels);
 }
 
 cl::Event GBufferPasses::resolve(const cl::CommandQueue& queue, const View& view,

@@ -51,14 +51,15 @@ public:
     cl::Event move(const cl::CommandQueue& queue, const MoveParams& params, DeviceScene& scene,
                    const MoveBuffers& buffers, const WaitList& wait = {}) const;
 
-    // Writes scene.clusters() and scene.parts() for the positions as they are. stretches() must
-    // follow: what has left the box of its stretch would not be drawn by raster_views.
+    // Writes scene.clusters() and scene.parts() for the positions as they are. nodes() must follow,
+    // from the last level to the first: what has left its boxes would not be drawn.
     cl::Event clusters(const cl::CommandQueue& queue, DeviceScene& scene,
                        const WaitList& wait = {}) const;
 
-    // Writes scene.stretches() for the clusters as they are.
-    cl::Event stretches(const cl::CommandQueue& queue, DeviceScene& scene,
-                        const WaitList& wait = {}) const;
+    // Writes boxes of scene.nodes() of one level, counted from the root, for the clusters and the
+    // levels below as they are. Error for a level that the scene does not have.
+    cl::Event nodes(const cl::CommandQueue& queue, DeviceScene& scene, std::size_t level,
+                    const WaitList& wait = {}) const;
 
     // Posed vertices get positions and, unless their range is flat, normals. Indices in the buffers
     // are not checked.
@@ -70,7 +71,7 @@ public:
                       const PoseBuffers& buffers, const WaitList& wait = {}) const;
 
 private:
-    PassKernel move_, clusters_, stretches_, pose_, flatten_;
+    PassKernel move_, clusters_, nodes_, pose_, flatten_;
 };
 
 }  // namespace clgi

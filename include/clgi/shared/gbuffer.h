@@ -86,7 +86,7 @@ typedef struct {
     uint first_view;  // in the buffer of views; the second dimension of the launch counts from it
     uint capacity;    // polygons, and runs, that there is room for in each view's list
     uint late_capacity;  // batches of the scene
-    uint cull;           // 1: stretches, clusters and parts that no pixel shows are passed over;
+    uint cull;           // 1: boxes, clusters and parts that no pixel shows are passed over;
                          // 0: these are not read
     uint scene_flags;    // SCENE_HAS_...
 } RasterParams;

@@ -93,13 +93,18 @@ typedef struct {
     float part[4][CLUSTER_PARTS];
 } Cluster;
 
-// The box around consecutive clusters.
-enum { STRETCH_CLUSTERS = 16 };  // the last one may have fewer
+// A tree of boxes over the clusters. A node has up to sixteen of them side by side, each around a
+// cluster or around all boxes of another node, which comes after it. The root is the first node.
+enum { NODE_BOXES = 16 };
+#define NODE_CLUSTER 0x80000000u  // of a child that is a cluster
+#define NODE_NONE 0xffffffffu
+enum { NODE_STACK = 288 };  // children that a walk from the root has put off at most
 
 typedef struct {
-    float4 low;  // xyz, local frame; w: 0
-    float4 high;
-} Stretch;
+    float low[3][NODE_BOXES];  // x, y and z, local frame; above `high` where there is none
+    float high[3][NODE_BOXES];
+    uint child[NODE_BOXES];  // NODE_CLUSTER and a cluster, or a node, or NODE_NONE
+} BoxNode;
 
 // The corners of a part's triangles side by side, so that a packet of them is read in one piece.
 // What lies beyond the scene's last triangle repeats it.
