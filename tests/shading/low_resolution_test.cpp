@@ -115,7 +115,7 @@ TEST(LowResolution, IsWithinItsBoundOfFullResolutionInEveryChannel) {
     }
 }
 
-TEST(LowResolution, IsFullResolutionAtThresholdZero) {
+TEST(LowResolution, OfPicturesIsFullResolutionAtThresholdZero) {
     const Scene scene = coloured_room();
     const Camera camera = test::camera_at({-0.35, 0.2, 0.92}, {0.15, -0.5, -0.5}, 1.1f);
     const test::Frame full = test::render(scene, camera, options_for(1));

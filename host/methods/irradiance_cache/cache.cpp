@@ -130,7 +130,10 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     passes.build({"link", "bounce", "show"});
     if (options.met > 0) passes.build({"pick", "weigh"});
     if (casts_spots()) passes.build({"mark", "tally", "spots", "shine"});
-    cubes.build({"cubes", "raster_views"});
+    const auto side = static_cast<std::uint32_t>(drawn);
+    const bool trace = cubes.prefers_trace_views({0, 5, side, side}, of);
+    cubes.build({"cubes", trace && !casts_spots() ? "trace_views" : "raster_views"});
+    if (trace && casts_spots()) cubes.build({"trace_views"});
     if (scene.has_lobes()) passes.build({"around", "gloss"});
     if (!corrects()) return;
     sky_lights.build(picture.passes());

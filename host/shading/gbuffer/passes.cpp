@@ -112,7 +112,10 @@ GBufferPasses::GBufferPasses(const Programs& programs, const BuildOptions& optio
         kind->raster_large = groups_ ? grouped("raster_large", 32, 64) : few("raster_large");
         kind->raster_views =
             groups_ ? grouped("raster_views", 128, 256) : kernel("raster_views", defines);
-        if (!groups_ && options.local_size == 0) kind->raster_views.local_size = 1;
+        kind->trace_views = kernel("trace_views", defines);
+        if (options.local_size != 0) continue;
+        kind->trace_views.local_size = 1;
+        if (!groups_) kind->raster_views.local_size = 1;
     }
     put_view_ = kernel("put_view");
     cubes_ = kernel("cubes");
@@ -123,8 +126,8 @@ GBufferPasses::GBufferPasses(const Programs& programs, const BuildOptions& optio
 
 void GBufferPasses::build(std::initializer_list<const char*> passes, Pixels kind) const {
     const Drawing& d = drawing(kind);
-    build_named({d.clear, d.raster, d.raster_late, d.raster_large, d.raster_views, put_view_,
-                 cubes_, surface_, resolve_, downsample_},
+    build_named({d.clear, d.raster, d.raster_late, d.raster_large, d.raster_views, d.trace_views,
+                 put_view_, cubes_, surface_, resolve_, downsample_},
                 passes);
 }
 
@@ -137,6 +140,14 @@ bool GBufferPasses::prefers_raster_views(const ViewSpan& span, const DeviceScene
     // Views for all cores; a view and its depth should stay in the cache of one.
     const std::size_t enough = groups_ ? std::max<std::size_t>(16, cores_ / 2) : 2 * cores_;
     return span.count >= enough && span.width <= 512 && span.height <= 512;
+}
+
+bool GBufferPasses::prefers_trace_views(const ViewSpan& span, const DeviceScene& scene) const {
+    // Both took as long at 190 to 270 triangles a pixel of a hemicube, which has three faces'
+    // worth.
+    constexpr std::size_t triangles_a_pixel = 600;
+    return !groups_ && scene.info().triangle_count >=
+                           triangles_a_pixel * std::size_t{span.width} * std::size_t{span.height};
 }
 
 cl::Event GBufferPasses::put_view(const cl::CommandQueue& queue, const View& view,
@@ -226,11 +237,27 @@ cl::Event GBufferPasses::raster_views(const cl::CommandQueue& queue, const ViewS
                                       const cl::Buffer& pixels, Pixels kind,
                                       const WaitList& wait) const {
     const PassKernel& pass = drawing(kind).raster_views;
+    return draw_whole(pass, span.count * items_each(pass, groups_), queue, span, views, scene,
+                      pixels, kind, wait);
+}
+
+cl::Event GBufferPasses::trace_views(const cl::CommandQueue& queue, const ViewSpan& span,
+                                     const cl::Buffer& views, const DeviceScene& scene,
+                                     const cl::Buffer& pixels, Pixels kind,
+                                     const WaitList& wait) const {
+    return draw_whole(drawing(kind).trace_views, span.count, queue, span, views, scene, pixels,
+                      kind, wait);
+}
+
+cl::Event GBufferPasses::draw_whole(const PassKernel& pass, std::size_t items,
+                                    const cl::CommandQueue& queue, const ViewSpan& span,
+                                    const cl::Buffer& views, const DeviceScene& scene,
+                                    const cl::Buffer& pixels, Pixels kind,
+                                    const WaitList& wait) const {
     need_textures(pass, scene, textures_);
     need_views(pass, span, views, pixels, kind);
-    return launch(pass, queue, span.count * items_each(pass, groups_), wait,
-                  raster_params(span, scene, RASTER_FUSED, {}), span.count, views, scene.clusters(),
-                  scene.nodes(), scene.parts(), scene, pixels);
+    return launch(pass, queue, items, wait, raster_params(span, scene, RASTER_FUSED, {}),
+                  span.count, views, scene.clusters(), scene.nodes(), scene.parts(), scene, pixels);
 }
 
 cl::Event GBufferPasses::resolve(const cl::CommandQueue& queue, const View& view,

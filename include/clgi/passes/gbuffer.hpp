@@ -125,12 +125,22 @@ public:
                            const cl::Buffer& views, const DeviceScene& scene,
                            const cl::Buffer& pixels, Pixels kind, const WaitList& wait = {}) const;
 
+    // As raster_views, by a ray through every pixel's centre: what shows is the same but for edges
+    // within a 256th of a pixel of it, and for the last bits of depth. Each view by one work-item.
+    cl::Event trace_views(const cl::CommandQueue& queue, const ViewSpan& span,
+                          const cl::Buffer& views, const DeviceScene& scene,
+                          const cl::Buffer& pixels, Pixels kind, const WaitList& wait = {}) const;
+
     // The stages in which views of this kind are drawn, one after the other: one for depth alone or
     // with 64-bit atomics, else two.
     std::vector<std::uint32_t> stages(Pixels kind) const;
 
     // Whether `draw` takes raster_views: for many small views.
     bool prefers_raster_views(const ViewSpan& span, const DeviceScene& scene) const;
+
+    // Whether trace_views takes less time than raster_views: for views of few pixels of finely
+    // modelled scenes. Never in groups, which a view has too few pixels for.
+    bool prefers_trace_views(const ViewSpan& span, const DeviceScene& scene) const;
 
     // visibility -> planes [GBUFFER_PLANES][stride] float, ids [GBUFFER_ID_PLANES][stride] int.
     cl::Event resolve(const cl::CommandQueue& queue, const View& view, const DeviceScene& scene,
@@ -159,11 +169,14 @@ public:
 
 private:
     struct Drawing {
-        PassKernel clear, raster, raster_late, raster_large, raster_views;
+        PassKernel clear, raster, raster_late, raster_large, raster_views, trace_views;
     };
     const Drawing& drawing(Pixels kind) const {
         return kind == Pixels::depth ? depth_ : visibility_;
     }
+    cl::Event draw_whole(const PassKernel& pass, std::size_t items, const cl::CommandQueue& queue,
+                         const ViewSpan& span, const cl::Buffer& views, const DeviceScene& scene,
+                         const cl::Buffer& pixels, Pixels kind, const WaitList& wait) const;
     Drawing visibility_, depth_;
     PassKernel put_view_, cubes_, surface_, resolve_, downsample_;
     bool fused_;
