@@ -2,8 +2,8 @@
 // normal, so that what sends more light per albedo is met more often.
 //                                          [derived: importance from the eye, as Segovia06 has it]
 //
-// Work size    1D, one work-item a pick; any local size; tail guarded
-// Writes       its own place of the planes; a normal of 0 where the direction leaves the scene
+// Work size    1D, one work-item for every CLGI_WIDTH picks (rounded up); any local size
+// Writes       their own places of the planes; a normal of 0 where the direction leaves the scene
 //              or meets a back that nothing is reflected by
 // SPDX-License-Identifier: MIT
 #include "cache/sees.clh"
@@ -13,20 +13,10 @@
 #include "gbuffer/visibility.clh"
 #include "luminance.clh"
 
-kernel void cache_pick(
-    const CacheParams    params,
-    const SceneInfo      info,
-    global const View*   restrict views,       // five of each record
-    global const ulong*  restrict visibility,  // of all records
-    SCENE_ARGUMENTS,
-    global float*        restrict places)      // [PICK_PLANES][pick_stride]
-{
-    uint item = (uint)get_global_id(0);
-    if (item >= params.count * params.picks) return;
-    SceneBuffers scene = SCENE_BUFFERS;
-    uint record = item / params.picks;
-    uint index = (params.first + record) * params.picks + item % params.picks + params.first_sample + 1;
-    global const View* faces = views + 5 * (params.first + record);
+// The pixel of a hemicube that direction number `index` of its lobe goes through: the ray through its
+// centre, and the triangle there, or -1.
+static int pick_ray(global const View* faces, global const ulong* visibility, uint index,
+                    float3* begin, float3* direction, float3* axis) {
     float radius = sqrt(radical_inverse(index, 2)), angle = 2.0f * CLGI_PI * radical_inverse(index, 3);
     float a = radius * cos(angle), b = radius * sin(angle);
     float c = sqrt(fmax(1.0f - radius * radius, 1e-6f));
@@ -43,36 +33,74 @@ kernel void cache_pick(
     int down = (int)((view.window.y + view.up.w - y) / (2.0f * view.up.w) * (float)view.height);
     across = clamp(across, 0, (int)view.width - 1);
     down = clamp(down, 0, (int)view.height - 1);
-    // The ray of the pixel's centre, whose triangle is known.
     x = ((float)across + 0.5f) * (2.0f * view.right.w / (float)view.width) - view.right.w + view.window.x;
     y = view.up.w - ((float)down + 0.5f) * (2.0f * view.up.w / (float)view.height) + view.window.y;
-    int triangle = visibility_triangle(
+    *begin = view.eye.xyz;
+    *axis = view.forward.xyz;
+    *direction = view.forward.xyz + x * view.right.xyz + y * view.up.xyz;
+    return visibility_triangle(
         visibility[view.first_pixel + (uint)down * view.width + (uint)across]);
-    Surface surface = view_surface(&view, packet_splat(x), packet_splat(y), (intp)(triangle),
-                                   &scene, info.flags);
-    int front[CLGI_WIDTH];
-    packet_store(surface.front, front);
-    int sends = triangle >= 0 &&
-                (front[0] || (triangles[triangle].w & (uint)TRIANGLE_DOUBLE_SIDED));
-    floatp values[RECORD_PLANES] = {surface.x,           surface.y,           surface.z,
-                                    surface.normal_x,    surface.normal_y,    surface.normal_z,
-                                    surface.geometric_x, surface.geometric_y, surface.geometric_z};
-    for (uint plane = 0; plane < RECORD_PLANES; ++plane) {
-        float lanes[CLGI_WIDTH];
-        packet_store(values[plane], lanes);
-        places[plane * params.pick_stride + item] = sends ? lanes[0] : 0.0f;
+}
+
+kernel void cache_pick(
+    const CacheParams    params,
+    const SceneInfo      info,
+    global const View*   restrict views,       // five of each record
+    global const ulong*  restrict visibility,  // of all records
+    SCENE_ARGUMENTS,
+    global float*        restrict places)      // [PICK_PLANES][pick_stride]
+{
+    uint item = (uint)get_global_id(0) * CLGI_WIDTH, count = params.count * params.picks;
+    if (item >= count) return;
+    SceneBuffers scene = SCENE_BUFFERS;
+    float ray[9][CLGI_WIDTH];
+    int shown[CLGI_WIDTH];
+    for (uint k = 0; k < CLGI_WIDTH; ++k) {
+        uint pick = min(item + k, count - 1), record = params.first + pick / params.picks;
+        uint index = record * params.picks + pick % params.picks + params.first_sample + 1;
+        float3 begin, direction, axis;
+        shown[k] = pick_ray(views + 5 * record, visibility, index, &begin, &direction, &axis);
+        float parts[9] = {begin.x, begin.y, begin.z, direction.x, direction.y, direction.z,
+                          axis.x,  axis.y,  axis.z};
+        for (int n = 0; n < 9; ++n) ray[n][k] = parts[n];
     }
-    float red[CLGI_WIDTH], green[CLGI_WIDTH], blue[CLGI_WIDTH];
-    packet_store(surface.base_r, red);
-    packet_store(surface.base_g, green);
-    packet_store(surface.base_b, blue);
-    float3 albedo = (float3)(0.0f);
-    if (sends)
-        albedo = cache_albedo(materials[triangles[triangle].w & TRIANGLE_MATERIAL].reflectance,
-                              (float3)(red[0], green[0], blue[0]));
-    places[PICK_REFLECTANCE * params.pick_stride + item] =
-        luminance(albedo.x, albedo.y, albedo.z);
-    places[PICK_ALBEDO * params.pick_stride + item] = albedo.x;
-    places[(PICK_ALBEDO + 1) * params.pick_stride + item] = albedo.y;
-    places[(PICK_ALBEDO + 2) * params.pick_stride + item] = albedo.z;
+    ViewRays rays = {packet_load(ray[0]), packet_load(ray[1]), packet_load(ray[2]),
+                     packet_load(ray[3]), packet_load(ray[4]), packet_load(ray[5]),
+                     packet_load(ray[6]), packet_load(ray[7]), packet_load(ray[8])};
+    View view = views[5 * params.first];  // all have pixels of one size
+    Surface surface = ray_surface(&view, &rays, packet_load(shown), &scene, info.flags);
+    int front[CLGI_WIDTH], sends[CLGI_WIDTH];
+    float base[3][CLGI_WIDTH], albedo[3][CLGI_WIDTH];
+    packet_store(surface.front, front);
+    packet_store(surface.base_r, base[0]);
+    packet_store(surface.base_g, base[1]);
+    packet_store(surface.base_b, base[2]);
+    for (int k = 0; k < CLGI_WIDTH; ++k) {
+        uint word = triangles[max(shown[k], 0)].w;
+        sends[k] = -(shown[k] >= 0 && (front[k] || (word & (uint)TRIANGLE_DOUBLE_SIDED)));
+        float3 of = cache_albedo(materials[word & TRIANGLE_MATERIAL].reflectance,
+                                 (float3)(base[0][k], base[1][k], base[2][k]));
+        albedo[0][k] = of.x;
+        albedo[1][k] = of.y;
+        albedo[2][k] = of.z;
+    }
+    intp sending = packet_load(sends) != 0;
+    floatp red = packet_load(albedo[0]), green = packet_load(albedo[1]), blue = packet_load(albedo[2]);
+    floatp values[PICK_PLANES];
+    values[0] = surface.x;
+    values[1] = surface.y;
+    values[2] = surface.z;
+    values[3] = surface.normal_x;
+    values[4] = surface.normal_y;
+    values[5] = surface.normal_z;
+    values[6] = surface.geometric_x;
+    values[7] = surface.geometric_y;
+    values[8] = surface.geometric_z;
+    values[PICK_REFLECTANCE] = luminance(red, green, blue);
+    values[PICK_ALBEDO] = red;
+    values[PICK_ALBEDO + 1] = green;
+    values[PICK_ALBEDO + 2] = blue;
+    for (uint plane = 0; plane < PICK_PLANES; ++plane)
+        packet_store(packet_select(packet_zero, values[plane], sending),
+                     places + plane * params.pick_stride + item);
 }

@@ -105,5 +105,73 @@ TEST(CachePasses, PickWhereRaysMeetWalls) {
     for (int wall = 1; wall < 6; ++wall) EXPECT_GT(walls[wall], 4) << wall;
 }
 
+// Where textures are fine beside pixels, picks of several records, which share packets, have the
+// base colour that `resolve` finds in the same pixel.
+TEST(CachePasses, PickColoursOfPixels) {
+    Scene box = test::plain_scene();
+    test::add_box(box, {-1.0, -0.6, -0.8}, {0.9, 1.1, 1.3}, -1);
+    box.materials[0].specular = 0.0f;
+    box.materials[0].base_color = glm::vec4(0.9f, 0.8f, 0.7f, 1.0f);
+    Texture noise;
+    noise.width = noise.height = 256;
+    test::Random random(3);
+    for (int k = 0; k < 4 * 256 * 256; ++k)
+        noise.rgba.push_back(k % 4 == 3 ? 255 : static_cast<std::uint8_t>(random.integer(0, 255)));
+    box.textures.push_back(noise);
+    box.materials[0].base_texture.texture = 0;
+    for (const glm::dvec3& at : box.positions)
+        box.uvs.emplace_back(0.4 * at.x + 0.13 * at.y, 0.5 * at.z - 0.21 * at.y, 0.0, 0.0);
+    const DeviceScene scene = test::on_device(box);
+    const cl::CommandQueue& queue = test::device().queue;
+    constexpr std::uint32_t size = 8, picks = 7, records = 3, stride = 32;
+    const CacheBuffers b =
+        test::record_cubes(scene,
+                           {{{0.2, 0.1, -0.1}, glm::normalize(glm::dvec3(0.5, 0.8, -0.7))},
+                            {{-0.7, 0.5, 0.6}, glm::normalize(glm::dvec3(1.0, -0.3, 0.2))},
+                            {{0.4, -0.3, 0.9}, glm::normalize(glm::dvec3(-0.2, 0.1, -1.0))}},
+                           size);
+    const auto views = test::download<View>(b.views, 5 * records);
+    const GBufferPasses gbuffer(test::programs(), {});
+    std::vector<std::vector<float>> faces;
+    for (const View& view : views) {
+        const std::uint32_t pixels = size * size;
+        const cl::Buffer planes = test::empty<float>(GBUFFER_PLANES * pixels),
+                         ids = test::empty<cl_int>(GBUFFER_ID_PLANES * pixels);
+        gbuffer.resolve(queue, view, scene, {pixels, RESOLVE_ALL, 0, 0}, b.visibility, planes, ids);
+        faces.push_back(test::download<float>(planes, GBUFFER_PLANES * pixels));
+    }
+    CacheParams params{};
+    params.count = records;
+    params.stride = test::record_stride;
+    params.size = size;
+    params.picks = picks;
+    params.pick_stride = stride;
+    const cl::Buffer places = test::empty<float>(PICK_PLANES * stride);
+    const CachePasses passes(test::programs(), test::usual_build());
+    passes.pick(queue, params, scene, b, places);
+    const auto found = test::download<float>(places, PICK_PLANES * stride);
+    int sides = 0;
+    for (std::uint32_t i = 0; i < picks * records; ++i) {
+        double nearest = 1e9;
+        glm::vec3 base(0.0f);
+        std::uint32_t face = 0;
+        for (std::uint32_t f = 5 * (i / picks); f < 5 * (i / picks) + 5; ++f)
+            for (std::uint32_t p = 0; p < views[f].width * views[f].height; ++p) {
+                const auto at = [&](std::uint32_t plane) { return faces[f][plane * 64 + p]; };
+                const double away = std::hypot(at(0) - found[i], at(1) - found[stride + i],
+                                               at(2) - found[2 * stride + i]);
+                if (away >= nearest) continue;
+                nearest = away;
+                face = f % 5;
+                base = {at(GBUFFER_BASE), at(GBUFFER_BASE + 1), at(GBUFFER_BASE + 2)};
+            }
+        EXPECT_LT(nearest, 1e-5) << i;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[(PICK_ALBEDO + c) * stride + i], base[c], 1e-4f) << i << ", " << face;
+        sides += face > 0;
+    }
+    EXPECT_GT(sides, 5);
+}
+
 }  // namespace
 }  // namespace clgi

@@ -141,7 +141,7 @@ cl::Event CachePasses::pick(const cl::CommandQueue& queue, const CacheParams& pa
     const std::size_t picks = std::size_t{params.count} * params.picks;
     need_stride(pick_, "pick_stride", params.pick_stride, picks);
     need(pick_, "places", places, PICK_PLANES * word * params.pick_stride);
-    return launch(pick_, queue, picks, wait, params, scene.info(), b.views, b.visibility, scene,
+    return launch(pick_, queue, packets(pick_, picks), wait, params, scene.info(), b.views, b.visibility, scene,
                   places);
 }
 
