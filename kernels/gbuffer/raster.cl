@@ -32,7 +32,8 @@ kernel void gbuffer_raster(
     uint slot = (uint)get_global_id(1);
     View view = views[params.first_view + slot];
     if (params.cull && cluster_unseen(&view, clusters, first / CLUSTER_TRIANGLES)) return;
-    Batch batch;
+    uint small[BATCH_ROOM(BATCH_RUNS)], rest[BATCH_ROOM(BATCH_RUNS)];
+    Batch batch = {small, rest, 0, 0};
     batch_sort_nth(&view, &params, item, triangles, positions, parts, &batch);
     for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
         small_draw(&view, params.stage, batch.small + n, min(batch.small_count - n, CLGI_WIDTH),

@@ -22,7 +22,8 @@ kernel void gbuffer_raster_late(
     if (item >= counts[slot].late) return;
     View view = views[params.first_view + slot];
     SceneBuffers scene = SCENE_BUFFERS;
-    Batch batch;
+    uint small[BATCH_ROOM(BATCH_RUNS)], rest[BATCH_ROOM(BATCH_RUNS)];
+    Batch batch = {small, rest, 0, 0};
     batch_sort_nth(&view, &params, late[slot * params.late_capacity + item], triangles, positions,
                    parts, &batch);
     for (int n = 0; n < batch.rest_count; n += CLGI_WIDTH) {

@@ -14,7 +14,7 @@
 #define PIXELS_A_RUN (64 / PART_RUNS)
 #define LEAST_RUNS_A_LOOK (32 * PART_RUNS)
 #define MOST_RUNS_A_LOOK (224 * PART_RUNS)
-#define MOST_BATCH_RUNS (MOST_RUNS_A_LOOK + CLUSTER_RUNS)
+#define VIEW_RUNS (MOST_RUNS_A_LOOK + CLUSTER_RUNS)
 
 #include "gbuffer/batch.clh"
 #include "gbuffer/near_first.clh"
@@ -25,7 +25,8 @@
 static void draw_runs(const View* view, const RasterParams* params, uint* runs, int count,
                       const Occlusion* occlusion, global const PartCorners* parts,
                       const SceneBuffers* scene, global PixelWord* visibility) {
-    Batch batch;
+    uint small[BATCH_ROOM(VIEW_RUNS)], rest[BATCH_ROOM(VIEW_RUNS)];
+    Batch batch = {small, rest, 0, 0};
     batch_sort(view, params, runs, count, scene->triangles, scene->positions, parts, &batch);
     for (int n = 0; n < batch.small_count; n += CLGI_WIDTH)
         small_draw(view, RASTER_FUSED, batch.small + n, min(batch.small_count - n, CLGI_WIDTH),
@@ -55,7 +56,7 @@ kernel void gbuffer_raster_views(RASTER_VIEWS_ARGUMENTS) {
 
     Occlusion occlusion;
     occlusion_begin(&view, &occlusion);
-    uint runs[MOST_BATCH_RUNS + PACKET_RUNS];
+    uint runs[VIEW_RUNS + PACKET_RUNS];
     int count = 0;
     int enough = clamp((int)(pixels / PIXELS_A_RUN), LEAST_RUNS_A_LOOK, MOST_RUNS_A_LOOK);
     uint cluster_count = (params.triangle_count + CLUSTER_TRIANGLES - 1) / CLUSTER_TRIANGLES;

@@ -83,7 +83,7 @@ kernel void gbuffer_raster_views_group(RASTER_VIEWS_ARGUMENTS) {
                     for (int k = 0; k < CLGI_WIDTH; ++k) index[k] = triangle;
                     intp wanted, small;
                     // A lane of this kernel is a triangle, whatever the packets of others.
-                    TriangleCorners corners = params.cull && CLGI_WIDTH == 1
+                    TriangleCorners corners = CLGI_WIDTH == 1 && params.cull
                                                   ? triangles_load(index, parts)
                                                   : triangles_gather(index, triangles, positions);
                     batch_classes(&view, &params, &corners, &wanted, &small);
