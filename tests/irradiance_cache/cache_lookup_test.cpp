@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "methods/irradiance_cache/tree.hpp"
+#include "planted.hpp"
 #include "shares_by_hand.hpp"
 #include "two_records.hpp"
 
@@ -45,7 +45,7 @@ CLGI_IN_BOTH_MATHS(CacheLookup);
 TEST_P(CacheLookup, IsThatOfEachPointsOwnList) {
     std::mt19937 random(71);
     const std::vector<CacheRecord> records = crowded_records(random);
-    const RecordTree planted = make_tree(records);
+    const test::Planted planted(records);
     std::normal_distribution<float> about(0.0f, 1.0f);
     std::vector<float> held(RECORD_PLANES * stride, 0.0f), light(3 * stride, 0.0f),
         planes(GBUFFER_PLANES * stride, 0.0f);
@@ -66,14 +66,9 @@ TEST_P(CacheLookup, IsThatOfEachPointsOwnList) {
         put(planes, GBUFFER_NORMAL, k, place.normal);
         places.push_back(place);
     }
-    CacheTree tree{};
-    tree.centre = {planted.centre.x, planted.centre.y, planted.centre.z, planted.half_side};
-    tree.node_count = static_cast<std::uint32_t>(planted.nodes.size());
-    tree.record_count = count;
+    CacheTree tree = planted.on_device;
     tree.stride = stride;
-    CacheBuffers b;
-    b.nodes = test::upload(planted.nodes);
-    b.lists = test::upload(planted.lists);
+    CacheBuffers b = planted.b;
     b.planes = test::upload(held);
     b.light = test::upload(light);
     const cl::Buffer irradiance = test::empty<float>(3 * stride),
@@ -86,7 +81,7 @@ TEST_P(CacheLookup, IsThatOfEachPointsOwnList) {
     const auto doubts = test::download<float>(doubt, stride);
     std::size_t shortest = CACHE_LISTED, longest = 0;
     for (std::uint32_t k = 0; k < points; ++k) {
-        const std::uint32_t* list = listed(planted, places[k]);
+        const std::uint32_t* list = planted.listed(places[k]);
         std::vector<glm::dvec3> at, normals;
         std::vector<std::uint32_t> who;
         for (int i = 0; i < CACHE_LISTED && list[i] != CACHE_NONE; ++i) {

@@ -9,6 +9,7 @@
 #include "math_modes.hpp"
 #include "methods/irradiance_cache/records.hpp"
 #include "patchwork.hpp"
+#include "planted.hpp"
 #include "scenes.hpp"
 
 namespace clgi {
@@ -21,8 +22,9 @@ std::uint32_t way_of(const glm::vec3& n) {
     return static_cast<std::uint32_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
 }
 
-std::vector<std::uint32_t> listed_at(const RecordTree& tree, const glm::vec3& p,
+std::vector<std::uint32_t> listed_at(const test::Planted& planted, const glm::vec3& p,
                                      const glm::vec3& n) {
+    const RecordTree& tree = planted.tree;
     glm::vec3 centre = tree.centre;
     float half = tree.half_side;
     std::uint32_t node = tree.nodes[0];
@@ -38,8 +40,8 @@ std::vector<std::uint32_t> listed_at(const RecordTree& tree, const glm::vec3& p,
     }
     const std::size_t first =
         (std::size_t{node & ~CACHE_LEAF} * CACHE_WAYS + way_of(n)) * CACHE_LISTED;
-    return {tree.lists.begin() + static_cast<std::ptrdiff_t>(first),
-            tree.lists.begin() + static_cast<std::ptrdiff_t>(first) + CACHE_LISTED};
+    return {planted.lists.begin() + static_cast<std::ptrdiff_t>(first),
+            planted.lists.begin() + static_cast<std::ptrdiff_t>(first) + CACHE_LISTED};
 }
 
 // Records on the inside of a box with very different sides, dense in one corner.
@@ -61,9 +63,9 @@ std::vector<CacheRecord> in_a_box(int count) {
 
 TEST(CacheTree, ListsARecordWhereItStands) {
     const std::vector<CacheRecord> records = in_a_box(1000);
-    const RecordTree tree = make_tree(records);
+    const test::Planted planted(records);
     for (std::uint32_t i = 0; i < records.size(); ++i) {
-        const auto near = listed_at(tree, records[i].position, records[i].normal);
+        const auto near = listed_at(planted, records[i].position, records[i].normal);
         EXPECT_TRUE(std::find(near.begin(), near.end(), i) != near.end()) << i;
     }
 }
@@ -71,7 +73,7 @@ TEST(CacheTree, ListsARecordWhereItStands) {
 // The nearest of those that face the same way, from any place on a wall.
 TEST(CacheTree, ListsTheNearestRecord) {
     const std::vector<CacheRecord> records = in_a_box(1000);
-    const RecordTree tree = make_tree(records);
+    const test::Planted planted(records);
     int found = 0;
     const std::vector<CacheRecord> places = in_a_box(1500);
     for (std::size_t k = 1000; k < places.size(); ++k) {
@@ -85,7 +87,7 @@ TEST(CacheTree, ListsTheNearestRecord) {
                 nearest = i;
             }
         }
-        const auto near = listed_at(tree, places[k].position, places[k].normal);
+        const auto near = listed_at(planted, places[k].position, places[k].normal);
         found += std::find(near.begin(), near.end(), nearest) != near.end();
     }
     EXPECT_GE(found, 490);  // of 500; the list is that of the leaf's centre
@@ -99,11 +101,12 @@ TEST(CacheTree, LeavesOutNoneThatIsNearer) {
     for (CacheRecord& record : records)  // few are parallel to an axis
         record.normal =
             glm::normalize(record.normal + glm::vec3(test::random_vec3(random, -0.6, 0.6)));
-    const RecordTree tree = make_tree(records);
+    const test::Planted planted(records);
     for (int k = 0; k < 3000; ++k) {
         const CacheRecord& about = records[static_cast<std::size_t>(random.integer(0, 699))];
         const glm::vec3 p = about.position + glm::vec3(test::random_vec3(random, -1, 1));
         const glm::vec3 n(test::random_vec3(random, -1, 1));
+        const RecordTree& tree = planted.tree;
         glm::vec3 centre = tree.centre;
         double half = tree.half_side;
         for (std::uint32_t node = tree.nodes[0]; !(node & CACHE_LEAF);) {
@@ -128,7 +131,7 @@ TEST(CacheTree, LeavesOutNoneThatIsNearer) {
             if ((way % 2 == 0 ? along : -along) > 0.1f) all.push_back(distance(i));
         }
         std::sort(all.begin(), all.end());
-        for (const std::uint32_t i : listed_at(tree, p, n))
+        for (const std::uint32_t i : listed_at(planted, p, n))
             if (i != CACHE_NONE) found.push_back(distance(i));
         ASSERT_EQ(found.size(), std::min<std::size_t>(all.size(), CACHE_LISTED));
         for (std::size_t i = 0; i < found.size(); ++i)
@@ -139,25 +142,48 @@ TEST(CacheTree, LeavesOutNoneThatIsNearer) {
 // The library's walk and the one above, at corners of leaves and for normals of any length and way.
 TEST(CacheTree, IsWalkedAsKernelsDo) {
     const std::vector<CacheRecord> records = in_a_box(400);
-    const RecordTree tree = make_tree(records);
+    const test::Planted planted(records);
     test::Random random(8);
     for (int i = 0; i < 2000; ++i) {
         CacheRecord place = records[static_cast<std::size_t>(random.integer(0, 399))];
-        if (i % 3 == 0) place.position = tree.centre;
+        if (i % 3 == 0) place.position = planted.tree.centre;
         if (i % 3 == 1) place.position = test::random_vec3(random, -1.0, 41.0);
         place.normal = test::random_vec3(random, -2.0, 2.0);
         if (i % 4 == 0) place.normal = {1.0f, -1.0f, i % 8 == 0 ? 1.0f : -1.0f};
-        const auto wanted = listed_at(tree, place.position, place.normal);
-        EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), listed(tree, place))) << i;
+        const auto wanted = listed_at(planted, place.position, place.normal);
+        EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), planted.listed(place))) << i;
     }
 }
 
 TEST(CacheTree, TakesRecordsInOnePlace) {
     const std::vector<CacheRecord> records(40, {{1, 2, 3}, {0, 1, 0}, {0, 1, 0}});
-    const RecordTree tree = make_tree(records);
-    const auto near = listed_at(tree, {1, 2, 3}, {0, 1, 0});
+    const test::Planted planted(records);
+    const auto near = listed_at(planted, {1, 2, 3}, {0, 1, 0});
     EXPECT_NE(near[CACHE_LISTED - 1], CACHE_NONE);
-    EXPECT_EQ(listed_at(tree, {1, 2, 3}, {0, -1, 0})[0], CACHE_NONE);
+    EXPECT_EQ(listed_at(planted, {1, 2, 3}, {0, -1, 0})[0], CACHE_NONE);
+}
+
+// For packets of every width; of equals, of which there are many here, the first ones.
+TEST(CacheTree, HasTheSameListsForEveryWidth) {
+    std::vector<CacheRecord> records;
+    for (int i = 0; i < 300; ++i) {
+        const glm::vec3 n(0, i % 3 == 0 ? -1 : 1, 0);
+        records.push_back({glm::vec3(i % 10, i % 2, i / 30), n, n});
+    }
+    const test::Planted wanted(records);
+    for (const int width : {1, 4, 8, 16}) {
+        const test::Planted planted(records, {.packet_width = width, .local_size = 3});
+        EXPECT_EQ(planted.lists, wanted.lists) << width;
+    }
+    for (const auto& [p, up] :
+         {std::pair(glm::vec3(4, 0, 5), 1), std::pair(glm::vec3(0, 1, 9), -1)}) {
+        const auto list = listed_at(wanted, p, {0, up, 0});
+        const auto place = [&](std::uint32_t i) { return records[i].position; };
+        for (std::size_t k = 1; k < list.size(); ++k)
+            if (place(list[k]) == place(list[k - 1])) {
+                EXPECT_LT(list[k - 1], list[k]) << k;
+            }
+    }
 }
 
 // Two walls in a block of pixels have a record each, a row of pixels past the edge counts too.

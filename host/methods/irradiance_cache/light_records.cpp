@@ -23,10 +23,21 @@ void IrradianceCache::State::plant(CacheTree& of, cl::Buffer& nodes, cl::Buffer&
     of.record_count = static_cast<std::uint32_t>(records.size());
     of.stride = stride;
     Recorder& record = picture.record();
-    grow(nodes, planted.nodes.size() * sizeof(std::uint32_t));
-    grow(lists, planted.lists.size() * sizeof(std::uint32_t));
-    record.write(nodes, planted.nodes.data(), planted.nodes.size() * sizeof(std::uint32_t));
-    record.write(lists, planted.lists.data(), planted.lists.size() * sizeof(std::uint32_t));
+    const auto put = [&](cl::Buffer& buffer, const auto& values) {
+        const std::size_t size = values.size() * sizeof(values[0]);
+        grow(buffer, size);
+        record.write(buffer, values.data(), size);
+    };
+    put(nodes, planted.nodes);
+    put(crowds.leaves, planted.leaves);
+    put(crowds.records, planted.records);
+    put(crowds.order, planted.order);
+    put(crowds.boxes, planted.boxes);
+    const std::size_t count = planted.leaves.size() * CACHE_WAYS;
+    grow(lists, count * CACHE_LISTED * sizeof(std::uint32_t));
+    record("cache.list", count, [&](const WaitList& wait) {
+        return passes.list(record.queue(), planted.params, crowds, lists, wait);
+    });
 }
 
 void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
@@ -55,7 +66,7 @@ void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
 void IrradianceCache::State::grow(cl::Buffer& buffer, std::size_t size) {
     const std::size_t held = buffer() ? buffer.getInfo<CL_MEM_SIZE>() : 0;
     if (held < size)
-        buffer = cl::Buffer(picture.record().queue().getInfo<CL_QUEUE_CONTEXT>(), CL_MEM_READ_ONLY,
+        buffer = cl::Buffer(picture.record().queue().getInfo<CL_QUEUE_CONTEXT>(), CL_MEM_READ_WRITE,
                             size + size / 4);
 }
 

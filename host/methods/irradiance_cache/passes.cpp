@@ -102,7 +102,7 @@ std::size_t need_pixels(const PassKernel& pass, const CacheCorrectParams& params
 
 CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) {
     const BuildOptions whole = full(options);
-    const std::vector<std::string> records = {"pick", "link", "bounce", "weigh"},
+    const std::vector<std::string> records = {"pick", "list", "link", "bounce", "weigh"},
                                    spots = {"mark", "tally", "spots", "shine"},
                                    sky = {"sight", "gauge", "correct"}, gloss = {"around", "gloss"};
     const auto few = [&](const char* pass, const std::vector<std::string>& together) {
@@ -110,6 +110,7 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
                                programs.device(), options);
     };
     pick_ = few("pick", records);
+    list_ = few("list", records);
     groups_ = in_groups(programs.device(), options);
     // A lane a pixel.
     link_ = groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32, 64)
@@ -129,7 +130,7 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
-    build_named({pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
+    build_named({pick_, list_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
                  gauge_, correct_, around_, gloss_},
                 passes);
 }
@@ -141,8 +142,25 @@ cl::Event CachePasses::pick(const cl::CommandQueue& queue, const CacheParams& pa
     const std::size_t picks = std::size_t{params.count} * params.picks;
     need_stride(pick_, "pick_stride", params.pick_stride, picks);
     need(pick_, "places", places, PICK_PLANES * word * params.pick_stride);
-    return launch(pick_, queue, packets(pick_, picks), wait, params, scene.info(), b.views, b.visibility, scene,
-                  places);
+    return launch(pick_, queue, packets(pick_, picks), wait, params, scene.info(), b.views,
+                  b.visibility, scene, places);
+}
+
+cl::Event CachePasses::list(const cl::CommandQueue& queue, const CacheListParams& params,
+                            const Crowds& crowds, const cl::Buffer& lists,
+                            const WaitList& wait) const {
+    need_range(list_.name.c_str(), "record_count", params.record_count, 1u, 1u << 30);
+    need_stride(list_, "stride", params.stride, params.record_count);
+    need_stride(list_, "crowd_stride", params.crowd_stride,
+                (params.record_count + CACHE_CROWD - 1) / CACHE_CROWD);
+    need_countable(list_.name, "lists", CACHE_WAYS * CACHE_LISTED, params.leaf_count);
+    need(list_, "leaves", crowds.leaves, params.leaf_count * sizeof(CacheLeaf));
+    need(list_, "records", crowds.records, 6 * word * params.stride);
+    need(list_, "order", crowds.order, word * params.stride);
+    need(list_, "boxes", crowds.boxes, 6 * word * params.crowd_stride);
+    need(list_, "lists", lists, std::size_t{params.leaf_count} * CACHE_WAYS * CACHE_LISTED * word);
+    return launch(list_, queue, std::size_t{params.leaf_count} * CACHE_WAYS, wait, params,
+                  crowds.leaves, crowds.records, crowds.order, crowds.boxes, lists);
 }
 
 cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& params,

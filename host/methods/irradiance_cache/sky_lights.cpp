@@ -88,18 +88,23 @@ std::shared_ptr<const SkyWeights> IrradianceCache::State::weigh_sky() {
     return out;
 }
 
-LocalBox IrradianceCache::State::lit_by_sky() const {
+LocalBox IrradianceCache::State::lit_by_sky() {
     LocalBox out{glm::vec3(std::numeric_limits<float>::max()),
                  glm::vec3(-std::numeric_limits<float>::max())};
     const auto add = [&](const glm::vec3& place) {
         out.low = glm::min(out.low, place);
         out.high = glm::max(out.high, place);
     };
+    std::vector<std::uint32_t> lists(planted.leaves.size() * CACHE_WAYS * CACHE_LISTED);
+    const WaitList pending = picture.record().waits();
+    picture.record().queue().enqueueReadBuffer(shown_buffers().lists, CL_TRUE, 0,
+                                               lists.size() * sizeof(std::uint32_t), lists.data(),
+                                               &pending);
     std::vector<bool> stands_in(records.size());
     for (const CacheRecord& pixel : shown) {
         if (!(glm::dot(pixel.normal, pixel.normal) > 0.0f)) continue;
         add(pixel.position);
-        const std::uint32_t* list = listed(planted, pixel);
+        const std::uint32_t* list = &lists[list_of(planted, pixel)];
         for (int k = 0; k < CACHE_LISTED && list[k] != CACHE_NONE; ++k)
             if (glm::dot(records[list[k]].normal, pixel.normal) > facing) stands_in[list[k]] = true;
     }

@@ -93,7 +93,7 @@ struct IrradianceCache::State {
     bool corrects() const { return sky_lights.casts_shadows(); }
     void forget_corrections();
     std::shared_ptr<const SkyWeights> weigh_sky();
-    LocalBox lit_by_sky() const;  // around what is shown and the records that stand in for it
+    LocalBox lit_by_sky();  // around what is shown and the records that stand in for it
     void light_by_sky(const Part& part, const cl::Buffer& planes, std::size_t points,
                       std::uint32_t of_stride, const cl::Buffer& irradiance, std::uint32_t add);
     // Rows of the buffers for VPLs in small lit places; finds these places, as the records see
@@ -137,6 +137,7 @@ struct IrradianceCache::State {
     std::uint32_t sample = 0;
     CacheCorrectParams gauged{};      // the last of them
     cl::Buffer all_nodes, all_lists;  // of all_tree
+    CachePasses::Crowds crowds;       // of planted
     cl::Buffer chosen, places, worth, nearest, doubt;
     std::vector<CacheRecord> records;
     std::vector<CacheRecord> shown;  // what each pixel shows

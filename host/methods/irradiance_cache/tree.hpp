@@ -1,4 +1,4 @@
-// The tree that names the records near each place (clgi/shared/cache.h).
+// The tree that finds the list of a place (clgi/shared/cache.h).
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -15,16 +15,20 @@ struct CacheRecord {
     glm::vec3 position, normal, geometric;
 };
 
+// Leaves hold few records. What they list is up to CachePasses::list, which reads the rest.
 struct RecordTree {
     glm::vec3 centre = glm::vec3(0.0f);
     float half_side = 1.0f;
-    std::vector<std::uint32_t> nodes, lists;
+    std::vector<std::uint32_t> nodes;
+    std::vector<CacheLeaf> leaves;
+    CacheListParams params{};
+    std::vector<std::uint32_t> order;   // [params.stride] of records
+    std::vector<float> records, boxes;  // [6][params.stride], [6][params.crowd_stride]
 };
 
-// Leaves hold few records, and list those nearest to their centres, of each way to face.
 RecordTree make_tree(const std::vector<CacheRecord>& records);
 
-// The list that the tree has for a place, CACHE_NONE after its last record.
-const std::uint32_t* listed(const RecordTree& tree, const CacheRecord& place);
+// Where among all lists that of a place begins.
+std::size_t list_of(const RecordTree& tree, const CacheRecord& place);
 
 }  // namespace clgi

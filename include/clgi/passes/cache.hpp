@@ -56,6 +56,16 @@ public:
                    const DeviceScene& scene, const CacheBuffers& buffers, const cl::Buffer& places,
                    const WaitList& wait = {}) const;
 
+    // The records nearest to each leaf -> lists [leaf_count][CACHE_WAYS][CACHE_LISTED] uint.
+    struct Crowds {
+        cl::Buffer leaves;   // [leaf_count] CacheLeaf
+        cl::Buffer records;  // [6][stride] float, positions and normals; normals of 0 past the last
+        cl::Buffer order;    // [stride] uint, which records these are
+        cl::Buffer boxes;    // [6][crowd_stride] float, low and high corners around every 16
+    };
+    cl::Event list(const cl::CommandQueue& queue, const CacheListParams& params,
+                   const Crowds& crowds, const cl::Buffer& lists, const WaitList& wait = {}) const;
+
     // Rows of the transport of params.count records, their base light, and direct light once
     // reflected: emitters have depth maps.
     cl::Event link(const cl::CommandQueue& queue, const CacheParams& params, const CacheTree& tree,
@@ -153,8 +163,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel pick_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_, gauge_,
-        correct_, around_, gloss_;
+    PassKernel pick_, list_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
+        gauge_, correct_, around_, gloss_;
     bool groups_;  // a record by a group of work-items
 };
 

@@ -30,6 +30,25 @@ typedef struct {
     uint pad_;
 } CacheTree;
 
+// What lists are made from: records in the order of the leaves that they lie in, in crowds with a box
+// around each.
+enum { CACHE_CROWD = 16 };
+
+typedef struct {
+    float4 cube;  // middle, local frame; w: half its side
+    uint before;  // records that lie in the leaves before it
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+} CacheLeaf;
+
+typedef struct {
+    uint leaf_count;
+    uint record_count;
+    uint stride;        // of the planes of records, a multiple of CACHE_CROWD
+    uint crowd_stride;  // of the planes of boxes, a multiple of 16
+} CacheListParams;
+
 // Emissive surfaces that hemicubes light by: those beyond the focus, which have no points with
 // shadow maps (EmitterOptions::focused), or all.
 enum { CACHE_EMISSION_BEYOND = 0, CACHE_EMISSION_ALL = 1 };
