@@ -178,7 +178,8 @@ PlanCost dynamic_transfer(const Plan& plan) {
 PlanCost irradiance_cache(const Plan& plan) {
     const IrradianceCacheOptions& options = plan.cache;
     // A block of pixels has more than one record where what it shows is finely modelled.
-    const double planes = is_fine(plan) ? 3.0 : 1.5;
+    const bool fine = is_fine(plan);
+    const double planes = fine ? 3.3 : 1.5;
     const double shown = planes * options.seen + options.refined, records = shown + options.met,
                  pixels = 3.0 * options.face * options.face;
     // The sky is looked at in all pixels that are drawn.
@@ -196,13 +197,17 @@ PlanCost irradiance_cache(const Plan& plan) {
     // too, and VPLs on them have hemicubes of their own.
     const LightAnalysis& lights = plan.analysis.lights;
     const bool lit = lights.points + lights.spots + lights.directional > 0;
-    const bool small = is_fine(plan) && lit && options.spots > 0;
+    const bool small = fine && lit && options.spots > 0;
     const double again = small ? 8.0 * options.spots : 0.0,
                  places = small ? 1e-3 * triangles(plan) : 0.0;
-    const double drawing = 0.05 + 1e-3 * std::sqrt(triangles(plan));
+    // By rays where pixels are few, else by triangles (GBufferPasses::prefers_trace_views).
+    const bool traced = triangles(plan) >= 200.0 * pixels;
+    const double drawing = traced ? 4e-4 * pixels : 0.05 + 1e-3 * std::sqrt(triangles(plan));
     Amount frame = picture(plan, false);
-    frame += {records * (drawing + above + weighed * look) + again * drawing + places +
-                  2e-6 * records * records,
+    // Of each record, pair and pixel, where surfaces are fine: lists, looks and reflections.
+    const double own = fine ? 0.07 : 0.0, pair = fine ? 1.2e-5 : 2e-6, shows = fine ? 2.6e-4 : 0.0;
+    frame += {records * (drawing + above + weighed * look + own) + again * drawing + places +
+                  pair * records * records + shows * plan.request.width * plan.request.height,
               records * (8.0 * drawn + 12.0 * records)};
     if (plan.on(Effect::gloss))  // what records have around them, and directions of lobes
         frame +=

@@ -61,8 +61,8 @@ std::optional<double> time_budget(const RenderFlags& flags, const PlanRequest& r
 // The trial or, where that would leave too little, the only picture, which leaves time for samples.
 // left: seconds of the budget behind the plan.
 Plan begun(const cl::Device& device, const Plan& plan, double budget, double left) {
-    constexpr double share = 0.15;             // of the budget
-    constexpr double most = 0.2, alone = 0.7;  // of what is left
+    constexpr double share = 0.12;              // of the budget
+    constexpr double most = 0.14, alone = 0.7;  // of what is left
     const Plan trial = trial_plan(device, plan, share * budget);
     if (trial.cost.total_ms() <= 1e3 * most * left) return trial;
     return trial_plan(device, plan, alone * left);
