@@ -198,15 +198,17 @@ PlanCost irradiance_cache(const Plan& plan) {
     const LightAnalysis& lights = plan.analysis.lights;
     const bool lit = lights.points + lights.spots + lights.directional > 0;
     const bool small = fine && lit && options.spots > 0;
-    const double again = small ? 8.0 * options.spots : 0.0,
-                 places = small ? 1e-3 * triangles(plan) : 0.0;
-    // By rays where pixels are few, else by triangles (GBufferPasses::prefers_trace_views).
-    const bool traced = triangles(plan) >= 200.0 * pixels;
-    const double drawing = traced ? 4e-4 * pixels : 0.05 + 1e-3 * std::sqrt(triangles(plan));
+    const double again = small ? 4.0 * options.spots : 0.0,
+                 finer = 0.05 + 7e-4 * std::sqrt(triangles(plan)),
+                 places = small ? 7e-4 * triangles(plan) : 0.0;
+    // By rays where pixels are few, else by triangles (GBufferPasses::prefers_trace_views, on
+    // CPUs).
+    const bool traced = triangles(plan) >= 200.0 * drawn;
+    const double drawing = traced ? 4e-4 * drawn : 0.05 + 1e-3 * std::sqrt(triangles(plan));
     Amount frame = picture(plan, false);
     // Of each record, pair and pixel, where surfaces are fine: lists, looks and reflections.
     const double own = fine ? 0.07 : 0.0, pair = fine ? 1.2e-5 : 2e-6, shows = fine ? 2.6e-4 : 0.0;
-    frame += {records * (drawing + above + weighed * look + own) + again * drawing + places +
+    frame += {records * (drawing + above + weighed * look + own) + again * finer + places +
                   pair * records * records + shows * plan.request.width * plan.request.height,
               records * (8.0 * drawn + 12.0 * records)};
     if (plan.on(Effect::gloss))  // what records have around them, and directions of lobes

@@ -46,7 +46,7 @@ public:
     SceneMover& operator=(const SceneMover&) = delete;
 
     // Enqueues the move after `wait` and after earlier moves; the returned event completes when
-    // positions, normals, clusters, their parts and stretches are written. Whatever reads the scene
+    // positions, normals, clusters, their parts and boxes are written. Whatever reads the scene
     // must wait for it, and `wait` must cover whatever still reads: the event of the last frame.
     //
     // The local frame stays as it is: its precision, its radius and its box, on which far planes

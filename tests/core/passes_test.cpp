@@ -54,10 +54,10 @@ TEST(Passes, MakeAFrameTogether) {
                            name.find("_group") != std::string::npos;  // forms of others
         if (!passes.count(name) && !apart) rest.insert(name);
     }
-    EXPECT_EQ(rest, (std::set<std::string>{"gbuffer.cubes", "gbuffer.import_buffers",
-                                           "gbuffer.import_images", "gbuffer.raster_views",
-                                           "gbuffer.surface", "image.accumulate",
-                                           "image.environment", "lights.direct"}));
+    EXPECT_EQ(rest, (std::set<std::string>{
+                        "gbuffer.cubes", "gbuffer.import_buffers", "gbuffer.import_images",
+                        "gbuffer.raster_views", "gbuffer.surface", "gbuffer.trace_views",
+                        "image.accumulate", "image.environment", "lights.direct"}));
     chain.enqueue(test::device().queue, {}).back().wait();
     const auto preview =
         test::download<cl_uint>(chain.buffers.at("preview"), PassChain::width * PassChain::height);

@@ -112,6 +112,10 @@ TEST(Sizes, OfGBufferPasses) {
          [&](const cl::Buffer& b) {
              passes.raster_views(queue, span, views, p.scene, b, Pixels::depth);
          }},
+        {"gbuffer.trace_views", "pixels", pixels * 8,
+         [&](const cl::Buffer& b) {
+             passes.trace_views(queue, span, views, p.scene, b, Pixels::visibility);
+         }},
         {"gbuffer.surface", "samples", 3 * sizeof(SurfaceSample),
          [&](const cl::Buffer& b) {
              if (b()) queue.enqueueFillBuffer(b, cl_uchar{0}, 0, 3 * sizeof(SurfaceSample) - 1);

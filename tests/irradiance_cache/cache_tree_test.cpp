@@ -186,6 +186,32 @@ TEST(CacheTree, HasTheSameListsForEveryWidth) {
     }
 }
 
+TEST(CacheTree, RefusesBuffersThatAreTooSmall) {
+    const RecordTree tree = make_tree(in_a_box(40));
+    const CachePasses passes(test::programs(), test::usual_build());
+    const CachePasses::Crowds whole = {test::upload(tree.leaves), test::upload(tree.records),
+                                       test::upload(tree.order), test::upload(tree.boxes)};
+    const std::size_t words = tree.leaves.size() * CACHE_WAYS * CACHE_LISTED;
+    const cl::Buffer lists = test::empty<std::uint32_t>(words), tiny = test::empty<float>(1);
+    const cl::CommandQueue& queue = test::device().queue;
+    EXPECT_NO_THROW(passes.list(queue, tree.params, whole, lists).wait());
+    using Crowds = CachePasses::Crowds;
+    for (cl::Buffer Crowds::*small :
+         {&Crowds::leaves, &Crowds::records, &Crowds::order, &Crowds::boxes}) {
+        Crowds wrong = whole;
+        wrong.*small = tiny;
+        EXPECT_THROW(passes.list(queue, tree.params, wrong, lists), Error);
+    }
+    EXPECT_THROW(passes.list(queue, tree.params, whole, tiny), Error);
+    for (std::uint32_t CacheListParams::*of :
+         {&CacheListParams::record_count, &CacheListParams::stride,
+          &CacheListParams::crowd_stride}) {
+        CacheListParams wrong = tree.params;
+        wrong.*of = 0;
+        EXPECT_THROW(passes.list(queue, wrong, whole, lists), Error);
+    }
+}
+
 // Two walls in a block of pixels have a record each, a row of pixels past the edge counts too.
 TEST(CacheRecords, OfAPictureStandOnEachOfItsPlanes) {
     constexpr int width = 13, height = 7;

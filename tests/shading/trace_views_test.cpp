@@ -3,8 +3,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <array>
 #include <clgi/procedural.hpp>
 #include <limits>
+#include <map>
 
 #include "depth_words.hpp"
 #include "lab/scenes/rooms.hpp"
@@ -178,6 +180,51 @@ TEST(TraceViews, AreTheSameForEveryWidth) {
     EXPECT_GT(sides.fronts, 100u);
     EXPECT_GT(sides.backs, 50u);
     EXPECT_EQ(sides.wrong, 0u);
+}
+
+// Of the same triangle twice the first shows, and no width shows another one, with sheets that are
+// there from the other side and from another corner on too.
+TEST(TraceViews, ShowTheFirstOfTrianglesAtOneDepth) {
+    Scene world = test::plain_scene();
+    test::Random random(77);
+    for (int i = 0; i < 150; ++i) {
+        const glm::dvec3 at(test::random_vec3(random, -0.8, 0.8));
+        const glm::dvec3 a = at + glm::dvec3(0.5, 0.1, 0.2), b = at + glm::dvec3(-0.1, 0.6, 0.1);
+        test::add_triangle(world, at, a, b);
+        if (i % 2) test::add_triangle(world, at, b, a);
+        if (i % 3) test::add_triangle(world, a, b, at);
+        test::add_triangle(world, at, a, b);
+    }
+    const DeviceScene scene = test::on_device(world);
+    const auto positions = test::download<glm::vec4>(scene.positions(), scene.info().vertex_count);
+    const auto triangles =
+        test::download<glm::uvec4>(scene.triangles(), scene.info().triangle_count);
+    const auto corners = [&](std::uint32_t t) {
+        std::vector<std::array<float, 3>> out;
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec4& p = positions[triangles[t][k]];
+            out.push_back({p.x, p.y, p.z});
+        }
+        return out;
+    };
+    std::map<std::vector<std::array<float, 3>>, std::uint32_t> first;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) first.emplace(corners(t), t);
+    std::vector<View> views = views_of(scene);
+    for (View& view : views) view.flags = 0;
+    const auto wanted = traced<std::uint64_t>(scene, views);
+    std::size_t seen = 0;
+    for (std::size_t p = 3; p < wanted.size(); ++p) {
+        if (wanted[p] == test::no_triangle) continue;
+        const auto shown = static_cast<std::uint32_t>(wanted[p]);
+        ++seen;
+        EXPECT_EQ(shown, first.at(corners(shown))) << p;
+    }
+    EXPECT_GT(seen, 150u);
+    for (const int width : {1, 4, 8, 16}) {
+        const GBufferPasses passes(test::programs(),
+                                   {.packet_width = width, .form = Form::packets});
+        EXPECT_TRUE(test::same_bits(traced<std::uint64_t>(scene, views, passes), wanted)) << width;
+    }
 }
 
 // Masks and blended surfaces are looked up as the rasteriser does: other words at edges alone.

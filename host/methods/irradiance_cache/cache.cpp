@@ -86,8 +86,10 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
                drawn_side = static_cast<double>(drawn_face(o, scene));
     const double records = 1.6 * o.seen + o.met + o.refined;  // as many as a room has
     const double hemicube = 5.0 * sizeof(View) + 24.0 * drawn_side * drawn_side;
+    // Of two trees and their lists, of some four leaves a record.
+    constexpr double trees = 2.0 * 4.0 * 1.25 * 4.0 * int{CACHE_WAYS} * int{CACHE_LISTED};
     const double per_record =
-        hemicube + 12.0 * most + 36.0 + (PICK_PLANES + 2) * 4.0 * picks_per_record + 64.0;
+        hemicube + 12.0 * most + 36.0 + (PICK_PLANES + 2) * 4.0 * picks_per_record + trees;
     const auto vpls = static_cast<double>(most_vpls(o));
     const double spots =
         vpls > 0.0 ? vpls * hemicube + sizeof(std::uint64_t) *
@@ -127,7 +129,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     std::vector<std::uint32_t> order(std::max<std::size_t>(capacity, most_chosen));
     std::iota(order.begin(), order.end(), 0u);
     picture.record().write(chosen, order.data(), order.size() * sizeof(std::uint32_t));
-    passes.build({"link", "bounce", "show"});
+    passes.build({"list", "link", "bounce", "show"});
     if (options.met > 0) passes.build({"pick", "weigh"});
     if (casts_spots()) passes.build({"mark", "tally", "spots", "shine"});
     const auto side = static_cast<std::uint32_t>(drawn);

@@ -65,9 +65,11 @@ void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
 
 void IrradianceCache::State::grow(cl::Buffer& buffer, std::size_t size) {
     const std::size_t held = buffer() ? buffer.getInfo<CL_MEM_SIZE>() : 0;
-    if (held < size)
-        buffer = cl::Buffer(picture.record().queue().getInfo<CL_QUEUE_CONTEXT>(), CL_MEM_READ_WRITE,
-                            size + size / 4);
+    if (held >= size) return;
+    const std::size_t wanted = size + size / 4;
+    buffer =
+        cl::Buffer(picture.record().queue().getInfo<CL_QUEUE_CONTEXT>(), CL_MEM_READ_WRITE, wanted);
+    grown += wanted - held;
 }
 
 void IrradianceCache::State::light(int limit) {

@@ -133,7 +133,7 @@ struct IrradianceCache::State {
     bool weighed = false;  // whether the records of this picture see the sky is known
     std::shared_ptr<const SkyWeights> sky_weights;  // by these records; null: they do not
     LocalBox receivers{};                           // of light of the sky
-    std::size_t grown = 0;                          // bytes, of shadow maps
+    std::size_t grown = 0;                          // bytes, of shadow maps, trees and lists
     std::uint32_t sample = 0;
     CacheCorrectParams gauged{};      // the last of them
     cl::Buffer all_nodes, all_lists;  // of all_tree

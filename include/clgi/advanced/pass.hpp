@@ -19,11 +19,12 @@ enum class Storage { full, half };
 // How the work of a kernel is laid out where it has both forms. packets: a work-item alone draws a
 // view or a tile, with vectors; for CPUs. groups: a group of work-items does so together; for GPUs.
 // automatic: what the environment variable CLGI_FORM says, else by the kind of device. Both give
-// the same bits.
+// the same bits, but for hemicubes of finely modelled scenes by an irradiance cache
+// (GBufferPasses::prefers_trace_views), which packets alone draw by rays.
 enum class Form { automatic, packets, groups };
 
-// How kernels are built. Results do not depend on packet_width, form or local_size. Passes that
-// share planes must have the same storage.
+// How kernels are built. Results do not depend on packet_width, local_size or, but for the above,
+// form. Passes that share planes must have the same storage.
 struct BuildOptions {
     Math math = Math::strict;
     Storage storage = Storage::full;

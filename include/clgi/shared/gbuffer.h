@@ -87,7 +87,7 @@ typedef struct {
     uint capacity;    // polygons, and runs, that there is room for in each view's list
     uint late_capacity;  // batches of the scene
     uint cull;           // 1: boxes, clusters and parts that no pixel shows are passed over;
-                         // 0: these are not read
+                         // 0: these are not read, but by trace_views
     uint scene_flags;    // SCENE_HAS_...
 } RasterParams;
 
