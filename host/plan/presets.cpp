@@ -62,7 +62,8 @@ const char* name_of(SceneKind kind) {
 const std::vector<Preset>& presets() {
     // Of pictures of 160x120 against the path tracer's indirect light, the largest of the scenes of
     // a kind (docs/plan.md), and no less than that of finer settings. Convex: two empty rooms.
-    // Furnished: Cornell box, a furnished room, the corridor. Finely modelled: box with the bunny.
+    // Furnished: Cornell box, a furnished room, the corridor. Finely modelled: box with the bunny;
+    // Sponza under its sun errs by up to twice as much (docs/results/plans.md).
     // Open: a yard, the office, oriental-like. Lit indirectly: the dark one of two chambers, the
     // maze; of the irradiance cache the maze and drawn slits. Skylit: drawn windows and courtyards;
     // finely modelled: Sponza, by four samples. Between measured settings of the cache some of
