@@ -28,6 +28,7 @@ WAVE = {"sm_90": 32, "gfx1100": 32, "gfx90a": 64}
 GRANULE = {"sm_90": 8, "gfx1100": 24, "gfx90a": 8}  # of registers
 DEFINES = {"antiradiance/pull": ["-DCLGI_GROUPS"]}
 NO_PTXAS, NO_SAMPLERS = "no ptxas", "libclc has no samplers"
+FOR_CPUS = {"gbuffer/trace_views"}  # groups rasterise instead
 GROUP = {"gbuffer/raster_large_group": 32, "gbuffer/raster_views_group": 128,
          "cache/link_group": 32, "antiradiance/global_group": 32, "antiradiance/local_group": 32}
 
@@ -93,7 +94,7 @@ def main():
     OPTIONS.ptxas = shutil.which("ptxas") or shutil.which("/usr/local/cuda/bin/ptxas")
     names = sorted(str(path.relative_to(OPTIONS.kernels).with_suffix(""))
                    for path in OPTIONS.kernels.rglob("*.cl"))
-    names = [name for name in names if name + "_group" not in names]
+    names = [name for name in names if name + "_group" not in names and name not in FOR_CPUS]
     if OPTIONS.only:
         names = [name for name in names if name in OPTIONS.only.split(",")]
     if not names:
