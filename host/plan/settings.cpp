@@ -100,13 +100,11 @@ int map_side(const Plan& plan, int fineness) {
     return std::max(usual, step * static_cast<int>(std::ceil(std::min(wanted, most) / step)));
 }
 
-// What suns light in finely modelled scenes is seen by records, unless it lies behind a hole: few
-// of them are not worth the search for small places.
+// What suns and spots light in finely modelled scenes is seen by records, unless it lies behind a
+// hole: few of them are not worth the search for small places. Lamps that shine all around stand in
+// shades.
 constexpr int many_places = 600;
-bool has_suns_alone(const Plan& plan) {
-    const LightAnalysis& lights = plan.analysis.lights;
-    return is_fine(plan) && lights.points + lights.spots == 0;
-}
+bool has_no_lamps(const Plan& plan) { return is_fine(plan) && plan.analysis.lights.points == 0; }
 
 // The settings of a preset.
 void use_preset(Plan& plan, const Preset& preset) {
@@ -137,7 +135,7 @@ void use_preset(Plan& plan, const Preset& preset) {
             plan.cache.met = (is_fine(plan) ? 1 : 3) * preset.places;
             plan.cache.refined = preset.places;
             plan.cache.face = preset.directions;
-            if (has_suns_alone(plan) && preset.places < many_places) plan.cache.spots = 0;
+            if (has_no_lamps(plan) && preset.places < many_places) plan.cache.spots = 0;
             break;
     }
 }

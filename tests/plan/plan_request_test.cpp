@@ -292,5 +292,29 @@ TEST(Plan, TakesFewRecordsInFinelyModelledScenesUnderASky) {
     EXPECT_GT(records().seen, 100);
 }
 
+// VPLs in small places, which take longer than few records there: where lamps shine all around,
+// which stand in shades, and with many records.
+TEST(Plan, LooksForSmallPlacesInFineScenesWhereLampsAre) {
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    analysis.lights.points = 0;
+    analysis.lights.spots = 1;
+    analysis.lights.directional = 1;
+    PlanRequest request;
+    request.method = Method::irradiance_cache;
+    request.seconds = 1e-6;
+    const int usual = IrradianceCacheOptions().spots;
+    const auto spots = [&] {
+        return make_plan(test::device().device, analysis, request).cache.spots;
+    };
+    EXPECT_EQ(spots(), usual);
+    analysis.surfaces.triangles = 300000;
+    EXPECT_EQ(spots(), 0);
+    analysis.lights.points = 1;
+    EXPECT_EQ(spots(), usual);
+    analysis.lights.points = 0;
+    request.seconds = 1000.0;
+    EXPECT_EQ(spots(), usual);
+}
+
 }  // namespace
 }  // namespace clgi
