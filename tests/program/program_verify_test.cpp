@@ -204,7 +204,7 @@ TEST_F(VerifyProgram, JudgesPicturesOfSeveralSamplesByWholePixels) {
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         return json::parse(read("s.json")).at("samples");
     };
-    const json still = stats("--time-budget 0.2s --verify 0.2s");
+    const json still = stats("--time-budget 0.6s --verify 0.2s");
     EXPECT_GE(still.at("count"), 2);
     EXPECT_LE(still.at("count"), 1024);
     EXPECT_GT(still.at("refine_ms"), 0.0);
