@@ -9,6 +9,9 @@ namespace {
 // Runs are halved below so many levels: a tree by areas may be as deep as it has clusters, and
 // walks keep lists of what they have not looked at (NODE_STACK).
 constexpr std::size_t levels_by_area = 12;
+constexpr std::size_t levels_by_halves = 7;  // of 2^26 clusters, of 2^32 triangles
+static_assert(std::size_t{NODE_STACK} >=
+              (levels_by_area + levels_by_halves) * (NODE_BOXES - 1) + 1);
 
 struct Extent {
     glm::vec3 low, high;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <clgi/passes/scene.hpp>
 #include <functional>
 
+#include "box_trees.hpp"
 #include "depth_words.hpp"
 #include "patchwork.hpp"
 
@@ -154,9 +154,7 @@ TEST(Occlusion, PassesOverClustersBehindWhatIsSeen) {
         if (moved[c]) clusters[c].low.z = clusters[c].high.z = back;
     test::device().queue.enqueueWriteBuffer(scene.clusters(), CL_TRUE, 0,
                                             clusters.size() * sizeof(Cluster), clusters.data());
-    const ScenePasses passes(test::programs());
-    for (std::size_t level = scene.node_levels().size() - 1; level-- > 0;)
-        passes.nodes(test::device().queue, scene, level);
+    test::refit_boxes(scene, ScenePasses(test::programs()));
     // All but a few that hide behind what was drawn since the last look.
     EXPECT_LE(shown(view), 25u);
     EXPECT_LE(shown(flat), 25u);

@@ -158,9 +158,7 @@ TEST(BoxTree, GetsItsBoxesFromTheDevice) {
                         node.low[axis][k] = node.high[axis][k] = 0.125f;
             on.queue.enqueueWriteBuffer(scene.nodes(), CL_TRUE, 0, wrong.size() * sizeof(BoxNode),
                                         wrong.data());
-            WaitList last;
-            for (std::size_t level = scene.node_levels().size() - 1; level-- > 0;)
-                last.assign(1, passes.nodes(on.queue, scene, level, last));
+            test::refit_boxes(scene, passes);
             test::expect_boxes(scene, "by the device");
         }
     }

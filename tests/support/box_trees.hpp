@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <clgi/passes/scene.hpp>
 #include <limits>
 #include <string>
 
@@ -50,6 +51,13 @@ inline void expect_boxes(const std::vector<BoxNode>& nodes, const std::vector<Cl
     for (std::size_t i = 1; i < nodes.size(); ++i) EXPECT_EQ(nodes_met[i], 1) << label << ", " << i;
     for (std::size_t c = 0; c < clusters.size(); ++c)
         EXPECT_EQ(clusters_met[c], 1) << label << ", " << c;
+}
+
+// The boxes of all levels anew, by the device.
+inline void refit_boxes(DeviceScene& scene, const ScenePasses& passes) {
+    WaitList last;
+    for (std::size_t level = scene.node_levels().size() - 1; level-- > 0;)
+        last.assign(1, passes.nodes(device().queue, scene, level, last));
 }
 
 inline std::vector<BoxNode> nodes_of(const DeviceScene& scene) {

@@ -133,9 +133,12 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     if (options.met > 0) passes.build({"pick", "weigh"});
     if (casts_spots()) passes.build({"mark", "tally", "spots", "shine"});
     const auto side = static_cast<std::uint32_t>(drawn);
-    const bool trace = cubes.prefers_trace_views({0, 5, side, side}, of);
-    cubes.build({"cubes", trace && !casts_spots() ? "trace_views" : "raster_views"});
-    if (trace && casts_spots()) cubes.build({"trace_views"});
+    if (!cubes.prefers_trace_views({0, 5, side, side}, of))
+        cubes.build({"cubes", "raster_views"});
+    else if (casts_spots())  // by finer hemicubes
+        cubes.build({"cubes", "trace_views", "raster_views"});
+    else
+        cubes.build({"cubes", "trace_views"});
     if (scene.has_lobes()) passes.build({"around", "gloss"});
     if (!corrects()) return;
     sky_lights.build(picture.passes());

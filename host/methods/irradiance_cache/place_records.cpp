@@ -69,17 +69,13 @@ void IrradianceCache::State::draw_cubes(const Hemicubes& of) {
     });
     const ViewSpan span{5 * from, 5 * points, of.face, of.face,
                         std::size_t{3} * of.face * of.face * (of.first + of.count)};
-    if (cubes.prefers_trace_views(span, scene)) {
-        record("gbuffer.trace_views", span.count, [&](const WaitList& wait) {
-            return cubes.trace_views(record.queue(), span, of.views, scene, of.visibility,
-                                     Pixels::visibility, wait);
-        });
-        return;
-    }
-    record("gbuffer.raster_views", span.count, [&](const WaitList& wait) {
-        return cubes.raster_views(record.queue(), span, of.views, scene, of.visibility,
-                                  Pixels::visibility, wait);
-    });
+    const bool trace = cubes.prefers_trace_views(span, scene);
+    const auto drawing = trace ? &GBufferPasses::trace_views : &GBufferPasses::raster_views;
+    record(trace ? "gbuffer.trace_views" : "gbuffer.raster_views", span.count,
+           [&](const WaitList& wait) {
+               return (cubes.*drawing)(record.queue(), span, of.views, scene, of.visibility,
+                                       Pixels::visibility, wait);
+           });
 }
 
 void IrradianceCache::State::meet(std::size_t first, std::size_t count) {
