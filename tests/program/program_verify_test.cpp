@@ -204,11 +204,14 @@ TEST_F(VerifyProgram, JudgesPicturesOfSeveralSamplesByWholePixels) {
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         return json::parse(read("s.json")).at("samples");
     };
-    const json still = stats("--time-budget 0.6s --verify 0.2s");
-    EXPECT_GE(still.at("count"), 2);
+    // However slow the device is; within a budget of time there may be one sample or many.
+    const json still = stats("--verify 0.2s");
+    EXPECT_GE(still.at("count"), 4);
     EXPECT_LE(still.at("count"), 1024);
     EXPECT_GT(still.at("refine_ms"), 0.0);
     EXPECT_EQ(clgi::io::load_image(exr).attributes.at("clgi:filter"), "box");
+    const bool one = stats("--time-budget 0.3s").at("count") == 1;
+    EXPECT_EQ(clgi::io::load_image(exr).attributes.at("clgi:filter"), one ? "center" : "box");
     // The lamp's edges are smooth, so that centres of pixels tell another truth.
     const auto error = [&](const std::string& flags) {
         const Outcome outcome = run("verify " + exr + " " + scene + " --json --limit 0.5s" + flags);
