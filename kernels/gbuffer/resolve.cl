@@ -59,7 +59,8 @@ kernel void gbuffer_resolve(
 
     floatp x, y;
     gbuffer_window(&view, pixel, &x, &y);
-    Surface surface = view_surface(&view, x, y, triangle, &scene, info.flags);
+    ViewRays rays = view_rays(&view, x, y);
+    Surface surface = ray_surface(&view, &rays, triangle, &scene, info.flags);
 
     uint stride = params.stride;
     gbuffer_store3(surface.x, surface.y, surface.z, planes, GBUFFER_POSITION, stride, pixel);
@@ -77,8 +78,7 @@ kernel void gbuffer_resolve(
         row_store(surface.depth, gbuffer_row(planes, GBUFFER_DEPTH, stride), pixel);
     packet_store(material, ids + GBUFFER_MATERIAL * stride + pixel);
     intp mapped, metallic_roughness;
-    gbuffer_detail(&view, x, y, triangle, &scene, info.flags, &surface, &mapped,
-                   &metallic_roughness);
+    gbuffer_detail(&rays, triangle, &scene, info.flags, &surface, &mapped, &metallic_roughness);
     packet_store(mapped, ids + GBUFFER_MAPPED_NORMAL * stride + pixel);
     packet_store(metallic_roughness, ids + GBUFFER_METALLIC_ROUGHNESS * stride + pixel);
     if (params.write & RESOLVE_TRIANGLE)
