@@ -140,7 +140,7 @@ double RenderAttempt::time_apart(const std::function<void()>& draw) {
 std::optional<Sampling> RenderAttempt::sampling() const {
     if (!(record_.refine_ms > 0.0)) return std::nullopt;
     const double count = renderer_.samples();
-    return Sampling{renderer_.sampling_error() * std::sqrt(count), refining() / (count - 1.0)};
+    return Sampling{renderer_.sampling_error(), count, refining() / (count - 1.0)};
 }
 
 // A frame's time has all in it that follows from the lights and the pose: of a bake, only what has

@@ -7,16 +7,19 @@
 
 namespace clgi::program {
 
-// Of one sample of a picture: by how much it errs, relative to the mean, and seconds that it takes.
+// By how much the mean of so many samples of a picture errs, relative to the mean, and seconds that
+// each takes.
 struct Sampling {
-    double error = 0.0, seconds = 0.0;
+    double error = 0.0, count = 1.0, seconds = 0.0;
 };
 
 // The error of a picture whose settings err by so much, with as many samples as the seconds allow
-// beside its first one: at worst their error falls as one over the root of their number.
-inline double error_with_samples(double settings, const Sampling& one, double seconds) {
-    const double count = 1.0 + std::max(0.0, seconds) / one.seconds;
-    return std::hypot(settings, one.error / std::sqrt(count));
+// beside its first one. What edges, textures and lobes leave falls faster than one over the root of
+// their number, by about this power of it (docs/results/irradiance-cache.md).
+inline double error_with_samples(double settings, const Sampling& found, double seconds) {
+    constexpr double power = 0.65;
+    const double count = 1.0 + std::max(0.0, seconds) / found.seconds;
+    return std::hypot(settings, found.error * std::pow(found.count / count, power));
 }
 
 }  // namespace clgi::program
