@@ -177,7 +177,9 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         emits = emits || luminance(material.emission) > 0.0f;
         const Reflectance shares = reflectance(material);
         const bool finished = material.metallic_roughness_texture.texture >= 0;
-        has_lobes_ = has_lobes_ || finished || shares.coat + shares.lobe > 1e-4f;
+        if (finished || shares.coat + shares.lobe > 1e-4f)
+            least_alpha_ =
+                std::min(least_alpha_, finished ? 0.0f : microfacet_alpha(material.roughness));
         if (finished || shares.diffuse != 1.0f) info_.flags |= SCENE_HAS_SHARES;
         if (finished || material.normal_texture.texture >= 0) info_.flags |= SCENE_HAS_DETAIL;
         has_blended_ = has_blended_ || material.alpha_mode == AlphaMode::blend;

@@ -82,7 +82,8 @@ public:
     // Kept as above. A part that does not exist is empty, as is any without an environment.
     std::optional<Environment> environment_part(SkyPart part) const;
     BrightSky bright_sky() const;
-    bool has_lobes() const { return has_lobes_; }  // some material is not purely diffuse
+    bool has_lobes() const { return least_alpha_ <= 1.0f; }  // some material is not purely diffuse
+    float least_alpha() const { return least_alpha_; }  // of its lobes; 0 where textures say it
     bool needs_textures() const {  // some surface has a texture, a mask or is blended
         return has_masks_ || (info_.flags & SCENE_HAS_TEXTURES) != 0;
     }
@@ -151,7 +152,7 @@ private:
     float uploaded_rotation_ = 0.0f;  // of the environment
     struct Cut;
     std::shared_ptr<Cut> cut_;
-    bool has_lobes_ = false;
+    float least_alpha_ = 2.0f;
     bool has_masks_ = false;  // or blended surfaces
     bool has_blended_ = false;
     std::size_t bytes_ = 0;

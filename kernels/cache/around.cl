@@ -15,12 +15,10 @@
 // From pixel k, exposed; 0 where there is nothing. found: irradiance of what the pixels see.
 static float3 around_radiance(const LinkWorld* world, const View* view, const LinkPacket* packet,
                               const float found[3][CLGI_WIDTH], int k) {
-    float per_factor = 1.0f / packet->at.factor[k];
-    float3 sends, reflects;
-    if (!link_surface(world, packet, k, &sends, &reflects))
-        return link_above(world, view, &packet->at, 0, k) * world->params->sky.xyz * per_factor;
-    return (link_lane(packet->once, k) + (sends + reflects * link_lane(found, k)) * per_factor) *
-           (1.0f / CLGI_PI);
+    if (packet->at.seen[k] >= 0)
+        return link_radiance(world, packet, found, link_shares(world, packet, k), k);
+    return link_above(world, view, &packet->at, 0, k) * world->params->sky.xyz *
+           (1.0f / packet->at.factor[k]);
 }
 
 kernel void cache_around(

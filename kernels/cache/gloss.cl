@@ -7,7 +7,7 @@
 // quarter as large as what it stands for: larger ones blur, smaller ones are noise. c: how far the
 // irradiance was corrected, in luminance (correct.cl). Of a metal's lobe the share alpha^2 counts as
 // diffuse (microfacet_means). A pixel whose records were all met reflects E as a diffuse surface of the
-// lobe's mean albedo does.
+// lobe's mean albedo does. Lobes of alpha up to params.smooth are left to reflect.cl.
 //             [Krivanek05: radiance that is cached; Krivanek08: filtered importance sampling; derived]
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
@@ -16,9 +16,8 @@
 // SPDX-License-Identifier: MIT
 #include "cache/around.clh"
 #include "cache/lookup.clh"
-#include "detail_codes.clh"
+#include "cache/pixel_lobe.clh"
 #include "gloss.clh"
-#include "microfacet_sample.clh"
 
 #define CHANGE_MOST 2.0f
 
@@ -42,18 +41,6 @@ static float3 gloss_around(const CacheAround* of, global const View* views,
     uint slot = record < of->seen ? record : record - of->met;
     return around_unpack(
         around[around_face(of, slot, face, level) + row * (width >> level) + column]);
-}
-
-// In [0, 1), of a sequence that fills three dimensions evenly, shifted from pixel to pixel.
-//                             [derived: Kronecker's sequence of the powers of 1 / 1.2207440846]
-CLGI_INLINE float3 gloss_numbers(uint pixel, uint index) {
-    uint shift = pixel * 0x9e3779b9u;
-    shift = (shift ^ shift >> 15) * 0x85ebca6bu;
-    shift = (shift ^ shift >> 13) * 0xc2b2ae35u;
-    shift ^= shift >> 16;
-    uint3 at = (uint3)(shift, shift * 0x9e3779b1u, shift * 0x85ebca77u) +
-               index * (uint3)(0xd1b54a33u, 0xabc98389u, 0x8cb92ba7u);
-    return convert_float3(at >> 8) * (1.0f / 16777216.0f);
 }
 
 // Whose turn it is, `left` of the way through the records that have anything around them.
@@ -92,7 +79,8 @@ kernel void cache_gloss(
     for (int k = 0; k < lanes; ++k) {
         float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, first + k);
         float4 surface = pixel_surface(ids, materials, stride, first + k);
-        glossy[k] = dot(normal, normal) > 0.0f && surface.x + surface.z + surface.w > 0.0f;
+        glossy[k] = dot(normal, normal) > 0.0f && surface.x + surface.z + surface.w > 0.0f &&
+                    surface.y > params.smooth;
         any |= glossy[k];
     }
     if (!any) return;
@@ -118,45 +106,26 @@ kernel void cache_gloss(
     for (int k = 0; k < lanes; ++k) {
         if (!glossy[k]) continue;
         uint pixel = first + k;
-        float4 surface = pixel_surface(ids, materials, stride, pixel);
-        float metallic = surface.x, alpha = surface.y;
-        float3 point = gbuffer_load3(planes, GBUFFER_POSITION, stride, pixel), base, shown;
-        base.x = row_load_one(gbuffer_row(planes, GBUFFER_BASE, stride), pixel);
-        base.y = row_load_one(gbuffer_row(planes, GBUFFER_BASE + 1, stride), pixel);
-        base.z = row_load_one(gbuffer_row(planes, GBUFFER_BASE + 2, stride), pixel);
+        PixelLobe lobe = pixel_lobe(&params, planes, ids, materials, pixel);
+        float3 shown;
         shown.x = row_load_one(irradiance_row(irradiance, 0, stride), pixel);
         shown.y = row_load_one(irradiance_row(irradiance, 1, stride), pixel);
         shown.z = row_load_one(irradiance_row(irradiance, 2, stride), pixel);
-
-        // The frame of the lobe: y across the eye's direction.
-        float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, pixel);
-        normal = mapped_normal(ids[GBUFFER_MAPPED_NORMAL * stride + pixel], normalize(normal));
-        float3 eye = params.eye.w != 0.0f ? params.eye.xyz : normalize(params.eye.xyz - point);
-        float facing = dot(normal, eye);
-        float3 x = eye - facing * normal;
-        float3 helper = fabs(normal.x) < 0.6f ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 1.0f, 0.0f);
-        x = dot(x, x) > 1e-8f ? normalize(x) : normalize(cross(normal, helper));
-        float3 y = cross(normal, x);
-
         float3 sum = (float3)(0.0f);
         for (uint n = 0; sums[k] > 0.0f && n < params.directions; ++n) {
             float3 numbers = gloss_numbers(pixel, params.first_direction + n);
-            LobeSample at = lobe_sample(clamp(fabs(facing), 1e-3f, 1.0f), alpha, numbers.x, numbers.y);
-            if (!(at.masked > 0.0f)) continue;
-            float3 from = gloss_around(&of, views, around,
-                                       gloss_record(&share, weight, numbers.z * sums[k], k),
-                                       at.toward.x * x + at.toward.y * y + at.toward.z * normal,
-                                       1.0f / (at.density * (float)params.directions));
-            float fresnel = fma(surface.w - surface.z, at.away, surface.z);
-            float white = fma(1.0f - metallic, fresnel, metallic * at.away);
-            float tint = metallic * (1.0f - alpha * alpha) * (1.0f - at.away);
-            sum += at.masked * (white + tint * base) * from;
+            float3 direction, factor;
+            float density = pixel_lobe_direction(&lobe, numbers, &direction, &factor);
+            if (!(density > 0.0f)) continue;
+            sum += factor * gloss_around(&of, views, around,
+                                         gloss_record(&share, weight, numbers.z * sums[k], k),
+                                         direction, 1.0f / (density * (float)params.shared));
         }
         float is = luminance(shown.x, shown.y, shown.z);
         sum *= (was[k] > 0.0f ? clamp(is / was[k], 0.0f, CHANGE_MOST) : 1.0f) / (float)params.directions;
         if (!(sums[k] > 0.0f)) {
             float4 means = pixel_reflectance(ids, materials, stride, pixel);
-            sum = (means.y + means.z * base) * shown * (1.0f / CLGI_PI);
+            sum = (means.y + means.z * lobe.base) * shown * (1.0f / CLGI_PI);
         }
         add_reflected(pixel, params.exposure, sum.x, radiance, non_finite);
         add_reflected(stride + pixel, params.exposure, sum.y, radiance, non_finite);

@@ -58,7 +58,8 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
                 if (!skies) all += packet.at.factor[k];
                 looked += packet.at.seen[k] >= 0 ? packet.at.factor[k] : 0.0f;
                 float3 sends, reflects;
-                if (!link_surface(&world, &packet, k, &sends, &reflects)) continue;
+                if (!link_surface(&world, &packet, k, link_shares(&world, &packet, k), &sends,
+                                  &reflects)) continue;
                 own += sends;
                 once += packet.at.factor[k] * link_lane(packet.once, k);
                 for (uint i = 0; i < packet.share.count; ++i) {

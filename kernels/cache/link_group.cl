@@ -58,7 +58,7 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
                 if (!skies) brings[0][lane] = packet.at.factor[0];
                 brings[14][lane] = packet.at.seen[0] >= 0 ? packet.at.factor[0] : 0.0f;
                 float3 sends, rho;
-                if (link_surface(&world, &packet, 0, &sends, &rho)) {
+                if (link_surface(&world, &packet, 0, link_shares(&world, &packet, 0), &sends, &rho)) {
                     float3 once = packet.at.factor[0] * link_lane(packet.once, 0);
                     brings[1][lane] = sends.x;
                     brings[2][lane] = sends.y;

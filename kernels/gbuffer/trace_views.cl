@@ -14,7 +14,8 @@ kernel void gbuffer_trace_views(RASTER_VIEWS_ARGUMENTS) {
     if (item >= view_count) return;
     View view = views[params.first_view + item];
     SceneBuffers scene = SCENE_BUFFERS;
-    RayScene of = {&view, params.scene_flags, params.triangle_count - 1, nodes, clusters, parts, &scene};
+    RayScene of = {&view, params.scene_flags, params.triangle_count - 1, nodes, clusters, parts, &scene,
+                   0.0f};
     global PixelWord* pixels = visibility + view.first_pixel;
     for (int y = 0; y < (int)view.height; ++y)
         for (int x = 0; x < (int)view.width; ++x)

@@ -181,7 +181,7 @@ TEST_P(GlossPasses, HaveTheSkyAroundThem) {
 TEST_P(GlossPasses, ShowWhatIsMirrored) {
     const Material mirror = test::finished(1.0f, 0.0f, 1.0f);
     UnderASky under({mirror});
-    under.in.params.directions = 16384;
+    under.in.params.directions = under.in.params.shared = 16384;
     test::Random random(3);
     std::size_t looked = 0;
     const auto any = [&] { return glm::dvec3(random(-1, 1), random(-1, 1), random(-1, 1)); };
@@ -293,7 +293,7 @@ TEST_P(GlossPasses, LookUpAsMuchAsADirectionStandsFor) {
         for (std::uint32_t k = 0; k < AROUND_LEVELS; ++k)
             in.fill(0, k, glm::dvec3(k == level ? 1.0 : 1e-6));
         const std::uint32_t counts[] = {65536, 2, 1};
-        in.params.directions = counts[level];
+        in.params.directions = in.params.shared = counts[level];
         glm::dvec3 mean(0.0);
         const std::vector<Point> points(400, Point{});
         for (const glm::dvec3& found : in.reflected(points)) mean += found / 400.0;
@@ -347,6 +347,9 @@ TEST(GlossPasses, RefuseWhatDoesNotFit) {
     in.params.directions = 0;
     EXPECT_THROW(in.reflected(one), Error);
     in.params.directions = 1;
+    in.params.shared = 0;
+    EXPECT_THROW(in.reflected(one), Error);
+    in.params.shared = 1;
     for (const CacheAround of : {CacheAround{2, 0, 1, 8}, CacheAround{2, 1, 1, 8},
                                  CacheAround{0, 0, 2, 12}, CacheAround{0, 3, 2, 8}}) {
         in.of = of;

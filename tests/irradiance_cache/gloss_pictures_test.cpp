@@ -20,9 +20,9 @@ namespace {
 
 // A tilted metal floor below a sky that is brighter upwards, seen from far away at a slant.
 struct MetalBelowASky {
-    MetalBelowASky() {
+    explicit MetalBelowASky(float roughness = 0.6f) {
         scene = test::plain_scene();
-        scene.materials[0] = test::finished(1.0f, 0.6f, 1.0f);
+        scene.materials[0] = test::finished(1.0f, roughness, 1.0f);
         scene.materials[0].base_color = glm::vec4(base, 1.0f);
         const glm::dvec3 across = glm::normalize(glm::cross(normal, glm::dvec3(0, 0, 1))),
                          deep = glm::cross(across, normal);
@@ -49,9 +49,12 @@ struct MetalBelowASky {
     Scene scene;
 };
 
-// Samples after the first draw other directions, so their mean comes nearer.
-TEST(GlossPictures, ReflectASkyByTheirLobes) {
-    const MetalBelowASky metal;
+// Samples after the first draw other directions, so their mean comes nearer: rough lobes by what
+// records have around them, smooth ones by rays.
+class SkyInLobes : public testing::TestWithParam<float> {};
+
+TEST_P(SkyInLobes, IsThatOfAllDirections) {
+    const MetalBelowASky metal(GetParam());
     IrradianceCacheOptions options = cache_options();
     options.sky_lights = 0;
     const DeviceScene device = test::on_device(metal.scene);
@@ -74,7 +77,7 @@ TEST(GlossPictures, ReflectASkyByTheirLobes) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(mean_radiance(picture)[c], wanted[c], 0.01 * wanted[c]) << c;
     const double first = apart(mean);
-    constexpr std::uint32_t samples = 12;
+    constexpr std::uint32_t samples = 96;
     for (std::uint32_t sample = 1; sample < samples; ++sample) {
         cache.sample(sample);
         cache.render_again(camera).wait();
@@ -87,6 +90,8 @@ TEST(GlossPictures, ReflectASkyByTheirLobes) {
     EXPECT_LT(apart(mean), 0.03);
     EXPECT_EQ(cache.status().non_finite, 0u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Roughness, SkyInLobes, testing::Values(0.6f, 0.45f, 0.3f));
 
 // Lobes reflect the soft part of a sky as records see it, and its small bright parts as lamps, as
 // in the path tracer's picture.
@@ -238,6 +243,42 @@ TEST(GlossPictures, LightByLobesOfWhatIsLit) {
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted[c], 0.03 * wanted[c])
                 << metallic << " " << height << " " << c;
+    }
+}
+
+// A mirror shows a wall in the sun and, behind a screen, in its shadow.
+TEST(GlossPictures, MirrorWhatIsLit) {
+    const glm::vec3 base(0.9f, 0.6f, 0.3f), wall(0.8f, 0.5f, 0.2f), lux(900.0f, 700.0f, 400.0f);
+    for (const bool shaded : {false, true}) {
+        Scene scene = test::plain_scene(wall);
+        Material mirror = test::finished(1.0f, 0.1f, 1.0f);
+        mirror.base_color = glm::vec4(base, 1.0f);
+        test::add_floor(scene, 2.0, 0.0, test::add_material(scene, mirror));
+        test::add_quad(scene, {glm::dvec3(-2, 0, -2), {2, 0, -2}, {2, 3, -2}, {-2, 3, -2}});
+        Light light;
+        light.kind = Light::Kind::directional;
+        light.direction = glm::normalize(glm::vec3(0.3f, 0.0f, -1.0f));
+        light.intensity = lux;
+        scene.lights = {light};
+        const glm::dvec3 middle = glm::dvec3(0, 2, -2) - 3.0 * glm::dvec3(light.direction);
+        if (shaded)
+            test::add_quad(scene,
+                           {middle + glm::dvec3(-0.4, -0.4, 0), middle + glm::dvec3(0.4, -0.4, 0),
+                            middle + glm::dvec3(0.4, 0.4, 0), middle + glm::dvec3(-0.4, 0.4, 0)});
+        scene.cameras = {test::camera_at({0, 1, 1}, {0, 0, 0}, 0.05f)};
+        IrradianceCacheOptions options = cache_options();
+        options.bounces = 1;
+        const glm::dvec3 found = mean_radiance(pictured(scene, options).radiance);
+        const double away = std::pow(1.0 - std::sqrt(0.5), 5);
+        const double cosine = -double{light.direction.z};
+        for (int c = 0; c < 3; ++c) {
+            const double wanted = (away + (1.0 - away) * (1.0 - 1e-4) * base[c]) * wall[c] /
+                                  std::numbers::pi * lux[c] * cosine;
+            if (shaded)
+                EXPECT_LT(found[c], 0.05 * wanted) << c;
+            else
+                EXPECT_NEAR(found[c], wanted, 0.02 * wanted) << c;
+        }
     }
 }
 

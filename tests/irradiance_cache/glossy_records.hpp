@@ -60,7 +60,7 @@ struct Glossy {
         b.lists = test::upload(lists);
         b.light = test::upload(std::vector<float>(3 * test::record_stride, 1.0f));
         params.stride = pixel_stride;
-        params.directions = 4096;
+        params.directions = params.shared = 4096;
         params.exposure = 1.0f;
         params.eye = {0.0f, 1.0f, 0.0f, 1.0f};
     }

@@ -140,6 +140,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     else
         cubes.build({"cubes", "trace_views"});
     if (scene.has_lobes()) passes.build({"around", "gloss"});
+    if (follows_lobes()) passes.build({"reflect"});
     if (!corrects()) return;
     sky_lights.build(picture.passes());
     passes.build({"sight", "gauge", "correct"});
@@ -147,9 +148,12 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
 }
 
 void IrradianceCache::State::read_sky() {
-    sky = coarse_sky(scene.environment_part(soft_sky(options)));
+    constexpr int of_hemicubes = 128, of_mirrors = 1024;  // columns
+    sky = coarse_sky(scene.environment_part(soft_sky(options)), of_hemicubes);
     if (options.picture.emitters.environment_lights > 1)
-        sky.add(coarse_sky(scene.environment_part(SkyPart::bright)));
+        sky.add(coarse_sky(scene.environment_part(SkyPart::bright), of_hemicubes));
+    if (follows_lobes())
+        mirrored = coarse_sky(scene.environment_part(soft_sky(options)), of_mirrors);
 }
 
 void IrradianceCache::State::add_to(BufferTable& table) {
@@ -175,6 +179,9 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     if (scene.has_lobes())
         table.add(around, "what records have around them", lower,
                   most_around_bytes(scene, options));
+    if (follows_lobes())
+        table.add(mirrored_sky, "the sky", "the environment",
+                  std::max<std::size_t>(16, mirrored.texels.size() * word));
     if (!corrects()) return;
     sky_lights.add_to(table);
     const std::size_t of_picture = picture.stride() * word;

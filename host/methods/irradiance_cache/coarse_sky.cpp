@@ -7,23 +7,17 @@
 #include "scene/environment.hpp"
 
 namespace clgi {
-namespace {
-
-constexpr int sky_columns = 128, sky_rows = 64;
-
-}  // namespace
-
 void CoarseSky::add(const CoarseSky& part) {
     parts += part.parts;
     texels.insert(texels.end(), part.texels.begin(), part.texels.end());
 }
 
-CoarseSky coarse_sky(const std::optional<Environment>& environment) {
+CoarseSky coarse_sky(const std::optional<Environment>& environment, int columns) {
     CoarseSky out;
     if (!environment) return out;
     const Environment picture = with_picture(*environment);
-    out.width = std::min(picture.width, sky_columns);
-    out.height = std::min(picture.height, sky_rows);
+    out.width = std::min(picture.width, columns);
+    out.height = std::min(picture.height, columns / 2);
     std::vector<glm::dvec4> sums(static_cast<std::size_t>(out.width) * out.height, glm::dvec4(0.0));
     for (int y = 0; y < picture.height; ++y) {
         const double weight = texel_solid_angle(picture.width, picture.height, y);

@@ -1,5 +1,5 @@
 // The sky's picture in coarse texels, each the mean over its solid angle: about what a pixel of a
-// hemicube sees.
+// hemicube sees, or what a smooth surface mirrors.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -17,7 +17,7 @@ struct CoarseSky {
     void add(const CoarseSky& part);
 };
 
-// Of 0 texels without an environment.
-CoarseSky coarse_sky(const std::optional<Environment>& environment);
+// At most so many columns, and half as many rows. Of 0 texels without an environment.
+CoarseSky coarse_sky(const std::optional<Environment>& environment, int columns);
 
 }  // namespace clgi

@@ -104,7 +104,8 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     const BuildOptions whole = full(options);
     const std::vector<std::string> records = {"pick", "list", "link", "bounce", "weigh"},
                                    spots = {"mark", "tally", "spots", "shine"},
-                                   sky = {"sight", "gauge", "correct"}, gloss = {"around", "gloss"};
+                                   sky = {"sight", "gauge", "correct"},
+                                   gloss = {"around", "gloss", "reflect"};
     const auto few = [&](const char* pass, const std::vector<std::string>& together) {
         return in_small_groups(programs.kernel("cache", pass, whole, "", together),
                                programs.device(), options);
@@ -127,11 +128,12 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     correct_ = programs.kernel("cache", "correct", whole, "", sky);
     around_ = few("around", gloss);
     gloss_ = programs.kernel("cache", "gloss", whole, "", gloss);
+    reflect_ = few("reflect", gloss);
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
     build_named({pick_, list_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
-                 gauge_, correct_, around_, gloss_},
+                 gauge_, correct_, around_, gloss_, reflect_},
                 passes);
 }
 
@@ -337,6 +339,7 @@ cl::Event CachePasses::gloss(const cl::CommandQueue& queue, const CacheGlossPara
     need_tree(gloss_, tree, b);
     need_stride(gloss_, "stride", params.stride, params.pixel_count);
     need_range("cache.gloss", "directions", params.directions, 1u, 1u << 16);
+    need_range("cache.gloss", "shared", params.shared, 1u, 1u << 24);
     need_around(gloss_, of, tree.record_count, picture.around);
     need(gloss_, "light", b.light, 3 * word * tree.stride);
     need(gloss_, "views", b.views, 5 * sizeof(View) * tree.record_count);
@@ -349,6 +352,29 @@ cl::Event CachePasses::gloss(const cl::CommandQueue& queue, const CacheGlossPara
                   b.nodes, b.lists, b.planes, b.light, b.views, picture.around, scene.materials(),
                   picture.points.planes, picture.points.ids, picture.irradiance, picture.radiance,
                   picture.non_finite);
+}
+
+cl::Event CachePasses::reflect(const cl::CommandQueue& queue, const CacheGlossParams& params,
+                               const CacheParams& of, const CacheTree& tree,
+                               const DeviceScene& scene, const EmitterBuffers& emitters,
+                               const CacheBuffers& b, const Smooth& picture,
+                               const WaitList& wait) const {
+    need_link(reflect_, of, tree, emitters, b);
+    need_stride(reflect_, "stride", params.stride, params.pixel_count);
+    need_range("cache.reflect", "directions", params.directions, 1u, 1u << 16);
+    need_range("cache.reflect", "shared", params.shared, 1u, 1u << 24);
+    need(reflect_, "light", b.light, 3 * word * tree.stride);
+    need(reflect_, "sky", picture.sky,
+         3 * word * std::max<std::size_t>(1, std::size_t{params.sky_width} * params.sky_height));
+    need(reflect_, "planes", picture.points.planes, gbuffer_bytes(reflect_.storage, params.stride));
+    need(reflect_, "ids", picture.points.ids, GBUFFER_ID_PLANES * word * params.stride);
+    need(reflect_, "radiance", picture.radiance, RADIANCE_PLANES * word * params.stride);
+    need(reflect_, "non_finite", picture.non_finite, word);
+    return launch(reflect_, queue, packets(reflect_, params.pixel_count), wait, params, of, tree,
+                  scene.info(), b.views, b.visibility, b.nodes, b.lists, b.planes, b.sky, scene,
+                  emitters.emitters, emitters.views, emitters.visibility, b.by_spots, b.light,
+                  scene.nodes(), scene.clusters(), scene.parts(), picture.sky,
+                  picture.points.planes, picture.points.ids, picture.radiance, picture.non_finite);
 }
 
 std::size_t around_bytes(const CacheAround& of) {

@@ -89,6 +89,8 @@ struct IrradianceCache::State {
     // Where surfaces have lobes: what the records have around them, and what lobes reflect of it.
     void look_around();
     void add_gloss(const View& view);
+    // Whether some are so smooth that they are followed by rays.
+    bool follows_lobes() const;
     void read_sky();
     bool corrects() const { return sky_lights.casts_shadows(); }
     void forget_corrections();
@@ -126,10 +128,10 @@ struct IrradianceCache::State {
     CacheAround surroundings{};
     CacheTree tree{}, all_tree{};  // of those that light goes between, of these and refined ones
     RecordTree planted;            // the last of them
-    CoarseSky sky;
+    CoarseSky sky, mirrored;
     Emitters sky_lights;
     LightPasses lights;
-    cl::Buffer around, sight, found_light, corrections, shares;
+    cl::Buffer around, mirrored_sky, sight, found_light, corrections, shares;
     bool weighed = false;  // whether the records of this picture see the sky is known
     std::shared_ptr<const SkyWeights> sky_weights;  // by these records; null: they do not
     LocalBox receivers{};                           // of light of the sky

@@ -159,12 +159,25 @@ public:
                     const CacheBuffers& buffers, const Glossy& picture,
                     const WaitList& wait = {}) const;
 
+    // Adds what lobes of alpha up to params.smooth reflect, by a ray a direction: buffers.light at
+    // what it meets, or the sky. of: as for link.
+    struct Smooth {
+        GBuffer points;
+        cl::Buffer sky;         // [params.sky_height][params.sky_width][3] float
+        cl::Buffer radiance;    // [RADIANCE_PLANES][params.stride] cd/m^2
+        cl::Buffer non_finite;  // [1] uint, only added to
+    };
+    cl::Event reflect(const cl::CommandQueue& queue, const CacheGlossParams& params,
+                      const CacheParams& of, const CacheTree& tree, const DeviceScene& scene,
+                      const EmitterBuffers& emitters, const CacheBuffers& buffers,
+                      const Smooth& picture, const WaitList& wait = {}) const;
+
     // Builds these kernels now, by the names of the methods (clgi/passes/gbuffer.hpp).
     void build(std::initializer_list<const char*> passes) const;
 
 private:
     PassKernel pick_, list_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
-        gauge_, correct_, around_, gloss_;
+        gauge_, correct_, around_, gloss_, reflect_;
     bool groups_;  // a record by a group of work-items
 };
 

@@ -168,6 +168,10 @@ typedef struct {
     uint first_direction;  // of a sequence
     uint directions;       // a pixel, at least 1
     float exposure;
+    float smooth;  // lobes of alpha up to it are followed by rays (reflect.cl)
+    uint sky_width;  // texels, of the sky that such rays see; 0: none
+    uint sky_height;
+    uint shared;  // directions that a lobe's solid angle is shared by, with those of other samples
     uint pad0_;
     uint pad1_;
     uint pad2_;

@@ -98,6 +98,7 @@ typedef struct {
 enum { NODE_BOXES = 16 };
 #define NODE_CLUSTER 0x80000000u  // of a child that is a cluster
 #define NODE_NONE 0xffffffffu
+enum { NODE_LEVELS = 19 };  // from the root to a cluster at most
 enum { NODE_STACK = 288 };  // children that a walk from the root has put off at most
 
 typedef struct {
