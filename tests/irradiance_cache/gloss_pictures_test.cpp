@@ -282,5 +282,29 @@ TEST(GlossPictures, MirrorWhatIsLit) {
     }
 }
 
+// Two mirrors at a right angle below an even sky send it back as it came.
+TEST(GlossPictures, MirrorAMirror) {
+    const glm::vec3 bases[] = {{0.9f, 0.6f, 0.3f}, {0.4f, 0.7f, 0.8f}}, sky(2.0f, 3.0f, 1.0f);
+    Scene scene = test::plain_scene();
+    scene.materials.clear();
+    for (const glm::vec3& base : bases) {
+        scene.materials.push_back(test::finished(1.0f, 0.1f, 1.0f));
+        scene.materials.back().base_color = glm::vec4(base, 1.0f);
+    }
+    test::add_floor(scene, 2.0, 0.0, 0);
+    test::add_quad(scene, {glm::dvec3(-2, 0, -2), {2, 0, -2}, {2, 3, -2}, {-2, 3, -2}}, 1);
+    scene.environment.emplace().factor = sky;
+    scene.cameras = {test::camera_at({0, 1, 1}, {0, 0, 0}, 0.05f)};
+    const glm::dvec3 found = mean_radiance(pictured(scene, cache_options()).radiance);
+    const double away = std::pow(1.0 - std::sqrt(0.5), 5);
+    for (int c = 0; c < 3; ++c) {
+        const auto reflects = [&](int k) {
+            return away + (1.0 - away) * (1.0 - 1e-4) * bases[k][c];
+        };
+        const double wanted = reflects(0) * reflects(1) * sky[c];
+        EXPECT_NEAR(found[c], wanted, 0.02 * wanted) << c;
+    }
+}
+
 }  // namespace
 }  // namespace clgi

@@ -210,7 +210,8 @@ TEST(Reflect, GoesOnFromWhatIsSmooth) {
     for (const int kind : {0, 1, 2, 3, 4}) {
         Plates plates;
         plates.finish[0] = test::finished(1.0f, 0.1f, 1.0f);
-        plates.finish[1] = test::finished(kind == 1 ? 0.0f : 1.0f, kind == 2 ? 0.5f : 0.1f, 1.0f);
+        plates.finish[1] =
+            test::finished(kind == 1 || kind == 4 ? 0.0f : 1.0f, kind == 2 ? 0.5f : 0.1f, 1.0f);
         plates.textured = kind > 2;
         if (plates.textured) {
             const glm::dvec3 wanted(kind == 3 ? 0.0 : 0.2, kind == 3 ? 0.0 : -0.1, 0.95);
@@ -220,14 +221,17 @@ TEST(Reflect, GoesOnFromWhatIsSmooth) {
         Mirrors lit(plates.scene());
         lit.set_light(2, plates.irradiance[0]);
         lit.set_light(3, plates.irradiance[1]);
-        const glm::dvec3 eye = glm::normalize(glm::dvec3(0.6, 0.8, 0.2)), up(0, 1, 0);
+        // The last at a slant, where it matters how much is reflected, and how wide lobes are: 1 %.
+        const glm::dvec3 eye = glm::normalize(glm::dvec3(0.6, kind == 4 ? 0.25 : 0.8, 0.2)),
+                         up(0, 1, 0);
         lit.of_lobes.eye = glm::vec4(eye, 1.0f);
         const glm::dvec3 found = lit.reflected({{{0.2, 0, 0.1}, up, plates.base[0], 0, -1}})[0];
         const double away = std::pow(1.0 - eye.y, 5);
         const glm::dvec3 wanted =
             (away + (1.0 - away) * (1.0 - 1e-4) * plates.base[0]) *
             plates.sent(glm::reflect(-eye, up), lit.scene.frame().exposure, 0.2);
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 0.01 * wanted[c]) << kind << c;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[c], wanted[c], (kind == 4 ? 0.02 : 0.01) * wanted[c]) << kind << c;
     }
 }
 
