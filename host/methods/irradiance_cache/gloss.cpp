@@ -7,16 +7,18 @@
 namespace clgi {
 namespace {
 
-// Of the lobe, a pixel: in the first sample, which may be the only one, and in those after it.
+// Of the lobe, a pixel: in the first sample, which may be the only one, and in those after it. Each
+// stands for one of `level` parts of it.
 struct Directions {
-    std::uint32_t first, more;
+    std::uint32_t first, more, level;
 };
-constexpr Directions looked_up{8, 2}, followed{4, 1};
+constexpr Directions looked_up{8, 4, 4}, followed{4, 1, 8};
 constexpr float smooth = 0.3f;  // alpha up to which rays pay
 
 void take_directions(CacheGlossParams& params, const Directions& of, std::uint32_t sample) {
     params.directions = sample == 0 ? of.first : of.more;
     params.first_direction = sample == 0 ? 0 : of.first + (sample - 1) * of.more;
+    params.shared = of.level;
 }
 
 }  // namespace
@@ -44,7 +46,6 @@ void IrradianceCache::State::add_gloss(const View& view) {
     params.eye = eye_of(view);
     params.pixel_count = static_cast<std::uint32_t>(picture.pixels());
     params.stride = picture.stride();
-    params.shared = looked_up.first;
     take_directions(params, looked_up, sample);
     params.exposure = static_cast<float>(scene.frame().exposure);
     params.smooth = follows_lobes() ? smooth : 0.0f;
