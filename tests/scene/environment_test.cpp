@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <clgi/reference.hpp>
+#include <cmath>
 #include <numbers>
 
 #include "frames.hpp"
@@ -55,8 +56,9 @@ TEST_P(Background, IsTheEnvironmentThatTheReferenceSees) {
     Camera parallel = test::camera_at({3, 1, 4}, {0, 0.5, 0});
     parallel.kind = Camera::Kind::orthographic;
     parallel.half_height = 5.0f;
-    for (const Camera& camera : {test::camera_at({1, 1.5, 4}, {0, 0.3, 0}, 1.6f),
-                                 test::camera_at({0, 1, 0.9}, {0.1, 5, 0}, 2.5f), parallel}) {
+    for (Camera camera : {test::camera_at({1, 1.5, 4}, {0, 0.3, 0}, 1.6f),
+                          test::camera_at({0, 1, 0.9}, {0.1, 5, 0}, 2.5f), parallel}) {
+        camera.footprint = 1e-9f;  // a point
         reference::Options options;
         options.effects = reference::parse_effects("emission");
         options.samples = 1;
@@ -75,6 +77,36 @@ TEST_P(Background, IsTheEnvironmentThatTheReferenceSees) {
         EXPECT_LE(other, sky / 100);
         EXPECT_EQ(frame.status.non_finite, 0u);
     }
+}
+
+// Of a sky whose texels are as large as pixels: sixteen points find the share of a texel in a pixel
+// to an eighth or so, in either direction.
+TEST_P(Background, IsTheMeanOverAPixel) {
+    Scene scene;
+    scene.environment = test::picture_sky(200, 100, [](int row, int column) {
+        return static_cast<float>(1 + (37 * row + 11 * column) % 7);
+    });
+    Camera camera = test::camera_at({0, 0, 0}, {0.3, 0.2, -1}, 1.2f);
+    reference::Options options;
+    options.effects = reference::parse_effects("emission");
+    options.samples = 400;
+    options.filter = reference::Filter::box;
+    options.width = 67;
+    options.height = 41;
+    const reference::Picture wanted = reference::PathTracer(scene).render(camera, options);
+    const auto error = [&](float footprint) {
+        camera.footprint = footprint;
+        const Frame frame = test::render(scene, camera, options_for(67, 41, GetParam()));
+        double square = 0.0, all = 0.0;
+        for (std::size_t p = 0; p < frame.pixels; ++p) {
+            const double of = double{wanted.radiance[p].y};
+            square += std::pow(double{frame.radiance[p].y} - of, 2.0);
+            all += of * of;
+        }
+        return std::sqrt(square / all);
+    };
+    EXPECT_LT(error(1.0f), 0.06);
+    EXPECT_GT(error(1e-9f), 0.2);
 }
 
 TEST_P(Background, FillsAPictureOfNothing) {

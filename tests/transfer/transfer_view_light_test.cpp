@@ -137,7 +137,8 @@ TEST(DynamicTransferViewLight, TurnsTheSkyWithItsLight) {
     sky.rotation = 0.3f;
     scene.environment = sky;
     Stage stage(scene, false);
-    const Camera camera = test::camera_at({0, 0, 0}, {0, 0, -1});
+    Camera camera = test::camera_at({0, 0, 0}, {0, 0, -1});
+    camera.footprint = 1e-9f;               // a point of the pixel
     const auto texel = [&](double angle) {  // of the view's middle: x = 0, z = -1
         double u = 0.5 + (0.3 + angle) / (2 * pi);
         u -= std::floor(u);
