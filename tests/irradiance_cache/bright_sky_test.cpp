@@ -142,5 +142,34 @@ TEST(BrightSky, LightsPixelsWithShadowsOfItsOwn) {
     }
 }
 
+// Directions of many are drawn where records see the sky, in the first sample of a picture already,
+// and before records read a lamp's shadow map. A picture is the same again after whatever other
+// pictures.
+TEST(BrightSky, IsAimedAtByTheFirstSample) {
+    Scene scene = posts();
+    scene.environment = test::picture_sky(64, 32, [](int row, int column) {
+        const bool lamp = (row == 6 || row == 25) && (column == 20 || column == 50);
+        return lamp ? 500.0f : row < 16 ? 0.7f : 0.0f;
+    });
+    scene.lights = {test::point_light({0.3f, 1.5f, 0.2f}, 300.0f)};
+    const DeviceScene device = test::on_device(scene);
+    IrradianceCache cache(test::programs(), test::device().queue, device, cache_options(60, 200));
+    const auto above = [&] {
+        std::size_t count = 0;
+        const EmitterSet& set = cache.picture().emitters();
+        for (const Emitter& one : set.emitters)
+            count += one.kind == EMITTER_DIRECTIONAL && one.axis.y < 0.0f;
+        return count;
+    };
+    EXPECT_LT(above(), 12u);
+    const auto first = sampled(cache, scene.cameras[0], 1);
+    EXPECT_GT(above(), 12u);
+    EXPECT_EQ(sampled(cache, scene.cameras[0], 1), first);
+    Camera aside = scene.cameras[0];
+    aside.position.x += 0.4;
+    EXPECT_NE(sampled(cache, aside, 3), first);
+    EXPECT_EQ(sampled(cache, scene.cameras[0], 1), first);
+}
+
 }  // namespace
 }  // namespace clgi

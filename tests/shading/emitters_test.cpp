@@ -331,14 +331,16 @@ TEST(Emitters, KnowWhetherTheirShadowsAreSoft) {
     EXPECT_FALSE(soft(0, 0));
     EXPECT_TRUE(soft(3, 0));
     EXPECT_TRUE(soft(0, 3));
-    const auto samples = [&](int surfaces, int directions) {
+    const auto samples = [&](int surfaces, int directions, std::size_t pixels = 1u << 20) {
         const DeviceScene scene = test::on_device(world);
         return Emitters(scene, {.area_samples = surfaces, .environment_lights = directions})
-            .samples_a_map(1u << 20);
+            .samples_a_map(pixels);
     };
     EXPECT_EQ(samples(0, 0), 16u);
     EXPECT_EQ(samples(3, 0), 2u);
-    EXPECT_EQ(samples(0, 3), 2u);
+    // Another for each sample of a picture this large, but not of a small one.
+    EXPECT_EQ(samples(0, 3), 1u);
+    EXPECT_EQ(samples(0, 3, 1u << 6), 2u);
 }
 
 TEST(Emitters, OfAnEnvironmentAreCutAnewForAnotherCount) {

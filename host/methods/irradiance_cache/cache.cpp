@@ -242,7 +242,7 @@ void IrradianceCache::lights_changed() {
 
 cl::Event IrradianceCache::render(const Camera& camera, const WaitList& wait) {
     State& s = *state_;
-    const View view = s.picture.begin(camera, wait);
+    const View view = s.picture.begin(camera, wait, !s.aims());
     s.forget_corrections();
     s.choose(view);
     if (s.records.empty()) {
@@ -271,8 +271,10 @@ cl::Event IrradianceCache::render_again(const Camera& camera, const WaitList& wa
 }
 
 void IrradianceCache::sample(std::uint32_t index) {
-    state_->picture.sample(index);
-    state_->sample = index;
+    State& s = *state_;
+    if (index == 0) s.picture.weigh_sky(nullptr);  // by what this picture's records see, later
+    s.picture.sample(index);
+    s.sample = index;
 }
 
 IrradianceCacheStatus IrradianceCache::status() const {

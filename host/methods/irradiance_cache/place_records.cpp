@@ -149,9 +149,12 @@ void IrradianceCache::State::choose(const View& view) {
     found.met = found.refined = found.spots = 0;
     spots = {};
     has_tiles = false;
+    if (!records.empty()) {
+        write_records();
+        draw(0);
+    }
+    aim_lights();
     if (records.empty()) return;
-    write_records();
-    draw(0);
     const auto met = static_cast<std::size_t>(options.met);
     const std::size_t weighed = 2 * met / 3, spread = met - weighed;
     meet(0, spread - spread / 3);

@@ -132,16 +132,28 @@ void IrradianceCache::State::light_by_sky(const Part& part, const cl::Buffer& pl
     });
 }
 
+void IrradianceCache::State::weigh_sky_once() {
+    if (weighed) return;
+    weighed = true;
+    sky_weights = weigh_sky();
+    picture.weigh_sky(sky_weights);
+}
+
+void IrradianceCache::State::aim_lights() {
+    if (!aims()) return;
+    if (!records.empty()) weigh_sky_once();
+    picture.lights_changed();
+    picture.draw_lights();
+}
+
 bool IrradianceCache::State::draw_sky() {
     Recorder& record = picture.record();
-    if (!weighed) {
-        weighed = true;
-        sky_weights = weigh_sky();
-        picture.weigh_sky(sky_weights);
+    weigh_sky_once();
+    if (!sky_weights) return false;
+    if (gauged.total == 0.0f) {
         receivers = lit_by_sky();
         record.fill(corrections, 0);
     }
-    if (!sky_weights) return false;
     EmitterOptions wanted = sky_options(options, sample);
     wanted.sky_weights = sky_weights;
     wanted.receivers = receivers;

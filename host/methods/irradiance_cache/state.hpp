@@ -85,6 +85,11 @@ struct IrradianceCache::State {
     };
     void show_by_sky();
     bool draw_sky();
+    // Whether emitters stand for many bright directions of the sky, which are drawn where the
+    // records see it as soon as there are some.
+    bool aims() const { return sky.parts > 1 && corrects(); }
+    void aim_lights();
+    void weigh_sky_once();
     void correct(const Part& part);
     // Where surfaces have lobes: what the records have around them, and what lobes reflect of it.
     void look_around();

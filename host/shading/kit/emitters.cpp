@@ -71,9 +71,15 @@ void Emitters::adopt(Emitters&& planned) {
 std::uint32_t Emitters::samples_a_map(std::size_t pixels) const {
     constexpr std::size_t few = 2, many = 16;
     constexpr std::size_t cheaper = 16;  // a pixel of a map than one of a picture
+    // A sample takes as long as so many pixels of maps for each of its own, and a triangle in a map
+    // as so many of its pixels.
+    constexpr std::size_t a_sample = 64, a_triangle = 6;
+    const std::size_t drawn =
+        set_.pixels + a_triangle * set_.views.size() * scene_->info().triangle_count;
     const bool soft = scene_->has_blended() || set_.soft();
+    const std::size_t often = set_.directions > 0 && drawn < a_sample * pixels ? 1 : few;
     return static_cast<std::uint32_t>(
-        soft ? few : std::max(many, set_.pixels / std::max<std::size_t>(cheaper * pixels, 1)));
+        soft ? often : std::max(many, set_.pixels / std::max<std::size_t>(cheaper * pixels, 1)));
 }
 
 void Emitters::write(Recorder& record) const {

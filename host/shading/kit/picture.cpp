@@ -76,13 +76,15 @@ void Picture::sample(std::uint32_t index) {
     lights_changed();
 }
 
-View Picture::begin(const Camera& camera, const WaitList& wait) {
+View Picture::begin(const Camera& camera, const WaitList& wait, bool lights) {
     const View view = make_view(camera, scene_.frame(), options_.width, options_.height);
     record_.begin(wait);
-    emitters_.draw(record_, gbuffer_, raster_);
+    if (lights) draw_lights();
     draw_gbuffer(record_, gbuffer_, scene_, view, view_, raster_, seen_, RESOLVE_TRIANGLE);
     return view;
 }
+
+void Picture::draw_lights() { emitters_.draw(record_, gbuffer_, raster_); }
 
 void Picture::weigh_sky(std::shared_ptr<const SkyWeights> weights) {
     options_.emitters.sky_weights = std::move(weights);

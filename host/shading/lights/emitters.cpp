@@ -120,7 +120,7 @@ Source directional(const Light& light, const SceneFrame& frame, const EmitterOpt
 // Directional lights that stand for the environment: in later samples and replicates the next ones
 // of a Halton sequence of places.
 std::vector<Light> sky_lights(const DeviceScene& scene, const EmitterOptions& options) {
-    if (seed_of(options) == 0)
+    if (seed_of(options) == 0 && !options.sky_weights)
         return scene.environment_lights(options.environment_lights, options.sky_part);
     const auto count = static_cast<std::uint32_t>(options.environment_lights);
     const auto place = [&](std::uint32_t index, std::uint32_t base, std::uint32_t dimension) {

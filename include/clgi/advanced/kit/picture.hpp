@@ -51,8 +51,10 @@ public:
     void sample(std::uint32_t index);
 
     // Enqueues shadow maps and the G-buffer of a picture that begins after `wait`. The solver then
-    // records what writes irradiance(), all of its pixels.
-    View begin(const Camera& camera, const WaitList& wait);
+    // records what writes irradiance(), all of its pixels. lights: false: shadow maps are left to
+    // draw_lights(), which the solver calls before what reads them.
+    View begin(const Camera& camera, const WaitList& wait, bool lights = true);
+    void draw_lights();
     // By which directions of the environment are drawn when lights are read again.
     void weigh_sky(std::shared_ptr<const SkyWeights> weights);
     // Direct light and irradiance to radiance().
