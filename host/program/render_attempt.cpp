@@ -56,7 +56,7 @@ RenderAttempt::RenderAttempt(const RenderFlags& flags, const Session& session,
       last_camera_(camera_),
       moves_(flags.fps && moves(scene_)) {
     record_.planned = std::move(planned);
-    renderer_.build();
+    renderer_.build(is_still(flags_));
     if (gl_) gl_->open(session_.queue, renderer_);
     record_.build_ms = 1e3 * watch_.seconds();
     for (const std::string& warning : renderer_.status().warnings)
@@ -122,6 +122,7 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error) {
         }
         const double taken = time_apart([&] { renderer_.refine(); });
         longest = std::max(longest, taken);
+        if (!(spent > 0.0)) first_refine_ms_ = taken;
         spent += taken;
     }
     picture_ = lab::radiance_picture(renderer_);
@@ -140,7 +141,8 @@ double RenderAttempt::time_apart(const std::function<void()>& draw) {
 std::optional<Sampling> RenderAttempt::sampling() const {
     if (!(record_.refine_ms > 0.0)) return std::nullopt;
     const double count = renderer_.samples();
-    return Sampling{renderer_.sampling_error(), count, refining() / (count - 1.0)};
+    return Sampling{renderer_.sampling_error(), count,
+                    seconds_each(count, 1e-3 * first_refine_ms_, refining())};
 }
 
 // A frame's time has all in it that follows from the lights and the pose: of a bake, only what has

@@ -76,6 +76,7 @@ private:
     bool moves_;          // vertices do, between frames
     AntiradianceFrames exchanges_;
     RenderRecord record_;
+    double first_refine_ms_ = 0.0;
     io::Image picture_;  // of the last frame
 };
 

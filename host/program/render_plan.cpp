@@ -197,7 +197,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         }
         spent += attempt->seconds();
         if (budget) {
-            constexpr double looking = 0.05;  // of the budget, at what samples bring
+            constexpr double looking = 0.08;  // of the budget, at what samples bring
             if (attempt->seconds() <= *budget - spent) attempt->refine(looking * *budget, 2, 0.0);
             next = use_rest(session.device, *planned, attempt->seconds(),
                             *budget - spent - attempt->refining(), attempt->sampling());

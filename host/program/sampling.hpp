@@ -13,6 +13,12 @@ struct Sampling {
     double error = 0.0, count = 1.0, seconds = 0.0;
 };
 
+// Of so many samples, that come after the picture of the first and take so long together, the next
+// one makes what those after it have: it counts where there is no other.
+inline double seconds_each(double count, double next, double all) {
+    return count > 2.0 ? (all - next) / (count - 2.0) : all;
+}
+
 // The error of a picture whose settings err by so much, with as many samples as the seconds allow
 // beside its first one. What edges, textures and lobes leave falls faster than one over the root of
 // their number, by about this power of it (docs/results/irradiance-cache.md).

@@ -218,7 +218,10 @@ Estimate Renderer::estimate() const {
     }
 }
 
-void Renderer::build() { state_->build(); }
+void Renderer::build(bool samples) {
+    state_->build();
+    if (samples) state_->samples.build();
+}
 
 bool Renderer::prepare(const Progress& progress) {
     state_->shown = false;

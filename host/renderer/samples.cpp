@@ -34,6 +34,11 @@ Camera sampled(const Camera& camera, std::uint32_t index) {
 Samples::Samples(const Programs& programs, const cl::CommandQueue& queue)
     : programs_(programs), queue_(queue) {}
 
+void Samples::build() {
+    if (!passes_) passes_.emplace(programs_);
+    passes_->build({"accumulate"});
+}
+
 void Samples::keep(const Radiance& first, std::size_t pixels, cl::Event& last) {
     if (count_ > 1) return;
     const std::size_t bytes = MEAN_PLANES * std::size_t{first.stride} * sizeof(float);
@@ -41,7 +46,7 @@ void Samples::keep(const Radiance& first, std::size_t pixels, cl::Event& last) {
         mean_ = cl::Buffer(programs_.context(), CL_MEM_READ_WRITE, bytes);
         bytes_ = bytes;
     }
-    if (!passes_) passes_.emplace(programs_);
+    build();
     const WaitList wait = last() ? WaitList{last} : WaitList();
     queue_.enqueueFillBuffer(mean_, 0.0f, 0, bytes, &wait, &last);
     count_ = 0;

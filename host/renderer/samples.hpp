@@ -19,6 +19,8 @@ class Samples {
 public:
     Samples(const Programs& programs, const cl::CommandQueue& queue);
 
+    void build();  // its kernel
+
     // A picture of one sample so far.
     void begin(const Camera& camera) {
         camera_ = camera;

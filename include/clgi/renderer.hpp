@@ -107,8 +107,9 @@ public:
     Estimate estimate() const;
 
     // Makes solver and view: kernels, layouts, links, buffers. The first prepare() or render() does
-    // it where this was not called. Throws what the solvers do.
-    void build();
+    // it where this was not called. Throws what the solvers do. samples: with what refine() needs,
+    // which its first call makes otherwise.
+    void build(bool samples = false);
 
     // What precedes a picture: a bake, an exchange, transfer vectors and their light; after a
     // change of lights alone what follows from it. Waits for it, but for dynamic transfer and where

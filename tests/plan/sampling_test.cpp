@@ -19,6 +19,12 @@ TEST(Sampling, AddsToTheErrorOfSettings) {
     EXPECT_DOUBLE_EQ(error_with_samples(0.0, one, -3.0), 0.8);  // no time is left
 }
 
+TEST(Sampling, TakesAsLongAsWithoutWhatIsMadeOnce) {
+    EXPECT_DOUBLE_EQ(seconds_each(2.0, 0.5, 0.5), 0.5);
+    EXPECT_DOUBLE_EQ(seconds_each(3.0, 0.5, 0.75), 0.25);
+    EXPECT_DOUBLE_EQ(seconds_each(6.0, 0.5, 1.5), 0.25);
+}
+
 // Finer settings leave less time: which is best depends on what a sample brings.
 TEST(Sampling, DecidesBetweenCoarseAndFineSettings) {
     const auto fine_is_better = [](double error) {
