@@ -66,16 +66,6 @@ void change_emitters(Plan& plan, const Change& change) {
     plan.transfer_view.picture = plan.picture;
 }
 
-// Whether points on emissive surfaces are not enough: most of them would lie where the picture does
-// not reach, or each stands for more than a small part of what that is across.
-bool lamps_are_large(const Plan& plan) {
-    constexpr double small = 0.06, few = 0.3;
-    const Reach reach = plan.reach.value_or(Reach());
-    const double point =
-        std::sqrt(reach.emissive_area / (std::numbers::pi * plan.picture.emitters.area_samples));
-    return reach.hidden > few || (reach.points > 0 && point > small * reach.sphere.radius);
-}
-
 // Side of shadow maps. Of few suns and spots, a texel is a third of what a pixel covers: edges are
 // two texels wide.
 int map_side(const Plan& plan, int fineness) {
@@ -129,7 +119,7 @@ void use_preset(Plan& plan, const Preset& preset) {
         case Method::dynamic_transfer:
             break;
         case Method::irradiance_cache:
-            plan.cache.emission = plan.on(Effect::area_light) && lamps_are_large(plan);
+            plan.cache.emission = lamps_are_large(plan);
             plan.cache.seen = preset.places;
             // Finely modelled surfaces differ more among themselves than what lights them does.
             plan.cache.met = (is_fine(plan) ? 1 : 3) * preset.places;
@@ -141,6 +131,15 @@ void use_preset(Plan& plan, const Preset& preset) {
 }
 
 }  // namespace
+
+bool lamps_are_large(const Plan& plan) {
+    constexpr double small = 0.06, few = 0.3;
+    if (!plan.on(Effect::area_light)) return false;
+    const Reach reach = plan.reach.value_or(Reach());
+    const double point =
+        std::sqrt(reach.emissive_area / (std::numbers::pi * plan.picture.emitters.area_samples));
+    return reach.hidden > few || (reach.points > 0 && point > small * reach.sphere.radius);
+}
 
 void set(Plan& plan, const Preset& preset, int fineness) {
     const PlanRequest& request = plan.request;

@@ -3,9 +3,12 @@
 #include "plan/probe.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
 
 #include "frames.hpp"
+#include "plan/expected_error.hpp"
+#include "plan/presets.hpp"
 #include "scenes.hpp"
 #include "slanted_room.hpp"
 
@@ -64,6 +67,34 @@ TEST(Probe, TakesTheErrorOfDirectLightFromTwoPictures) {
     EXPECT_EQ(found.first_bounce, 0.0);  // it is off
 }
 
+// Points stand for too much of a lamp that is large beside what the picture reaches: hemicubes see
+// it.
+TEST(Plan, LightsByLargeLampsAsHemicubesSeeThem) {
+    const auto error = [](Method method, double area) {
+        Plan plan;
+        for (EffectChoice& effect : plan.effects) effect.on = true;
+        plan.effects[static_cast<std::size_t>(Effect::environment_light)].on = false;
+        plan.analysis.surfaces.largest_albedo = 0.5;
+        plan.request.refined = true;
+        plan.method = method;
+        plan.reach = Reach();
+        plan.reach->points = 200;
+        plan.reach->sphere.radius = 5.0;
+        plan.reach->emissive_area = area;
+        const std::vector<Preset>& all = presets();
+        const auto found = std::find_if(all.begin(), all.end(), [&](const Preset& preset) {
+            return preset.method == method && preset.error[1] > 0.0;
+        });
+        return expected_error(plan, *found).value();
+    };
+    // A sixteenth as a disc: 0.06 of 5 m across are 4.5 m^2 in all.
+    for (const Method method : {Method::light_atlas, Method::antiradiance, Method::second_order}) {
+        EXPECT_LT(error(method, 4.0), 0.9);
+        EXPECT_GT(error(method, 5.0), 1.0);
+    }
+    EXPECT_EQ(error(Method::irradiance_cache, 4.0), error(Method::irradiance_cache, 5.0));
+}
+
 // The sun over a room: with a roof next to nothing of what it lights is seen, without one much is.
 TEST(Plan, GathersWhereLittleOfTheLightArrives) {
     for (const bool roofed : {true, false}) {
@@ -80,8 +111,7 @@ TEST(Plan, GathersWhereLittleOfTheLightArrives) {
         PlanRequest request;
         request.width = 64;
         request.height = 48;
-        const Plan plan =
-            make_plan(test::device().queue, test::programs(), scene, camera, request);
+        const Plan plan = make_plan(test::device().queue, test::programs(), scene, camera, request);
         ASSERT_TRUE(plan.probe);
         EXPECT_EQ(plan.probe->reflected > 10.0, roofed);
         EXPECT_EQ(plan.why == "little of the light reaches the picture", roofed) << plan.why;
