@@ -13,7 +13,7 @@ struct Directions {
     std::uint32_t first, more, level;
 };
 constexpr Directions looked_up{8, 4, 4}, followed{4, 1, 8};
-constexpr float smooth = 0.3f;  // alpha up to which rays pay
+constexpr float smooth = 0.25f;  // alpha up to which rays pay
 
 void take_directions(CacheGlossParams& params, const Directions& of, std::uint32_t sample) {
     params.directions = sample == 0 ? of.first : of.more;

@@ -23,8 +23,10 @@ constexpr int nearby = 1;      // texels by which what records see is spread, as
 constexpr std::uint32_t parted = 4, most_parts = 4;
 constexpr float facing = 0.3f;   // as CACHE_FACING (kernels/cache/lookup.clh)
 constexpr float beyond = 0.01f;  // of a picture's size, that its later samples may see past it
-// Of the most that is seen of any direction, how much counts as seen of those that no record sees.
-constexpr double unseen = 0.002;
+// Of the most that is seen of any direction, how much counts as seen of those that no record sees:
+// between records more is seen, of about the same directions, and hardly of others.
+constexpr double unseen = 0.002, hardly = 0.0002;
+constexpr int about = 6;  // texels
 
 }  // namespace
 
@@ -65,26 +67,30 @@ std::shared_ptr<const SkyWeights> IrradianceCache::State::weigh_sky() {
     const WaitList pending = record.waits();
     record.queue().enqueueReadBuffer(sight, CL_TRUE, 0, seen.size() * sizeof(std::uint32_t),
                                      seen.data(), &pending);
-    std::vector<double> of_texel(seen.size());
+    // Of the texels so far around one, by solid angle.
+    const auto mean = [&](int row, int column, int far) {
+        double sum = 0.0, angle = 0.0;
+        for (int down = -far; down <= far; ++down) {
+            const int line = std::clamp(row + down, 0, height - 1);
+            angle += (2 * far + 1) * texel_solid_angle(width, height, line);
+            for (int across = -far; across <= far; ++across) sum += seen[at(line, column + across)];
+        }
+        return sum / angle;
+    };
+    std::vector<double> shares, least;
     double most = 0.0;
     for (int row = 0; row < height; ++row)
         for (int column = 0; column < width; ++column) {
-            double sum = 0.0, angle = 0.0;
-            for (int down = -nearby; down <= nearby; ++down) {
-                const int line = std::clamp(row + down, 0, height - 1);
-                angle += (2 * nearby + 1) * texel_solid_angle(width, height, line);
-                for (int across = -nearby; across <= nearby; ++across)
-                    sum += seen[at(line, column + across)];
-            }
-            of_texel[at(row, column)] = sum / angle;
-            most = std::max(most, sum / angle);
+            shares.push_back(mean(row, column, nearby));
+            least.push_back(mean(row, column, about) > 0.0 ? unseen : hardly);
+            most = std::max(most, shares.back());
         }
     if (!(most > 0.0)) return nullptr;
     auto out = std::make_shared<SkyWeights>();
     out->columns = width;
     out->rows = height;
-    for (const double share : of_texel)
-        out->values.push_back(static_cast<float>(std::sqrt(share / most + unseen)));
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        out->values.push_back(static_cast<float>(std::sqrt(shares[i] / most + least[i])));
     return out;
 }
 
