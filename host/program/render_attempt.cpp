@@ -105,8 +105,7 @@ void RenderAttempt::follow(const Motion::Step& step, bool vectors) {
         renderer_.geometry_changed();
 }
 
-void RenderAttempt::refine(double seconds, std::uint32_t least, double error) {
-    constexpr std::uint32_t most = 1024;
+void RenderAttempt::refine(double seconds, std::uint32_t least, double error, std::uint32_t most) {
     if (!is_still(flags_) || is_given(flags_, "samples")) return;
     const double limit = 1e3 * seconds;
     double& spent = record_.refine_ms;

@@ -61,8 +61,8 @@ std::optional<double> time_budget(const RenderFlags& flags, const PlanRequest& r
 // The trial or, where that would leave too little, the only picture, which leaves time for samples.
 // left: seconds of the budget behind the plan.
 Plan begun(const cl::Device& device, const Plan& plan, double budget, double left) {
-    constexpr double share = 0.12;              // of the budget
-    constexpr double most = 0.14, alone = 0.7;  // of what is left
+    constexpr double share = 0.06;               // of the budget
+    constexpr double most = 0.14, alone = 0.35;  // of what is left
     const Plan trial = trial_plan(device, plan, share * budget);
     if (trial.cost.total_ms() <= 1e3 * most * left) return trial;
     return trial_plan(device, plan, alone * left);
@@ -82,15 +82,17 @@ std::optional<Planned> use_rest(const cl::Device& device, const Planned& planned
     if (!sampling || !plan.error) {
         best = next_within(1.0);
     } else {
+        // Settings err by more in some scenes than where that was measured; samples, as they do
+        // here. So finer settings are taken where they are expected to err about as little.
+        constexpr double about = 1.1;
         double least = error_with_samples(*plan.error, *sampling, left);
-        for (const double share : {1.0, 0.75, 0.5, 0.35, 0.2}) {
+        for (const double share : {0.2, 0.35, 0.5, 0.75, 1.0}) {
             const std::optional<Plan> next = next_within(share);
             if (!next || !next->error) continue;
             const double error =
                 error_with_samples(*next->error, *sampling, left - 1e-3 * next->cost.total_ms());
-            if (!(error < least)) continue;
-            least = error;
-            best = next;
+            least = std::min(least, error);
+            if (error < about * least) best = next;
         }
     }
     if (!best) return std::nullopt;
@@ -197,8 +199,10 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         }
         spent += attempt->seconds();
         if (budget) {
-            constexpr double looking = 0.08;  // of the budget, at what samples bring
-            if (attempt->seconds() <= *budget - spent) attempt->refine(looking * *budget, 2, 0.0);
+            constexpr double looking = 0.1;      // of the budget, at what samples bring
+            constexpr std::uint32_t enough = 4;  // of them
+            if (attempt->seconds() <= *budget - spent)
+                attempt->refine(looking * *budget, 2, 0.0, enough);
             next = use_rest(session.device, *planned, attempt->seconds(),
                             *budget - spent - attempt->refining(), attempt->sampling());
             if (next) spent += attempt->refining();
