@@ -6,7 +6,8 @@
 Compiles every installed kernel, one lane wide and in its form for groups, with clang and libclc to
 PTX (registers by ptxas, where that is there; libclc has no 64-bit atomics for it, so in two stages)
 and to AMD's code, and prints a table. Ends with 1 where
-a kernel does not compile, or takes more than --most-stack bytes a lane or --most-local bytes.
+a kernel does not compile, or takes more than --most-stack bytes a lane or --most-local bytes, and with
+77 where clang or libclc is not installed.
 SPDX-License-Identifier: MIT
 """
 import argparse
@@ -26,11 +27,15 @@ DEVICES = {"sm_90": (65536, 255, 2048, 233472), "gfx1100": (196608, 256, 2048, 1
            "gfx90a": (131072, 512, 2048, 65536)}
 WAVE = {"sm_90": 32, "gfx1100": 32, "gfx90a": 64}
 GRANULE = {"sm_90": 8, "gfx1100": 24, "gfx90a": 8}  # of registers
-DEFINES = {"antiradiance/pull": ["-DCLGI_GROUPS"]}
+DEFINES = {"antiradiance/pull": ["-DCLGI_GROUPS"], "transfer/project_columns": ["-DCLGI_GROUPS"]}
 NO_PTXAS, NO_SAMPLERS = "no ptxas", "libclc has no samplers"
 FOR_CPUS = {"gbuffer/trace_views"}  # groups rasterise instead
+# Kernels that may have more stack than --most-stack, and why.
+MORE_STACK = {"cache/reflect": "a walk through the boxes, shadow maps and textures of what rays meet",
+              "gbuffer/import_images": "libclc keeps an image of 16 KB for each that it reads"}
 GROUP = {"gbuffer/raster_large_group": 32, "gbuffer/raster_views_group": 128,
-         "cache/link_group": 32, "antiradiance/global_group": 32, "antiradiance/local_group": 32}
+         "cache/link_group": 32, "antiradiance/global_group": 32, "antiradiance/local_group": 32,
+         "antiradiance/gloss_group": 64, "antiradiance/lobes_group": 64}
 
 
 def run(command):
@@ -85,12 +90,16 @@ def main():
     parser.add_argument("kernels", type=pathlib.Path)
     parser.add_argument("--targets", default="sm_90,gfx1100,gfx90a")
     parser.add_argument("--only", help="these kernels, with commas")
-    parser.add_argument("--most-stack", type=int, default=1 << 30, help="bytes a lane")
+    parser.add_argument("--most-stack", type=int, default=512, help="bytes a lane")
     parser.add_argument("--most-local", type=int, default=32768, help="bytes a group")
     parser.add_argument("--clang", default="clang-15")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     global OPTIONS
     OPTIONS = parser.parse_args()
+    for needed in (OPTIONS.clang, CLC):
+        if not shutil.which(needed) and not pathlib.Path(needed).exists():
+            print(f"gpu_isa: {needed} is not installed")
+            sys.exit(77)
     OPTIONS.ptxas = shutil.which("ptxas") or shutil.which("/usr/local/cuda/bin/ptxas")
     names = sorted(str(path.relative_to(OPTIONS.kernels).with_suffix(""))
                    for path in OPTIONS.kernels.rglob("*.cl"))
@@ -121,10 +130,13 @@ def main():
                     registers, stack, local = one
                     share = lanes_at_once(target, name, registers, local)
                     cells.append(f"{registers}, {stack}, {local}, {100 * share:.0f} %")
-                    if stack > OPTIONS.most_stack or local > OPTIONS.most_local:
+                    large = stack > OPTIONS.most_stack and name not in MORE_STACK
+                    if large or local > OPTIONS.most_local:
                         failed.append(f"{name}, {target}: {stack} bytes of stack, {local} of local "
                                       "memory")
                 print(f"| {name} | {' | '.join(cells)} |", flush=True)
+    for name, why in MORE_STACK.items():
+        print(f"not held to {OPTIONS.most_stack} bytes of stack: {name} ({why})", file=sys.stderr)
     for line in failed:
         print(line, file=sys.stderr)
     sys.exit(1 if failed else 0)

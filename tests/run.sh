@@ -4,8 +4,8 @@
 #   tests/run.sh [--all|--slow] [cmake options]     for example -DCLGI_WERROR=ON
 #
 # Without --all those are left out that take longest (label "slow", tests/CMakeLists.txt): users of
-# an installed clgi, kernels in an interpreter, every kernel in every form, the longest sweeps and
-# references. --slow runs these alone; continuous integration does so in a job of its own. The
+# an installed clgi, kernels in an interpreter, every kernel in every form, kernels compiled for GPUs,
+# the longest sweeps and references. --slow runs these alone; continuous integration does so in a job of its own. The
 # entries of the stability suite are always left out: they repeat cases of the shards.
 #
 # Ends with ctest's summary and its exit code. A run without a test on an OpenCL device fails.
@@ -21,6 +21,7 @@ case ${1:-} in
 esac
 [[ $part == default ]] && left_out+=(--label-exclude '^slow$')
 [[ $part == slow ]] && left_out+=(--label-regex '^slow$')
+[[ $part == default ]] || clgi_packages+=(clang-15 libclc-15)  # of samples/gpu_isa.py
 [[ $part == default ]] || export CLGI_ALL_WIDTHS=1  # packets of all widths, not only the device's
 
 build=$clgi_root/build

@@ -12,8 +12,8 @@
 // Cost         that of antiradiance.local; for a pair of bins above the surface 17 multiply-adds, 6
 //              other operations on floats and 12 on integers: a quarter of CLGI_BINS squared pairs
 // SPDX-License-Identifier: MIT
+#include "antiradiance/glossy.clh"
 #include "antiradiance/leaf.clh"
-#include "antiradiance/lobe.clh"
 
 // Red, green and blue of the bins above a surface.
 typedef struct {
@@ -40,21 +40,7 @@ CLGI_INLINE void convolve(const Front* front, float exponent, const FrontLight* 
     }
 }
 
-kernel void antiradiance_gloss(
-    const ElementParams      params,                 // count: glossy leaves
-    global const GlossyLeaf* restrict glossy,        // [count]
-    LINK_ARGUMENTS,
-    global const float4*     restrict incident,      // [inner elements][CLGI_BINS] radiance
-    global const float4*     restrict directions,    // [CLGI_BINS] unit; w: sr
-    LEAF_ARGUMENTS,
-    global const float*      restrict planes,        // [4][ROW_BINS] of the same; opposite in halves
-    global const float*      restrict factors,       // [count][CLGI_BINS] of antiradiance.lobes
-    global const float4*     restrict colors,        // [count] rgb of the lobe
-    global const float*      restrict gloss_sources, // [count][3][ROW_BINS] radiance, no pass's
-    global float*            restrict arriving,      // [count][3][ROW_BINS] radiance, in front
-    global float4*           restrict next_powers,   // [elements] of no meaning for lobes: 0
-    global Intensity*        restrict next)          // [rows][CLGI_BINS] over 2^row_exponent
-{
+kernel void antiradiance_gloss(GLOSS_ARGUMENTS) {
     uint at = (uint)get_global_id(0);
     if (at >= params.count) return;
     uint element = glossy[at].element;
@@ -88,15 +74,14 @@ kernel void antiradiance_gloss(
             leaves[bin] = load_intensity(exitant, first + bin);
     }
     float exponent = glossy[at].exponent;
-    // By bits, since fast math takes every number for finite.
-    int good = is_finite3(arrived.xyz) && (as_uint(exponent) & 0x7fffffffu) <= NOT_FINITE;
+    int good = is_finite3(arrived.xyz) && lobe_is_number(exponent);
     if (params.step & LOCAL_REFLECT) {
         Front front;
         find_front(leaf.normal.xyz, planes, &front);
         global const float* factor = factors + (ulong)at * CLGI_BINS;
         FrontLight light, made;
         for (uint k = 0; k < HALF_BINS; ++k) {
-            uint from = bin_below(&front, k);
+            uint from = bin_below(front.turned[k], k);
             float4 flux = factor[from] * front.projected[k] * arrives[from];
             light.channel[0][k] = flux.x;
             light.channel[1][k] = flux.y;
@@ -108,7 +93,7 @@ kernel void antiradiance_gloss(
             made = light;  // none of it, or what is no number
         global const float* source = gloss_sources + (ulong)at * 3 * ROW_BINS;
         for (uint k = 0; k < HALF_BINS; ++k) {
-            uint bin = bin_above(&front, k);
+            uint bin = bin_above(front.turned[k], k);
             float4 made_here = (float4)(made.channel[0][k], made.channel[1][k],
                                         made.channel[2][k], 0.0f);
             float4 own = (float4)(source[bin], source[ROW_BINS + bin],

@@ -25,21 +25,33 @@ typedef struct {
     float3 reflected;  // rgb, times albedo and colour
 } LobeLight;
 
-// Adds it to the bins of a row, around the mean direction.
+// A packet of bins: their cosines with a normal, and how much of what is mirrored to a direction leaves
+// along them.
+CLGI_INLINE floatp spread_toward(global const float* bins, float3 normal, float3 toward,
+                                 float exponent, floatp* cosine) {
+    floatp x = packet_load(bins), y = packet_load(bins + ROW_BINS),
+           z = packet_load(bins + 2 * ROW_BINS);
+    *cosine = packet_dot(x, y, z, packet_splat(normal.x), packet_splat(normal.y),
+                         packet_splat(normal.z));
+    return packet_select(packet_zero,
+                         lobe_toward(x, y, z, toward.x, toward.y, toward.z, exponent),
+                         *cosine > packet_zero);
+}
+
+// Adds it to the bins of a row, around the mean direction. One lane wide it finds the shares of the
+// bins twice, for lack of room.
 CLGI_INLINE void spread(LobeLight light, float3 intensity, float3 normal, float exponent,
                         global const float* bins, global float* row) {
     float3 toward = light.toward / sqrt(dot(light.toward, light.toward));
+    floatp sums = packet_zero, cosine;
+#if CLGI_WIDTH > 1
     float share[ROW_BINS];
-    floatp sums = packet_zero;
+#endif
     for (uint bin = 0; bin < ROW_BINS; bin += CLGI_WIDTH) {
-        floatp x = packet_load(bins + bin), y = packet_load(bins + ROW_BINS + bin),
-               z = packet_load(bins + 2 * ROW_BINS + bin);
-        floatp cosine = packet_dot(x, y, z, packet_splat(normal.x), packet_splat(normal.y),
-                                   packet_splat(normal.z));
-        floatp here = packet_select(
-            packet_zero, lobe_toward(x, y, z, toward.x, toward.y, toward.z, exponent),
-            cosine > packet_zero);
+        floatp here = spread_toward(bins + bin, normal, toward, exponent, &cosine);
+#if CLGI_WIDTH > 1
         packet_store(here, share + bin);
+#endif
         sums = fma(here, cosine * packet_load(bins + 3 * ROW_BINS + bin), sums);
     }
     float lanes[CLGI_WIDTH], sum = 0.0f;
@@ -48,12 +60,17 @@ CLGI_INLINE void spread(LobeLight light, float3 intensity, float3 normal, float 
     if (sum == 0.0f) return;  // it goes into the surface
     float channel[3] = {light.reflected.x * intensity.x / sum, light.reflected.y * intensity.y / sum,
                         light.reflected.z * intensity.z / sum};
-    for (int c = 0; c < 3; ++c)
-        for (uint bin = 0; bin < ROW_BINS; bin += CLGI_WIDTH) {
+    for (uint bin = 0; bin < ROW_BINS; bin += CLGI_WIDTH) {
+#if CLGI_WIDTH > 1
+        floatp here = packet_load(share + bin);
+#else
+        floatp here = spread_toward(bins + bin, normal, toward, exponent, &cosine);
+#endif
+        for (int c = 0; c < 3; ++c) {
             global float* out = row + c * ROW_BINS + bin;
-            packet_store(fma(packet_load(share + bin), packet_splat(channel[c]), packet_load(out)),
-                         out);
+            packet_store(fma(here, packet_splat(channel[c]), packet_load(out)), out);
         }
+    }
 }
 
 kernel void antiradiance_gloss_sources(

@@ -12,9 +12,7 @@
 //              NaN for an exponent that is NaN
 // Cost         LOBE_ROUNDS + 1 times 33 operations for every pair of bins above the surface
 // SPDX-License-Identifier: MIT
-#include "antiradiance/lobe.clh"
-
-enum { LOBE_ROUNDS = 12 };
+#include "antiradiance/glossy.clh"
 
 // Of what arrives along all bins, weighted by projected solid angles times `out`.
 CLGI_INLINE void weigh(const Front* front, float exponent, const float* out, float* sums) {
@@ -28,14 +26,7 @@ CLGI_INLINE void weigh(const Front* front, float exponent, const float* out, flo
     }
 }
 
-kernel void antiradiance_lobes(
-    const ElementParams        params,               // count: glossy leaves
-    global const GlossyLeaf*   restrict leaves,      // [count]
-    global const Element*      restrict elements,
-    global const float*        restrict bins,        // [4][ROW_BINS] xyz, sr; opposite in halves
-    global const float*        restrict albedos,     // [materials][ALBEDO_STEPS + 1]
-    global float*              restrict factors)     // [count][CLGI_BINS]
-{
+kernel void antiradiance_lobes(LOBES_ARGUMENTS) {
     uint at = (uint)get_global_id(0);
     if (at >= params.count) return;
     GlossyLeaf leaf = leaves[at];
@@ -44,7 +35,7 @@ kernel void antiradiance_lobes(
     global const float* of = albedos + leaf.material * (ALBEDO_STEPS + 1);
     Front front;
     find_front(normal, bins, &front);
-    float scale = 1.0f / sqrt(fmax(dot(normal, normal), 1e-30f));
+    float scale = front_scale(normal);
     float wanted[FRONT_BINS], out[FRONT_BINS], sums[FRONT_BINS];
     for (uint k = 0; k < HALF_BINS; ++k) {
         wanted[k] = lobe_albedo(of, front.cosine[k] * scale);
@@ -52,14 +43,13 @@ kernel void antiradiance_lobes(
     }
     for (int round = 0; round < LOBE_ROUNDS; ++round) {
         weigh(&front, exponent, out, sums);
-        // Where nothing is near enough, nothing is scaled; NaN is not nothing.
         for (uint k = 0; k < HALF_BINS; ++k)
-            out[k] = sums[k] == 0.0f ? 0.0f : sqrt(out[k] * wanted[k] / sums[k]);
+            out[k] = lobe_rescaled(out[k], wanted[k], sums[k]);
     }
     weigh(&front, exponent, out, sums);
     global float* row = factors + (ulong)at * CLGI_BINS;
     for (uint k = 0; k < HALF_BINS; ++k) {
-        row[bin_above(&front, k)] = out[k];
-        row[bin_below(&front, k)] = sums[k] == 0.0f ? 0.0f : wanted[k] / sums[k];
+        row[bin_above(front.turned[k], k)] = out[k];
+        row[bin_below(front.turned[k], k)] = lobe_share(wanted[k], sums[k]);
     }
 }

@@ -141,9 +141,6 @@ kernel void cache_reflect(
     }
     if (!any) return;
     LinkWorld world = LINK_WORLD;
-    CacheParams above = params;  // to look up a sky of this size
-    above.sky_width = lobes.sky_width;
-    above.sky_height = lobes.sky_height;
     float share = 1.0f / (float)lobes.shared;
     float3 sums[CLGI_WIDTH];
     for (int k = 0; k < CLGI_WIDTH; ++k) sums[k] = (float3)(0.0f);
@@ -177,9 +174,11 @@ kernel void cache_reflect(
                 some |= met >= 0;
                 if (met >= 0) continue;
                 rays.goes[k] = 0;
-                if (above.sky_width > 0)
+                if (lobes.sky_width > 0)
                     sums[k] += rays.factor[k] * params.sky.xyz *
-                               vload3(cache_sky_texel(&above, rays.toward[k]), whole_sky);
+                               vload3(sky_texel_of(params.sky_turn, lobes.sky_width,
+                                                  lobes.sky_height, rays.toward[k]),
+                                     whole_sky);
             }
             if (!some) break;
             ViewRays sight = {reflect_row(rays.from, 0),   reflect_row(rays.from, 1),

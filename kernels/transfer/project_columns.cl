@@ -6,12 +6,20 @@
 // A leaf is PROJECT_LEAF floats of a row. It is always summed PROJECT_LANES floats at a time, and
 // these in a fixed order, so the sum does not depend on the width of packets or the work-group.
 //
-// Work size    2D: one work-item a leaf, and one for each of SH_WAVES waves of the polar angle; any
-//              local size
+// Work size    2D: one work-item a leaf, and PROJECT_PARTS for each of SH_WAVES waves of the polar
+//              angle; any local size
 // Writes       its own leaf and wave; nothing in slots without an order
 // Cost         4 bytes read a float and block of rows
 // SPDX-License-Identifier: MIT
 #include "transfer/sh.clh"
+
+// Orders that a work-item sums: on a GPU as many as it has room for, else all, and sums are read once.
+#ifdef CLGI_GROUPS
+#define PROJECT_SLOTS 2
+#else
+#define PROJECT_SLOTS CLGI_SH_BANDS
+#endif
+#define PROJECT_PARTS ((CLGI_SH_BANDS + PROJECT_SLOTS - 1) / PROJECT_SLOTS)
 
 // rgb of 16 texels that lie in three vectors, one lane after the other; pairwise.
 CLGI_INLINE float3 texels_total(const float16* lanes) {
@@ -38,15 +46,17 @@ kernel void transfer_project_columns(
                                                     // once for each colour
     global float4*        restrict leaves)          // [stride / PROJECT_LEAF][SH_WAVES][bands] rgb, 0
 {
-    uint leaf = (uint)get_global_id(0), wave = (uint)get_global_id(1);
+    uint leaf = (uint)get_global_id(0), wave = (uint)get_global_id(1) / PROJECT_PARTS;
     if (leaf * PROJECT_LEAF >= params.stride) return;
     uint blocks = (params.height + PROJECT_ROWS - 1) / PROJECT_ROWS;
     ulong step = (ulong)SH_WAVES(CLGI_SH_BANDS) * params.stride;
     int odd = wave > 0 && (wave & 1) == 0;  // a sine of the polar angle
 
-    float16 slots[CLGI_SH_BANDS][3];
+    int first_slot = (int)(get_global_id(1) % PROJECT_PARTS) * PROJECT_SLOTS;
+
+    float16 slots[PROJECT_SLOTS][3];
 #pragma unroll
-    for (int slot = 0; slot < CLGI_SH_BANDS; ++slot)
+    for (int slot = 0; slot < PROJECT_SLOTS; ++slot)
         for (int k = 0; k < 3; ++k) slots[slot][k] = 0.0f;
     uint first = leaf * PROJECT_LEAF;
     for (uint at = first; at < first + PROJECT_LEAF; at += PROJECT_LANES)
@@ -60,14 +70,15 @@ kernel void transfer_project_columns(
                 light += some;
             }
 #pragma unroll
-            for (int slot = 0; slot < CLGI_SH_BANDS; ++slot) {
-                int azimuth = azimuth_wave(slot, odd);
+            for (int slot = 0; slot < PROJECT_SLOTS; ++slot) {
+                int azimuth = azimuth_wave(first_slot + slot, odd);
                 if (azimuth < 0) continue;
                 float16 weights = vload16(0, column_weights + azimuth * params.stride + lanes);
                 slots[slot][k] = fma(light, weights, slots[slot][k]);
             }
         }
     global float4* out = leaves + (leaf * SH_WAVES(CLGI_SH_BANDS) + wave) * CLGI_SH_BANDS;
-    for (int slot = 0; slot < CLGI_SH_BANDS; ++slot)
-        if (azimuth_wave(slot, odd) >= 0) out[slot] = (float4)(texels_total(slots[slot]), 0.0f);
+    for (int slot = 0; slot < PROJECT_SLOTS; ++slot)
+        if (azimuth_wave(first_slot + slot, odd) >= 0)
+            out[first_slot + slot] = (float4)(texels_total(slots[slot]), 0.0f);
 }

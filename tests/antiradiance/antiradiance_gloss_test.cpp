@@ -231,8 +231,10 @@ TEST_P(AntiradianceGloss, OfRandomTreesIsThatOfTheDefinition) {
         for (const unsigned seed : {1u, 2u, 3u}) {
             const HandElements scene = glossy_elements(seed, seed == 3 ? 36 : 128);
             ASSERT_GT(scene.lobes.size(), 5u);
-            test::LightOnDevice found(
-                scene, {.math = GetParam(), .storage = storage, .local_size = 4 * seed});
+            test::LightOnDevice found(scene, {.math = GetParam(),
+                                              .storage = storage,
+                                              .form = seed == 2 ? Form::groups : Form::packets,
+                                              .local_size = 4 * seed});
             test::LightByDefinition wanted(scene, found.factors());
             const double within = storage == Storage::half ? 4e-3 : 1e-5;
             for (const std::uint32_t step : steps) {
@@ -255,31 +257,40 @@ TEST_P(AntiradianceGloss, KeepsWhatArrivesInFront) {
     HandElements scene = lobes(128, {3.0f, 50.0f});
     for (std::uint32_t b = 0; b < scene.bins(); ++b)
         scene.sky[b] = {1.0f + b, 0.5f * b, 300.0f - b, 0.0f};
-    test::LightOnDevice found(scene, {.math = GetParam()});
-    found.step(every_step);
-    const auto rows = test::download<float>(found.gloss.arriving, 2 * 3 * 128);
-    for (std::size_t k = 0; k < 2; ++k)
-        for (std::size_t b = 0; b < 128; ++b) {
-            const glm::vec3 n(scene.elements[scene.lobes[k].element].normal);
-            const bool front = glm::dot(n, glm::vec3(scene.directions[b])) < 0.0f;
-            for (std::size_t c = 0; c < 3; ++c)
-                EXPECT_EQ(rows[(3 * k + c) * 128 + b],
-                          front ? scene.sky[b][static_cast<int>(c)] : 0.0f);
-        }
+    for (const Form form : {Form::packets, Form::groups}) {
+        test::LightOnDevice found(scene, {.math = GetParam(), .form = form});
+        found.step(every_step);
+        const auto rows = test::download<float>(found.gloss.arriving, 2 * 3 * 128);
+        for (std::size_t k = 0; k < 2; ++k)
+            for (std::size_t b = 0; b < 128; ++b) {
+                const glm::vec3 n(scene.elements[scene.lobes[k].element].normal);
+                const bool front = glm::dot(n, glm::vec3(scene.directions[b])) < 0.0f;
+                for (std::size_t c = 0; c < 3; ++c)
+                    EXPECT_EQ(rows[(3 * k + c) * 128 + b],
+                              front ? scene.sky[b][static_cast<int>(c)] : 0.0f);
+            }
+    }
 }
 
-// The same light with packets of every width, in groups of every size.
+// The same light with packets of every width, in groups of every size, and with a group a leaf,
+// whose lanes have as many bins each or do not.
 TEST_P(AntiradianceGloss, DoesNotDependOnPackets) {
     const HandElements scene = glossy_elements(5, 64);
+    std::vector<BuildOptions> builds;
+    for (const int width : test::widths())
+        builds.push_back({.math = GetParam(),
+                          .packet_width = width,
+                          .form = Form::packets,
+                          .local_size = static_cast<std::size_t>(width)});
+    for (const std::size_t lanes : {0, 7, 100})
+        builds.push_back({.math = GetParam(), .form = Form::groups, .local_size = lanes});
     std::vector<glm::vec4> wanted;
-    for (const int width : test::widths()) {
-        test::LightOnDevice found(scene, {.math = GetParam(),
-                                          .packet_width = width,
-                                          .local_size = static_cast<std::size_t>(width)});
+    for (const BuildOptions& build : builds) {
+        test::LightOnDevice found(scene, build);
         for (int step = 0; step < 3; ++step) found.step(every_step);
         if (wanted.empty()) wanted = found.exitant();
         if (GetParam() == Math::strict)
-            EXPECT_EQ(found.exitant(), wanted) << width;
+            EXPECT_EQ(found.exitant(), wanted) << build.packet_width << " " << build.local_size;
         else
             test::expect_alike(found.exitant(), wanted, 1e-5, "intensity");
     }
@@ -287,11 +298,16 @@ TEST_P(AntiradianceGloss, DoesNotDependOnPackets) {
 
 // A lobe without an exponent is no darkness.
 TEST_P(BrokenLobes, CountsLobesThatAreNoNumbers) {
-    for (const bool exponent : {true, false}) {
+    for (const auto& [form, exponent] : {std::pair(Form::packets, true),
+                                         {Form::packets, false},
+                                         {Form::groups, true},
+                                         {Form::groups, false}}) {
         HandElements scene = lobes(64, {exponent ? nan : 5.0f, 5.0f});
         if (!exponent) scene.lobes[0].color.y = nan;
         for (glm::vec4& sky : scene.sky) sky = glm::vec4(1, 1, 1, 0);
-        test::LightOnDevice found(scene, GetParam());
+        BuildOptions build = GetParam();
+        build.form = form;
+        test::LightOnDevice found(scene, build);
         found.step(every_step);
         EXPECT_EQ(test::download<cl_uint>(found.light.non_finite, 1)[0], 1u) << exponent;
     }

@@ -28,9 +28,18 @@ AntiradianceGlossPasses::AntiradianceGlossPasses(const Programs& programs, int b
         return in_small_groups(programs.kernel("antiradiance", pass, how, defines),
                                programs.device(), options);
     };
-    lobes_ = kernel("lobes", full(options));
+    // A group keeps 34 bytes a bin, and 1.8 KB of links, in local memory; OpenCL 1.2 promises 32
+    // KB.
+    constexpr int most_local_bins = 512;
+    grouped_ = in_groups(programs.device(), options) && bins <= most_local_bins;
+    const auto of_leaves = [&](const char* pass, BuildOptions how) {
+        if (!grouped_) return kernel(pass, how);
+        how.packet_width = 1;
+        return group_form(programs, "antiradiance", pass, how, defines, 64, 64);
+    };
+    lobes_ = of_leaves("lobes", full(options));
     sources_ = kernel("gloss_sources", full(options));
-    gloss_ = kernel("gloss", options);
+    gloss_ = of_leaves("gloss", options);
     vertices_ = kernel("gloss_vertices", full(options));
     show_ = kernel("show_gloss", options);
 }
@@ -49,8 +58,9 @@ cl::Event AntiradianceGlossPasses::lobes(const cl::CommandQueue& queue, const Li
     need(lobes_, "bins", gloss.bins, row_bytes() / 3 * 4);
     need(lobes_, "albedos", gloss.albedos, (ALBEDO_STEPS + 1) * sizeof(float));
     need(lobes_, "factors", gloss.factors, gloss.count * m * sizeof(float));
-    return launch(lobes_, queue, gloss.count, wait, ElementParams{0, gloss.count, 0, 0},
-                  gloss.leaves, links.elements, gloss.bins, gloss.albedos, gloss.factors);
+    return launch(lobes_, queue, gloss.count * items_each(lobes_, grouped_), wait,
+                  ElementParams{0, gloss.count, 0, 0}, gloss.leaves, links.elements, gloss.bins,
+                  gloss.albedos, gloss.factors);
 }
 
 cl::Event AntiradianceGlossPasses::sources(const cl::CommandQueue& queue,
@@ -95,10 +105,10 @@ cl::Event AntiradianceGlossPasses::gloss(const cl::CommandQueue& queue, std::uin
     need(gloss_, "colors", gloss.colors, gloss.count * sizeof(glm::vec4));
     need(gloss_, "sources", gloss.sources, gloss.count * row_bytes());
     need(gloss_, "arriving", gloss.arriving, gloss.count * row_bytes());
-    return launch(gloss_, queue, gloss.count, wait, ElementParams{0, gloss.count, step, 0},
-                  gloss.leaves, Linked{links, rows}, rows.incident, directions, Lit{leaves},
-                  gloss.bins, gloss.factors, gloss.colors, gloss.sources, gloss.arriving,
-                  rows.next_powers, rows.next);
+    return launch(gloss_, queue, gloss.count * items_each(gloss_, grouped_), wait,
+                  ElementParams{0, gloss.count, step, 0}, gloss.leaves, Linked{links, rows},
+                  rows.incident, directions, Lit{leaves}, gloss.bins, gloss.factors, gloss.colors,
+                  gloss.sources, gloss.arriving, rows.next_powers, rows.next);
 }
 
 cl::Event AntiradianceGlossPasses::vertices(const cl::CommandQueue& queue,

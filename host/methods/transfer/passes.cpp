@@ -100,7 +100,11 @@ TransferPasses::TransferPasses(const Programs& programs, const BuildOptions& opt
                                options);
     };
     project_rows_ = kernel("project_rows", full(options));
-    project_columns_ = kernel("project_columns", scalar(options));
+    const bool groups = in_groups(programs.device(), options);
+    column_parts_ = groups ? (static_cast<std::size_t>(bands) + 1) / 2 : 1;
+    project_columns_ = groups ? programs.kernel("transfer", "project_columns", scalar(options),
+                                                defines + " -DCLGI_GROUPS")
+                              : kernel("project_columns", scalar(options));
     project_environment_ = kernel("project_environment", scalar(options));
     open_ = kernel("open", options);
 }
@@ -121,8 +125,9 @@ cl::Event TransferPasses::project_columns(const cl::CommandQueue& queue,
                                           const ProjectParams& params, const ProjectionBuffers& b,
                                           const WaitList& wait) const {
     need_columns(project_columns_, params, bands_, b);
-    return launch_rows(project_columns_, queue, params.stride / PROJECT_LEAF, wave_count(bands_),
-                       wait, params, b.sums, b.column_weights, b.leaves);
+    return launch_rows(project_columns_, queue, params.stride / PROJECT_LEAF,
+                       wave_count(bands_) * column_parts_, wait, params, b.sums, b.column_weights,
+                       b.leaves);
 }
 
 cl::Event TransferPasses::project_environment(const cl::CommandQueue& queue,

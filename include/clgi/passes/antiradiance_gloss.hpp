@@ -64,6 +64,7 @@ public:
 
 private:
     int bins_;
+    bool grouped_ = false;  // whether a leaf has a group of work-items
     PassKernel lobes_, sources_, gloss_, vertices_, show_;
 };
 

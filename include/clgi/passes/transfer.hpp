@@ -95,6 +95,7 @@ public:
 
 private:
     int bands_;
+    std::size_t column_parts_ = 1;  // work-items of project_columns for each wave
     PassKernel project_rows_, project_columns_, project_environment_, open_;
 };
 
