@@ -21,12 +21,14 @@ struct SkyProjector {
     int bands = SH_DEFAULT_BANDS;
     int packet_width = 0;
     std::size_t local_size = 0;
+    Form form = Form::automatic;
     std::vector<DirectionalLight> lights;
 
     TransferPasses passes() const {
         return TransferPasses(
             programs(),
-            BuildOptions{.math = math, .packet_width = packet_width, .local_size = local_size},
+            BuildOptions{
+                .math = math, .packet_width = packet_width, .form = form, .local_size = local_size},
             bands);
     }
 

@@ -258,6 +258,12 @@ TEST(ShEnvironments, AreTheSameForEveryPacketAndGroup) {
         if (first.empty()) first = found.light;
         EXPECT_EQ(found.light, first) << width << ", " << group;
     }
+    for (const int bands : {1, 4, int{SH_DEFAULT_BANDS}}) {
+        const auto of = [&](Form form) {
+            return SkyProjector{.bands = bands, .form = form}(sky).light;
+        };
+        EXPECT_EQ(of(Form::groups), of(Form::packets)) << bands;
+    }
 }
 
 TEST(ShEnvironments, RefuseBuffersThatAreTooSmall) {
