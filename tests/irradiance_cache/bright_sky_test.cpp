@@ -171,5 +171,39 @@ TEST(BrightSky, IsAimedAtByTheFirstSample) {
     EXPECT_EQ(sampled(cache, scene.cameras[0], 1), first);
 }
 
+// A sun lies where it is found in the first sample, whatever later ones of a picture before drew.
+TEST(BrightSky, OfASunIsTheSameAgain) {
+    Scene scene = posts();
+    scene.environment = test::picture_sky(64, 32, [](int row, int column) {
+        return row == 5 && column == 37 ? 900.0f : row < 16 ? 0.7f : 0.0f;
+    });
+    const DeviceScene device = test::on_device(scene);
+    IrradianceCache cache(test::programs(), test::device().queue, device, cache_options(60, 100));
+    ASSERT_EQ(cache.picture().emitters().directions, 1u);
+    const auto first = sampled(cache, scene.cameras[0], 1);
+    EXPECT_NE(sampled(cache, scene.cameras[0], 3), first);
+    EXPECT_EQ(sampled(cache, scene.cameras[0], 1), first);
+    sampled(cache, scene.cameras[0], 2);
+    cache.lights_changed();
+    cache.render(scene.cameras[0]).wait();
+    EXPECT_EQ(test::vectors(test::device().queue, cache.picture().radiance(),
+                            cache.picture().stride(), first.size()),
+              first);
+}
+
+// Skies of few texels go round as others do.
+TEST(BrightSky, OfFewTexelsIsWeighed) {
+    for (const int width : {1, 2, 4, 5}) {
+        Scene scene = posts();
+        scene.environment =
+            test::picture_sky(width, 2, [](int row, int) { return row ? 0.2f : 2.0f; });
+        const DeviceScene device = test::on_device(scene);
+        IrradianceCache cache(test::programs(), test::device().queue, device,
+                              cache_options(60, 100));
+        const test::Apart found = test::apart(sampled(cache, scene.cameras[0], 8), truth_of(scene));
+        EXPECT_LT(found.error, 0.1) << width;
+    }
+}
+
 }  // namespace
 }  // namespace clgi

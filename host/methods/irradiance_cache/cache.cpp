@@ -143,7 +143,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     if (follows_lobes()) passes.build({"reflect"});
     if (!corrects()) return;
     sky_lights.build(picture.passes());
-    passes.build({"sight", "gauge", "correct"});
+    passes.build({"sight", "gauge", "correct", "settle"});
     lights.build({"direct"});
 }
 
@@ -192,6 +192,8 @@ void IrradianceCache::State::add_to(BufferTable& table) {
               static_cast<std::size_t>(sky.width * sky.height) * word);
     table.add(found_light, "corrections", "width or height", 3 * of_picture);
     table.add(corrections, "corrections", "width or height", 4 * of_picture);
+    table.add(settled, "light", lower, 3 * plane);
+    table.add(settled_sums, "light", lower, 4 * plane);
     table.add(shares, "corrections", "width or height",
               blocks(options.picture.width) * blocks(options.picture.height) * word);
 }
@@ -236,6 +238,7 @@ IrradianceCache::IrradianceCache(const Programs& programs, const cl::CommandQueu
 IrradianceCache::~IrradianceCache() = default;
 
 void IrradianceCache::lights_changed() {
+    state_->picture.weigh_sky(nullptr);  // until records see the sky anew
     state_->picture.lights_changed();
     state_->read_sky();
 }

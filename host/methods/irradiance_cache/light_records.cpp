@@ -122,7 +122,7 @@ bool IrradianceCache::State::rests() {
 
 CacheBuffers IrradianceCache::State::shown_buffers() const {
     CacheBuffers out = b;
-    out.light = b.shown;
+    out.light = settles() ? settled : b.shown;
     if (found.refined > 0) {
         out.nodes = all_nodes;
         out.lists = all_lists;

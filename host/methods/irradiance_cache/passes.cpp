@@ -86,11 +86,15 @@ void need_spots(const PassKernel& pass, const SpotParams& params, std::uint32_t 
 }
 
 // Returns how many blocks there are.
+void need_sum(const PassKernel& pass, float scale, float total) {
+    if (!(scale > 0.0f) || !(total > 0.0f))
+        throw Error(pass.name + ": scale is " + std::to_string(scale) + " and total " +
+                    std::to_string(total) + ", above 0 needed");
+}
+
 std::size_t need_pixels(const PassKernel& pass, const CacheCorrectParams& params,
                         const cl::Buffer& sums, const cl::Buffer& shares) {
-    if (!(params.scale > 0.0f) || !(params.total > 0.0f))
-        throw Error(pass.name + ": scale is " + std::to_string(params.scale) + " and total " +
-                    std::to_string(params.total) + ", above 0 needed");
+    need_sum(pass, params.scale, params.total);
     need_stride(pass, "stride", params.stride, std::size_t{params.width} * params.height);
     const std::size_t count = std::size_t{cache_blocks(params.width)} * cache_blocks(params.height);
     need(pass, "sums", sums, 4 * word * params.stride);
@@ -104,7 +108,7 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     const BuildOptions whole = full(options);
     const std::vector<std::string> records = {"pick", "list", "link", "bounce", "weigh"},
                                    spots = {"mark", "tally", "spots", "shine"},
-                                   sky = {"sight", "gauge", "correct"},
+                                   sky = {"sight", "gauge", "correct", "settle"},
                                    gloss = {"around", "gloss", "reflect"};
     const auto few = [&](const char* pass, const std::vector<std::string>& together) {
         return in_small_groups(programs.kernel("cache", pass, whole, "", together),
@@ -126,6 +130,7 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
     sight_ = few("sight", sky);
     gauge_ = few("gauge", sky);
     correct_ = programs.kernel("cache", "correct", whole, "", sky);
+    settle_ = few("settle", sky);
     around_ = few("around", gloss);
     gloss_ = programs.kernel("cache", "gloss", whole, "", gloss);
     reflect_ = few("reflect", gloss);
@@ -133,7 +138,7 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
     build_named({pick_, list_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
-                 gauge_, correct_, around_, gloss_, reflect_},
+                 gauge_, correct_, settle_, around_, gloss_, reflect_},
                 passes);
 }
 
@@ -303,6 +308,22 @@ cl::Event CachePasses::gauge(const cl::CommandQueue& queue, const CacheCorrectPa
     need(gauge_, "points", points.planes, point_bytes(gauge_.storage, params.stride));
     need(gauge_, "found", found, 3 * word * params.stride);
     return launch(gauge_, queue, blocks, wait, params, points.planes, found, sums, shares);
+}
+
+cl::Event CachePasses::settle(const cl::CommandQueue& queue, const CacheSettleParams& params,
+                              const CacheBuffers& b, const cl::Buffer& sums,
+                              const cl::Buffer& settled, const WaitList& wait) const {
+    need_sum(settle_, params.scale, params.total);
+    need_stride(settle_, "stride", params.stride, params.count);
+    for (const auto& [name, planes] : {std::pair("next", b.next),
+                                       {"base", b.base},
+                                       {"bright", b.bright},
+                                       {"shown", b.shown},
+                                       {"settled", settled}})
+        need(settle_, name, planes, 3 * word * params.stride);
+    need(settle_, "sums", sums, 4 * word * params.stride);
+    return launch(settle_, queue, packets(settle_, params.count), wait, params, b.next, b.base,
+                  b.bright, b.shown, sums, settled);
 }
 
 cl::Event CachePasses::correct(const cl::CommandQueue& queue, const CacheCorrectParams& params,

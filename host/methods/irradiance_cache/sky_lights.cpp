@@ -60,7 +60,7 @@ std::shared_ptr<const SkyWeights> IrradianceCache::State::weigh_sky() {
     const auto at = [&](int row, int column) {
         return static_cast<std::size_t>(std::clamp(row, 0, height - 1)) *
                    static_cast<std::size_t>(width) +
-               static_cast<std::size_t>((column + width) % width);
+               static_cast<std::size_t>((column % width + width) % width);
     };
     std::vector<std::uint32_t> seen(static_cast<std::size_t>(width) *
                                     static_cast<std::size_t>(height));
@@ -159,6 +159,7 @@ bool IrradianceCache::State::draw_sky() {
     if (gauged.total == 0.0f) {
         receivers = lit_by_sky();
         record.fill(corrections, 0);
+        record.fill(settled_sums, 0);
     }
     EmitterOptions wanted = sky_options(options, sample);
     wanted.sky_weights = sky_weights;
@@ -172,9 +173,6 @@ void IrradianceCache::State::correct(const Part& part) {
     Recorder& record = picture.record();
     record.fill(b.next, 0);
     light_by_sky(part, b.planes, records.size(), stride, b.next, DIRECT_TAKE);
-    show(true);
-    light_by_sky(part, picture.gbuffer().planes, picture.pixels(), picture.stride(), found_light,
-                 DIRECT_ADD);
     const glm::vec3 &low = receivers.low, &high = receivers.high;
     const auto directions = static_cast<float>(part.count);
     gauged.width = static_cast<std::uint32_t>(options.picture.width);
@@ -185,9 +183,33 @@ void IrradianceCache::State::correct(const Part& part) {
     gauged.squares += directions * directions;
     gauged.low = {low.x, low.y, low.z, 0.0f};
     gauged.high = {high.x, high.y, high.z, 0.0f};
+    settle();
+    show(true);
+    light_by_sky(part, picture.gbuffer().planes, picture.pixels(), picture.stride(), found_light,
+                 DIRECT_ADD);
     record("cache.gauge", picture.pixels(), [&](const WaitList& wait) {
         return passes.gauge(record.queue(), gauged, picture.gbuffer(), found_light, corrections,
                             shares, wait);
+    });
+}
+
+bool IrradianceCache::State::settles() const {
+    return gauged.total > 0.0f && scene.emissive().empty();
+}
+
+void IrradianceCache::State::settle() {
+    if (!settles()) return;
+    Recorder& record = picture.record();
+    const CacheSettleParams of{static_cast<std::uint32_t>(records.size()),
+                               stride,
+                               gauged.scale,
+                               gauged.total,
+                               gauged.squares,
+                               0,
+                               0,
+                               0};
+    record("cache.settle", records.size(), [&](const WaitList& wait) {
+        return passes.settle(record.queue(), of, b, settled_sums, settled, wait);
     });
 }
 

@@ -91,6 +91,10 @@ struct IrradianceCache::State {
     void aim_lights();
     void weigh_sky_once();
     void correct(const Part& part);
+    // The light that is shown of records, as far as directions of the sky know it better than their
+    // hemicubes; where these see no lamps.
+    bool settles() const;
+    void settle();
     // Where surfaces have lobes: what the records have around them, and what lobes reflect of it.
     void look_around();
     void add_gloss(const View& view);
@@ -137,6 +141,7 @@ struct IrradianceCache::State {
     Emitters sky_lights;
     LightPasses lights;
     cl::Buffer around, mirrored_sky, sight, found_light, corrections, shares;
+    cl::Buffer settled, settled_sums;
     bool weighed = false;  // whether the records of this picture see the sky is known
     std::shared_ptr<const SkyWeights> sky_weights;  // by these records; null: they do not
     LocalBox receivers{};                           // of light of the sky

@@ -133,6 +133,13 @@ public:
                     const GBuffer& points, const cl::Buffer& found, const cl::Buffer& sums,
                     const cl::Buffer& shares, const WaitList& wait = {}) const;
 
+    // Adds what directions of the sky bring to params.count records, next (less than 0, as
+    // DIRECT_TAKE leaves it), to sums [4][stride] float, and corrects buffers.shown by them ->
+    // settled [3][stride] float. No lamps are in buffers.base.
+    cl::Event settle(const cl::CommandQueue& queue, const CacheSettleParams& params,
+                     const CacheBuffers& buffers, const cl::Buffer& sums, const cl::Buffer& settled,
+                     const WaitList& wait = {}) const;
+
     // By sums and shares corrects irradiance [IRRADIANCE_PLANES][stride] of all pixels.
     cl::Event correct(const cl::CommandQueue& queue, const CacheCorrectParams& params,
                       const cl::Buffer& sums, const cl::Buffer& shares,
@@ -177,7 +184,7 @@ public:
 
 private:
     PassKernel pick_, list_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
-        gauge_, correct_, around_, gloss_, reflect_;
+        gauge_, correct_, settle_, around_, gloss_, reflect_;
     bool groups_;  // a record by a group of work-items
 };
 

@@ -137,6 +137,17 @@ typedef struct {
 } CacheCorrectParams;
 
 typedef struct {
+    uint count;     // records
+    uint stride;    // of their planes
+    float scale;    // as CacheCorrectParams has them
+    float total;
+    float squares;
+    uint pad0_;
+    uint pad1_;
+    uint pad2_;
+} CacheSettleParams;
+
+typedef struct {
     uint point_count;
     uint stride;  // of the G-buffer, the irradiance and the doubt
     uint more;    // 1: a second light is shown by the same shares
