@@ -36,7 +36,8 @@ constexpr double of_large_lamps = 1.0;
 
 double direct_error(const Plan& plan) {
     if (has_exact_direct_light(plan)) return 0.0;
-    if (lamps_are_large(plan) && plan.method != Method::irradiance_cache) return of_large_lamps;
+    const bool by_points = plan.method != Method::irradiance_cache && !plan.request.method;
+    if (by_points && points_are_large(plan)) return of_large_lamps;
     const double usual = plan.probe ? plan.probe->direct_error : usual_direct_error;
     const double fineness = fineness_of(plan);
     if (!plan.request.refined) return usual / std::sqrt(fineness);

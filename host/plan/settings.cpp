@@ -66,6 +66,13 @@ void change_emitters(Plan& plan, const Change& change) {
     plan.transfer_view.picture = plan.picture;
 }
 
+// Whether most points on emissive surfaces would lie where the picture does not reach: hemicubes
+// see the others.
+bool lamps_are_hidden(const Plan& plan) {
+    constexpr double few = 0.3;
+    return plan.on(Effect::area_light) && plan.reach && plan.reach->hidden > few;
+}
+
 // Side of shadow maps. Of few suns and spots, a texel is a third of what a pixel covers: edges are
 // two texels wide.
 int map_side(const Plan& plan, int fineness) {
@@ -119,7 +126,7 @@ void use_preset(Plan& plan, const Preset& preset) {
         case Method::dynamic_transfer:
             break;
         case Method::irradiance_cache:
-            plan.cache.emission = lamps_are_large(plan);
+            plan.cache.emission = points_are_large(plan) || lamps_are_hidden(plan);
             plan.cache.seen = preset.places;
             // Finely modelled surfaces differ more among themselves than what lights them does.
             plan.cache.met = (is_fine(plan) ? 1 : 3) * preset.places;
@@ -132,13 +139,12 @@ void use_preset(Plan& plan, const Preset& preset) {
 
 }  // namespace
 
-bool lamps_are_large(const Plan& plan) {
-    constexpr double small = 0.06, few = 0.3;
-    if (!plan.on(Effect::area_light)) return false;
-    const Reach reach = plan.reach.value_or(Reach());
-    const double point =
-        std::sqrt(reach.emissive_area / (std::numbers::pi * plan.picture.emitters.area_samples));
-    return reach.hidden > few || (reach.points > 0 && point > small * reach.sphere.radius);
+bool points_are_large(const Plan& plan) {
+    constexpr double small = 0.06;
+    if (!plan.on(Effect::area_light) || !plan.reach || plan.reach->points == 0) return false;
+    const double point = std::sqrt(plan.reach->emissive_area /
+                                   (std::numbers::pi * plan.picture.emitters.area_samples));
+    return point > small * plan.reach->sphere.radius;
 }
 
 void set(Plan& plan, const Preset& preset, int fineness) {

@@ -13,10 +13,9 @@ namespace clgi {
 // points on emissive surfaces.
 void set(Plan& plan, const Preset& preset, int fineness);
 
-// Whether points on emissive surfaces are not enough: most of them would lie where the picture does
-// not reach, or each stands for more than a small part of what that is across. Hemicubes see such
-// lamps (IrradianceCacheOptions::emission).
-bool lamps_are_large(const Plan& plan);
+// Whether points on emissive surfaces are not enough, as each stands for more than a small part of
+// what the picture reaches. Hemicubes see such lamps (IrradianceCacheOptions::emission).
+bool points_are_large(const Plan& plan);
 
 // How fine direct light is for the lights that the plan has: the least of what set() makes finer.
 double fineness_of(const Plan& plan);

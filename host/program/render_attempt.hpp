@@ -35,7 +35,7 @@ public:
     void draw();
     // More samples for the only frame, until they differ from their mean by no more than `error`,
     // or as many as take so many seconds; at least `least` together with its own, whatever they
-    // take, and at most 1024. None where their number was given.
+    // take, and at most `most`. None where their number was given.
     void refine(double seconds, std::uint32_t least, double error, std::uint32_t most = 1024);
     // Measures the error against all light of a scene. decide: as in VerifyOptions.
     void check(const Scene& truth, double decide);

@@ -106,8 +106,8 @@ struct Camera {
     float near = 0.0f;          // metres; 0: derived from the scene's size
     // Where pixels are looked through: pixels to the right and down from their centres.
     glm::vec2 offset = glm::vec2(0.0f);
-    // Share of a pixel's area that textures are looked up over, above 0 to 1: less for a picture
-    // that is one of many samples.
+    // Share of a pixel's area that textures and the environment are looked up over, above 0 to 1:
+    // less for a picture that is one of many samples.
     float footprint = 1.0f;
 };
 

@@ -129,6 +129,7 @@ TEST(BackgroundTexels, AreThoseOfTheStatedMapping) {
                                                        {false, 0.0625f, 29},
                                                        {false, 1.0f, 61},
                                                        {false, 1.0f, 97},
+                                                       {false, 0.25f, 97},
                                                        {true, 0.0f, 29}})
         for (const glm::dvec3& forward :
              {glm::dvec3(0.3, 0.2, -1), {-1, -0.4, 0.5}, {0.2, 1, 0.1}, {0.6, -1, 0.7}})

@@ -16,7 +16,7 @@ typedef struct {
     float4 up;       // xyz unit; w: half extent in y
     float4 forward;  // xyz unit; w: near depth
     float4 window;   // x, y: center; z: far depth (orthographic only); w: share of a pixel that
-                     // textures are looked up over, 0: all of it
+                     // textures and the sky are looked up over, 0: all of it
     uint width;
     uint height;
     uint first_pixel;  // where this view's pixels begin in a visibility buffer of several views

@@ -61,10 +61,10 @@ public:
     void accept(Recorder& record, const LightPasses& passes, const cl::Buffer& mask,
                 const cl::Buffer& accepted) const;
 
-    // How many samples of a picture of so many pixels have the same shadow maps: few where these
+    // How many samples of a picture of so many pixels have the same shadow maps: two where these
     // stand for points of emissive surfaces or parts of the environment, which soft shadows need
-    // many of, or hold the dither of blended surfaces; otherwise so many that the maps take no
-    // longer than the samples.
+    // many of, or hold the dither of blended surfaces, one where those of an environment take no
+    // longer than the sample; otherwise so many that the maps take no longer than the samples.
     std::uint32_t samples_a_map(std::size_t pixels) const;
 
     // Whether some light of the scene has a shadow map, also one that is dark now.
