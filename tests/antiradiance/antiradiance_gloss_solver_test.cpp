@@ -51,9 +51,13 @@ TEST_P(GlossyLeaves, ReflectDirectLight) {
     const Light spot = test::spot_light({1.0, 2.0, 0.0}, {-0.3f, -1.0f, 0.0f}, 1.2);
     const Light sun = test::directional_light({-0.3f, -1.0f, 0.2f});
     const Light* none = nullptr;
-    for (const Light* light : {&point, &spot, &sun, none}) {
+    using std::pair;
+    for (const auto& [light, form] :
+         {pair(&point, Form::packets), pair(&spot, Form::packets), pair(&sun, Form::packets),
+          pair(none, Form::packets), pair(&spot, Form::groups)}) {
         const Scene scene = sheet(light);
         AntiradianceOptions options = antiradiance_options(GetParam(), 128, 200);
+        options.build.form = form;
         options.emitters.area_samples = 1;
         options.emitters.shadow_size = 1024;
         options.steps = 1;
