@@ -13,9 +13,9 @@
 // SPDX-License-Identifier: MIT
 #include "transfer/sh.clh"
 
-// Orders that a work-item sums: on a GPU as many as it has room for, else all, and sums are read once.
+// Orders that a work-item sums; where it sums all, sums are read once.
 #ifdef CLGI_GROUPS
-#define PROJECT_SLOTS 2
+#define PROJECT_SLOTS PROJECT_FEW
 #else
 #define PROJECT_SLOTS CLGI_SH_BANDS
 #endif

@@ -67,22 +67,28 @@ std::shared_ptr<const SkyWeights> IrradianceCache::State::weigh_sky() {
     const WaitList pending = record.waits();
     record.queue().enqueueReadBuffer(sight, CL_TRUE, 0, seen.size() * sizeof(std::uint32_t),
                                      seen.data(), &pending);
-    // Of the texels so far around one, by solid angle.
-    const auto mean = [&](int row, int column, int far) {
+    const auto mean_nearby = [&](int row, int column) {
         double sum = 0.0, angle = 0.0;
-        for (int down = -far; down <= far; ++down) {
+        for (int down = -nearby; down <= nearby; ++down) {
             const int line = std::clamp(row + down, 0, height - 1);
-            angle += (2 * far + 1) * texel_solid_angle(width, height, line);
-            for (int across = -far; across <= far; ++across) sum += seen[at(line, column + across)];
+            angle += (2 * nearby + 1) * texel_solid_angle(width, height, line);
+            for (int across = -nearby; across <= nearby; ++across)
+                sum += seen[at(line, column + across)];
         }
         return sum / angle;
+    };
+    const auto is_seen_about = [&](int row, int column) {
+        for (int down = -about; down <= about; ++down)
+            for (int across = -about; across <= about; ++across)
+                if (seen[at(row + down, column + across)] > 0) return true;
+        return false;
     };
     std::vector<double> shares, least;
     double most = 0.0;
     for (int row = 0; row < height; ++row)
         for (int column = 0; column < width; ++column) {
-            shares.push_back(mean(row, column, nearby));
-            least.push_back(mean(row, column, about) > 0.0 ? unseen : hardly);
+            shares.push_back(mean_nearby(row, column));
+            least.push_back(is_seen_about(row, column) ? unseen : hardly);
             most = std::max(most, shares.back());
         }
     if (!(most > 0.0)) return nullptr;

@@ -101,7 +101,7 @@ TransferPasses::TransferPasses(const Programs& programs, const BuildOptions& opt
     };
     project_rows_ = kernel("project_rows", full(options));
     const bool groups = in_groups(programs.device(), options);
-    column_parts_ = groups ? (static_cast<std::size_t>(bands) + 1) / 2 : 1;
+    column_parts_ = groups ? (static_cast<std::size_t>(bands) + PROJECT_FEW - 1) / PROJECT_FEW : 1;
     project_columns_ = groups ? programs.kernel("transfer", "project_columns", scalar(options),
                                                 defines + " -DCLGI_GROUPS")
                               : kernel("project_columns", scalar(options));
