@@ -14,21 +14,21 @@ enum { SH_MOST_BANDS = 9, SH_DEFAULT_BANDS = 5 };
 #define SH_MOMENT(l, m) ((l) * ((l) + 1) / 2 + (m))
 
 // Waves of an angle: 1, cos a, sin a, cos 2a, sin 2a ... up to the last band's degree.
-#define SH_WAVES(bands) (2 * (bands)-1)
+#define SH_WAVES(bands) (2 * (bands) - 1)
 
 // How an environment's picture is cut for its projection. Sums have the same order for every size
 // of a work-group and every width of packets, because these numbers are fixed.
 enum {
-    PROJECT_RUN = 16,                  // items summed one after the other
-    PROJECT_ROWS = 128,                // rows of a block: runs of them
-    PROJECT_LANES = 48,                // floats added at a time: 16 texels
-    PROJECT_LEAF = 8 * PROJECT_LANES,  // floats of a row that make one leaf
-    PROJECT_FEW = 2  // orders that a work-item sums on a GPU, which has little room
+    PROJECT_RUN = 16,                 // items summed one after the other
+    PROJECT_ROWS = 128,               // rows of a block: runs of them
+    PROJECT_LANES = 48,               // floats added at a time: 16 texels
+    PROJECT_LEAF = 8 * PROJECT_LANES, // floats of a row that make one leaf
+    PROJECT_FEW = 2                   // orders that a work-item sums on a GPU, which has little room
 };
 
 typedef struct {
-    float4 factor;  // times the picture: exposed radiance, rgb
-    uint width;     // texels
+    float4 factor;     // times the picture: exposed radiance, rgb
+    uint width;        // texels
     uint height;
     uint stride;       // floats of a row, rounded up to whole leaves
     uint light_count;  // directional lights that are added
