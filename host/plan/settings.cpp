@@ -128,9 +128,10 @@ void use_preset(Plan& plan, const Preset& preset) {
         case Method::irradiance_cache:
             plan.cache.emission = points_are_large(plan) || lamps_are_hidden(plan);
             plan.cache.seen = preset.places;
-            // Finely modelled surfaces differ more among themselves than what lights them does.
+            // Finely modelled surfaces differ more among themselves than what lights them does, and
+            // what lamps and suns light near them differs from place to place.
             plan.cache.met = (is_fine(plan) ? 1 : 3) * preset.places;
-            plan.cache.refined = preset.places;
+            plan.cache.refined = (is_fine(plan) && !has_sky(plan) ? 4 : 1) * preset.places;
             plan.cache.face = preset.directions;
             if (has_no_lamps(plan) && preset.places < many_places) plan.cache.spots = 0;
             break;

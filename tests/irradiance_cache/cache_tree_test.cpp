@@ -277,6 +277,24 @@ TEST(CacheRecords, AreRefinedWhereDoubtIsLargest) {
     EXPECT_TRUE(places(0).empty());
 }
 
+// Doubt counts by the square of what a pixel reflects: of a black one as of glTF's dielectrics. Rows
+// are longer than the picture.
+TEST(CacheRecords, AreRefinedForWhatIsReflected) {
+    constexpr std::size_t stride = 5;
+    std::vector<float> doubt = {2.0f, 3.0f, 4.0f, 0.0f}, base(3 * stride, 9.0f);
+    const glm::dvec3 colour[] = {{0.5, 0.25, 0.75}, {0.1, 0.8, 0.3}, {0, 0, 0}, {1, 1, 1}};
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            base[c * stride + i] = static_cast<float>(colour[i][static_cast<glm::length_t>(c)]);
+    keep_what_is_reflected(doubt, base, stride);
+    const double first = 0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 0.75,
+                 second = 0.2126 * 0.1 + 0.7152 * 0.8 + 0.0722 * 0.3;
+    EXPECT_NEAR(doubt[0], 2.0 * first * first, 1e-6);
+    EXPECT_NEAR(doubt[1], 3.0 * second * second, 1e-6);
+    EXPECT_NEAR(doubt[2], 4.0 * 0.04 * 0.04, 1e-8);
+    EXPECT_EQ(doubt[3], 0.0f);
+}
+
 // The first record shows the second alone, which shows the third, which shows itself and nothing:
 // its importance is the sum of a geometric series.
 TEST(CacheRecords, AreImportantByWhatTheySend) {

@@ -194,6 +194,12 @@ std::vector<float> IrradianceCache::State::read_doubt() {
     const WaitList pending = picture.record().waits();
     picture.record().queue().enqueueReadBuffer(doubt, CL_TRUE, 0, out.size() * sizeof(float),
                                                out.data(), &pending);
+    const std::size_t row = picture.stride();
+    std::vector<float> base(3 * row);
+    picture.record().queue().enqueueReadBuffer(picture.gbuffer().planes, CL_TRUE,
+                                               GBUFFER_BASE * row * sizeof(float),
+                                               base.size() * sizeof(float), base.data());
+    keep_what_is_reflected(out, base, row);
     return out;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <queue>
 
+#include "scene/luminance.hpp"
+
 namespace clgi {
 namespace {
 
@@ -27,6 +29,16 @@ bool stands_in(const CacheRecord& record, const CacheRecord& pixel) {
 int block_side(int width, int height, int count) {
     const double area = static_cast<double>(width) * height;
     return std::max(1, static_cast<int>(std::sqrt(area / count)));
+}
+
+void keep_what_is_reflected(std::vector<float>& doubt, const std::vector<float>& base,
+                            std::size_t stride) {
+    constexpr double least = 0.04;
+    for (std::size_t i = 0; i < doubt.size(); ++i) {
+        const double share = std::max(
+            least, luminance(glm::dvec3(base[i], base[stride + i], base[2 * stride + i])));
+        doubt[i] = static_cast<float>(double{doubt[i]} * share * share);
+    }
 }
 
 std::vector<CacheRecord> doubtful_records(const std::vector<CacheRecord>& pixels,
