@@ -61,6 +61,7 @@ TEST(Settle, IsThatOfTheDefinition) {
                 float& one = found[at(c, i)];
                 one = static_cast<float>(-directions / double{scale} *
                                          (of_sky * (1.0 + error) + noise * normal(random)));
+                if (i == 13) one = 0.0f;  // no direction lights it
                 // A record whose light is no number for once has none of this part.
                 if (i == 11 && part == 3) one = c ? 1.0f : std::numeric_limits<float>::infinity();
                 mb[c] = i == 11 && part == 3 ? 0.0 : -double{one} * double{scale};
@@ -81,11 +82,11 @@ TEST(Settle, IsThatOfTheDefinition) {
                 mean[c] = sum[i][c] / total;
                 off[c] = mean[c] - (1.0 + 0.5 * c);
             }
-            const double all = total * total, e = luminance_of(off);
-            const double noise =
-                std::max(squares[i] - of_parts * std::pow(luminance_of(mean), 2.0), 0.0) / all *
-                (1.0 + 4.0 * of_parts / all);
-            const bool sure = e * e > 4.0 * noise && all >= 12.0 * of_parts;
+            const double all = total * total, e = luminance_of(off), lit = luminance_of(mean);
+            const double of_middle = lit > 0.0 ? (lit + lit - e) / (2.0 * lit) : 0.0;
+            const double noise = std::max(squares[i] - of_parts * lit * lit, 0.0) / all *
+                                 (1.0 + 4.0 * of_parts / all) * of_middle;
+            const bool sure = lit > 0.0 && e * e > 4.0 * noise && all >= 12.0 * of_parts;
             const double share = sure ? 1.0 - 4.0 * noise / (e * e) : 0.0;
             (share > 0.5 ? corrected : kept) += 1;
             for (int c = 0; c < 3; ++c)
@@ -95,6 +96,37 @@ TEST(Settle, IsThatOfTheDefinition) {
     }
     EXPECT_GT(corrected, 150);
     EXPECT_GT(kept, 150);
+}
+
+// Of a small window few directions see anything: one of fifty, which brings fifty times as much.
+// All hemicubes are right, so whatever the directions happen to say, records keep their light in
+// the mean.
+TEST(Settle, KeepsTheLightOfAllRecordsTogether) {
+    constexpr std::uint32_t many = 8192;
+    constexpr double seen = 0.02;
+    const cl::CommandQueue& queue = test::device().queue;
+    const CachePasses passes(test::programs(), test::usual_build());
+    std::mt19937 random(3);
+    std::binomial_distribution<int> hits(8, seen);
+    CacheBuffers b;
+    b.base = b.shown = test::upload(Planes(3 * many, 1.0f));
+    b.bright = test::upload(Planes(3 * many));
+    const cl::Buffer sums = test::upload(Planes(4 * many)),
+                     settled = test::upload(Planes(3 * many));
+    for (int part = 1; part <= 40; ++part) {
+        Planes found(3 * many);
+        for (std::uint32_t i = 0; i < many; ++i)
+            found[i] = found[many + i] = found[2 * many + i] =
+                static_cast<float>(-hits(random) / seen);
+        b.next = test::upload(found);
+        passes.settle(queue, {many, many, 1.0f, 8.0f * part, 64.0f * part, 0, 0, 0}, b, sums,
+                      settled);
+        if (part < 12) continue;
+        const Planes out = test::download<float>(settled, 3 * many);
+        double mean = 0.0;
+        for (std::uint32_t i = 0; i < many; ++i) mean += double{out[i]} / many;
+        EXPECT_NEAR(mean, 1.0, 0.01) << part;
+    }
 }
 
 TEST(Settle, RefusesWhatDoesNotFit) {
