@@ -31,6 +31,9 @@ bool fits(const cl::Device& device, const Plan& plan) {
     constexpr double share = 0.8;            // the scene is there as well
     constexpr double most_pixels = 1 << 28;  // emitters take four times as many
     if (shadow_pixels(plan) > most_pixels) return false;
+    const auto largest = static_cast<double>(device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
+    if (plan.method == Method::irradiance_cache && plan.cache.transport_bytes() > share * largest)
+        return false;
     return plan.cost.megabytes <= 1e-6 * share * device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
 }
 

@@ -17,11 +17,12 @@
 namespace clgi {
 
 struct IrradianceCacheOptions {
-    int seen = 400;     // records on what the picture shows, about; 1 to 20000
-    int met = 1200;     // records on what these see, and what those see in turn; 0 to 20000
-    int refined = 300;  // records more where light changes between those that are seen; 0 to 20000
-    int face = 32;      // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
-    int bounces = 0;    // reflections of light before it reaches a record; 0: until it rests
+    int seen = 400;  // records on what the picture shows, about; 1 to 20000
+    int met = 1200;  // records on what these see, and what those see in turn; 0 to 20000
+    // Records more where reflected light changes between those that are seen; 0 to 20000.
+    int refined = 300;
+    int face = 32;    // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
+    int bounces = 0;  // reflections of light before it reaches a record; 0: until it rests
     // VPLs in what lights light of small places, such as the sun's spot behind a hole, which would
     // fall between the pixels of hemicubes; 0 to 1024. Of at most 32 views of lights: directional
     // lights have one, then come spots, then point lights with six.
@@ -43,6 +44,12 @@ struct IrradianceCacheOptions {
     // where the scene has so many triangles that drawing takes most of the time.
     int drawn_face(bool sky, double triangles) const {
         return sky && face <= 24 && triangles <= 65536.0 ? 2 * face : face;
+    }
+    // Of what records bring each other, the largest buffer, at most: blocks of pixels have up to
+    // four records, and refined ones bring others nothing.
+    double transport_bytes() const {
+        const double others = 4.0 * seen + met;
+        return 12.0 * (others + refined) * others;
     }
 };
 

@@ -12,7 +12,7 @@
 
 kernel void cache_bounce(
     const CacheBounceParams  params,
-    global const float*      restrict rows,      // [record][3][stride]
+    global const float*      restrict rows,      // [record][3][row_stride]
     global const float*      restrict base,      // [3][stride]
     global const float*      restrict reflected,  // [3][stride]
     global const float*      restrict bright,    // [3][stride] of base
@@ -24,10 +24,10 @@ kernel void cache_bounce(
     if (item >= 3 * params.record_count) return;
     uint channel = item / params.record_count, record = params.first + item % params.record_count;
     uint stride = params.stride;
-    global const float* row = rows + ((ulong)record * 3 + channel) * stride;
+    global const float* row = rows + ((ulong)record * 3 + channel) * params.row_stride;
     global const float* from = light + channel * stride;
     floatp sums = packet_zero;
-    for (uint k = 0; k < stride; k += CLGI_WIDTH)
+    for (uint k = 0; k < params.row_stride; k += CLGI_WIDTH)
         sums = fma(packet_load(row + k), packet_load(from + k), sums);
     float lanes[CLGI_WIDTH];
     packet_store(sums, lanes);

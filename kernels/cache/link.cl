@@ -23,9 +23,9 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
     if (item >= params.count) return;
     LinkWorld world = LINK_WORLD;
     uint record = params.first + item;
-    uint stride = params.stride;
-    global float* row = rows + (ulong)record * 3 * stride;
-    for (uint k = 0; k < 3 * stride; ++k) row[k] = 0.0f;
+    uint stride = params.stride, across = params.row_stride;
+    global float* row = rows + (ulong)record * 3 * across;
+    for (uint k = 0; k < 3 * across; ++k) row[k] = 0.0f;
     int stands = link_stands(&params, planes, record), skies = params.sky_width > 0;
     // Of form factors: all, of surfaces, and of those surfaces that are looked at.
     float all = 0.0f, surfaces = 0.0f, looked = 0.0f;
@@ -65,8 +65,8 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
                 for (uint i = 0; i < packet.share.count; ++i) {
                     global float* to = row + packet.share.record[i][k];
                     to[0] += packet.weight[i][k] * reflects.x;
-                    to[stride] += packet.weight[i][k] * reflects.y;
-                    to[2 * stride] += packet.weight[i][k] * reflects.z;
+                    to[across] += packet.weight[i][k] * reflects.y;
+                    to[2 * across] += packet.weight[i][k] * reflects.z;
                 }
             }
         }
@@ -74,7 +74,7 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
     // The pixels' form factors sum to 1 but for the midpoint rule.
     float scale = all > 0.0f ? 1.0f / all : 0.0f, stand_for = scale;
     if (skies) stand_for = looked > 0.0f ? scale * surfaces / looked : 0.0f;
-    for (uint k = 0; k < 3 * stride; ++k) row[k] *= stand_for;
+    for (uint k = 0; k < 3 * across; ++k) row[k] *= stand_for;
     beyond *= scale * CLGI_PI * params.sky.xyz;
     own = stand_for * own + scale * CLGI_PI * above * params.sky.xyz + beyond;
     once *= stand_for;

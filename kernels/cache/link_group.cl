@@ -22,10 +22,10 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
     LinkWorld world = LINK_WORLD;
     uint lane = (uint)get_local_id(0), lanes = (uint)get_local_size(0);
     uint record = params.first + (uint)get_group_id(0);
-    uint stride = params.stride;
-    global float* row = rows + (ulong)record * 3 * stride;
+    uint stride = params.stride, across = params.row_stride;
+    global float* row = rows + (ulong)record * 3 * across;
     for (uint k = 0; k < 3; ++k)
-        for (uint j = lane; j < stride; j += lanes) row[k * stride + j] = 0.0f;
+        for (uint j = lane; j < across; j += lanes) row[k * across + j] = 0.0f;
     for (uint k = lane; k < SUMS; k += lanes) sums[k] = 0.0f;
     uint faces = link_stands(&params, planes, record) ? 5 : 0;
     uint skies = params.sky_width > 0, every = params.every;
@@ -84,8 +84,8 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
                     uint at = records[i][of];
                     if (at % lanes != lane) continue;
                     row[at] += weights[i][of] * reflects[0][of];
-                    row[stride + at] += weights[i][of] * reflects[1][of];
-                    row[2 * stride + at] += weights[i][of] * reflects[2][of];
+                    row[across + at] += weights[i][of] * reflects[1][of];
+                    row[2 * across + at] += weights[i][of] * reflects[2][of];
                 }
             barrier(CLK_LOCAL_MEM_FENCE);
         }
@@ -95,7 +95,7 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
     float all = sums[0], scale = all > 0.0f ? 1.0f / all : 0.0f, stand_for = scale;
     if (skies) stand_for = sums[14] > 0.0f ? scale * sums[13] / sums[14] : 0.0f;
     for (uint k = 0; k < 3; ++k)
-        for (uint j = lane; j < stride; j += lanes) row[k * stride + j] *= stand_for;
+        for (uint j = lane; j < across; j += lanes) row[k * across + j] *= stand_for;
     if (lane != 0) return;
     float sky_scale[3] = {params.sky.x, params.sky.y, params.sky.z};
     for (uint c = 0; c < 3; ++c) {

@@ -10,7 +10,7 @@
 // window grows with its mean. By its own mean a record that few directions happen to light would be
 // surer than one that many do, and all together would be too dark: so V is that of the middle between
 // mean and S. While n is below SETTLE_LEAST, or no direction lights the record, V is not known well
-// enough and nothing is corrected.            [derived: as gauge.cl; a deviation counts from two V on]
+// enough and nothing is corrected.            [derived: as gauge.cl; from two standard errors on]
 //
 // Work size    1D, one work-item for every CLGI_WIDTH records (rounded up); any local size
 // Writes       sums and settled light of its own records

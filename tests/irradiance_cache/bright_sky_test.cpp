@@ -26,6 +26,7 @@ TEST(BrightSky, IsKnownBesideAllLight) {
     CacheParams params{};
     params.count = 2;
     params.stride = plane;
+    params.row_stride = 16;
     params.size = 16;
     params.sky = {1.0f, 0.5f, 2.0f, 1.0f};
     params.sky_width = 2;
@@ -35,7 +36,7 @@ TEST(BrightSky, IsKnownBesideAllLight) {
     for (const std::uint32_t with : {0u, 1u}) {
         params.bright = with;
         passes.link(queue, params, two.tree, scene, no_emitters(), two.b);
-        passes.bounce(queue, {2, plane, 0, 0}, two.b);
+        passes.bounce(queue, {2, plane, 0, 16}, two.b);
         const auto base = test::download<float>(two.b.base, 3 * plane),
                    known = test::download<float>(two.b.bright, 3 * plane),
                    next = test::download<float>(two.b.next, 3 * plane),
@@ -77,7 +78,7 @@ TEST(BrightSky, HasEmittersThatLightPixelsAlone) {
     emitters.emitters = test::upload(set.emitters);
     CacheParams params{};
     params.count = 2;
-    params.stride = plane;
+    params.stride = params.row_stride = plane;
     params.size = size;
     params.emitter_count = 3;
     params.emitter_step = params.thin = params.every = 1;

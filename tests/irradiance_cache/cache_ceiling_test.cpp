@@ -102,7 +102,7 @@ TEST_P(CacheCeiling, IsThatOfItsRecordsInEachPixel) {
         *of = test::empty<float>(3 * test::record_stride);
     CacheParams params{};
     params.count = 1;
-    params.stride = test::record_stride;
+    params.stride = params.row_stride = test::record_stride;
     params.size = ceiling_face;
     params.emitter_step = params.thin = params.every = 1;
     const CachePasses passes(test::programs(), test::usual_build());

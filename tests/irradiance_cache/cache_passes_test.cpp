@@ -7,6 +7,9 @@
 #include <clgi/procedural.hpp>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <limits>
+#include <random>
+#include <utility>
 
 #include "device.hpp"
 #include "math_modes.hpp"
@@ -155,6 +158,50 @@ TEST(CachePasses, CarriesOnWhatChangesEvenlyBetweenRecords) {
 }
 
 // Each pass with buffers for its records, and then with one of them too small.
+// Rows are shorter than planes, as records that light no others have columns in none. What lies
+// past them in a plane is not read, and records before the first are not written.
+TEST(CachePasses, BounceSumsRowsOfTheirOwnLength) {
+    constexpr std::uint32_t stride = 48, row = 32, columns = 20, first = 2, count = 35;
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<float> random(0.1f, 1.0f);
+    const auto drawn = [&](std::size_t size) {
+        std::vector<float> out(size);
+        for (float& value : out) value = random(generator);
+        return out;
+    };
+    std::vector<float> rows(3 * std::size_t{row} * (first + count), 0.0f),
+        light = drawn(3 * stride);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        if (k % row < columns) rows[k] = random(generator);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = row; k < stride; ++k)
+            light[c * stride + k] = std::numeric_limits<float>::quiet_NaN();
+    const auto base = drawn(3 * stride), reflected = drawn(3 * stride), bright = drawn(3 * stride);
+    CacheBuffers b;
+    b.rows = test::upload(rows);
+    b.base = test::upload(base);
+    b.reflected = test::upload(reflected);
+    b.bright = test::upload(bright);
+    b.light = test::upload(light);
+    b.next = test::upload(std::vector<float>(3 * stride, -1.0f));
+    b.shown = test::upload(std::vector<float>(3 * stride, -1.0f));
+    CachePasses(test::programs(), test::usual_build())
+        .bounce(test::device().queue, {count, stride, first, row}, b);
+    const auto next = test::download<float>(b.next, 3 * stride),
+               shown = test::download<float>(b.shown, 3 * stride);
+    for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_EQ(next[c * stride + first - 1], -1.0f);
+        for (std::size_t i = first; i < first + count; ++i) {
+            const std::size_t at = c * stride + i;
+            double sum = double{base[at]} + double{reflected[at]};
+            for (std::size_t k = 0; k < columns; ++k)
+                sum += double{rows[(3 * i + c) * row + k]} * double{light[c * stride + k]};
+            EXPECT_NEAR(next[at], sum, 1e-5 * sum) << c << " " << i;
+            EXPECT_NEAR(shown[at], sum - double{bright[at]}, 1e-5 * sum) << c << " " << i;
+        }
+    }
+}
+
 TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     const DeviceScene scene = test::on_device(furnace({.subdivisions = 1}));
     const CachePasses passes(test::programs(), test::usual_build());
@@ -162,7 +209,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     constexpr std::uint32_t records = 4, stride = 16, size = 8;
     CacheParams params{};
     params.count = records;
-    params.stride = stride;
+    params.stride = params.row_stride = stride;
     params.size = size;
     params.picks = 2;
     params.pick_stride = 16;
@@ -202,7 +249,7 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
         passes.link(queue, params, tree, scene, emitters, b);
     };
     const auto bounce = [&](const CacheBuffers& b) {
-        passes.bounce(queue, {records, stride, 0, 0}, b);
+        passes.bounce(queue, {records, stride, 0, stride}, b);
     };
     const auto show = [&](const CacheBuffers& b) {
         passes.show(queue, {4, stride, 0, 0}, tree, b, points, irradiance, doubt);
@@ -218,8 +265,13 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     for (const auto small : {&B::planes, &B::light}) EXPECT_THROW(show(buffers(small)), Error);
     for (const auto small : {&B::planes, &B::light}) EXPECT_THROW(weigh(buffers(small)), Error);
     EXPECT_NO_THROW(bounce(buffers(nullptr)));
-    EXPECT_THROW(passes.bounce(queue, {records, stride, stride - records + 1, 0}, buffers(nullptr)),
-                 Error);
+    for (const auto& [first, row] :
+         {std::pair(stride - records + 1, stride), {0u, 2 * stride}, {0u, 8u}})
+        EXPECT_THROW(passes.bounce(queue, {records, stride, first, row}, buffers(nullptr)), Error)
+            << first << " " << row;
+    params.row_stride = 8;  // no whole packets
+    EXPECT_THROW(link(buffers(nullptr)), Error);
+    params.row_stride = stride;
     doubt = test::empty<float>(1);
     EXPECT_THROW(show(buffers(nullptr)), Error);
     params.thin = 0;  // no block would count

@@ -52,7 +52,7 @@ struct LitFloor {
         emitters.kind = Pixels::depth;
         scale = scene->frame().scale;
         params.count = 1;
-        params.stride = places;
+        params.stride = params.row_stride = places;
         params.size = face;
         const glm::dvec3 place =
             scale * (glm::dvec3(0.2, above ? 1.5 : -1.5, 0.1) - scene->frame().origin);

@@ -88,8 +88,8 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     const double hemicube = 5.0 * sizeof(View) + 24.0 * drawn_side * drawn_side;
     // Of two trees and their lists, of some four leaves a record.
     constexpr double trees = 2.0 * 4.0 * 1.25 * 4.0 * int{CACHE_WAYS} * int{CACHE_LISTED};
-    const double per_record =
-        hemicube + 12.0 * most + 36.0 + (PICK_PLANES + 2) * 4.0 * picks_per_record + trees;
+    const double per_record = hemicube + 12.0 * (most - o.refined) + 36.0 +
+                              (PICK_PLANES + 2) * 4.0 * picks_per_record + trees;
     const auto vpls = static_cast<double>(most_vpls(o));
     const double spots =
         vpls > 0.0 ? vpls * hemicube + sizeof(std::uint64_t) *
@@ -122,6 +122,8 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
       lights(programs, options.picture.build) {
     capacity = most_records(options);
     stride = plane_stride(capacity);
+    row_stride =
+        std::min(stride, plane_stride(capacity - static_cast<std::size_t>(options.refined)));
     read_sky();
     BufferTable all = picture.table();
     add_to(all);
@@ -166,7 +168,7 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     table.add(b.views, "hemicubes", lower, 5 * capacity * sizeof(View));
     table.add(b.visibility, "what hemicubes see", lower,
               3 * face * face * capacity * sizeof(std::uint64_t));
-    table.add(b.rows, "transport", lower, 3 * plane * capacity);
+    table.add(b.rows, "transport", lower, 3 * row_stride * word * capacity);
     for (cl::Buffer* light : {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown})
         table.add(*light, "light", lower, 3 * plane);
     table.add(chosen, "records", lower, std::max<std::size_t>(capacity, most_chosen) * word);
@@ -205,6 +207,7 @@ CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count)
     out.stride = stride;
     out.size = static_cast<std::uint32_t>(drawn);
     out.every = static_cast<std::uint32_t>(drawn / options.face);
+    out.row_stride = row_stride;
     out.sky_width = static_cast<std::uint32_t>(sky.width);
     out.sky_height = static_cast<std::uint32_t>(sky.height);
     if (sky.width > 0) {

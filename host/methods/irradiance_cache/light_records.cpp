@@ -97,7 +97,7 @@ void IrradianceCache::State::light(int limit) {
 void IrradianceCache::State::bounce(std::size_t first) {
     Recorder& record = picture.record();
     const auto count = static_cast<std::uint32_t>(records.size() - first);
-    const CacheBounceParams params{count, stride, static_cast<std::uint32_t>(first), 0};
+    const CacheBounceParams params{count, stride, static_cast<std::uint32_t>(first), row_stride};
     record("cache.bounce", 3 * count,
            [&](const WaitList& wait) { return passes.bounce(record.queue(), params, b, wait); });
     std::swap(b.light, b.next);

@@ -159,8 +159,9 @@ cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& pa
                             const WaitList& wait) const {
     need_records(link_, params, b);
     need_link(link_, params, tree, emitters, b);
+    need_stride(link_, "row_stride", params.row_stride, tree.record_count);
     need(link_, "rows", b.rows,
-         3 * word * params.stride * (std::size_t{params.first} + params.count));
+         3 * word * params.row_stride * (std::size_t{params.first} + params.count));
     for (const cl::Buffer* light : {&b.base, &b.bright, &b.reflected})
         need(link_, "light", *light, 3 * word * params.stride);
     return launch(link_, queue, params.count * items_each(link_, groups_), wait, params, tree,
@@ -224,7 +225,9 @@ cl::Event CachePasses::bounce(const cl::CommandQueue& queue, const CacheBouncePa
     const std::size_t end = std::size_t{params.first} + params.record_count;
     need_stride(bounce_, "stride", params.stride, end);
     const std::size_t plane = word * params.stride;
-    need(bounce_, "rows", b.rows, 3 * plane * end);
+    need_stride(bounce_, "row_stride", params.row_stride, 1);
+    need_range("cache.bounce", "row_stride", params.row_stride, 1u, params.stride);
+    need(bounce_, "rows", b.rows, 3 * word * params.row_stride * end);
     for (const cl::Buffer* light : {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown})
         need(bounce_, "light", *light, 3 * plane);
     return launch(bounce_, queue, std::size_t{3} * params.record_count, wait, params, b.rows,

@@ -63,8 +63,8 @@ struct IrradianceCache::State {
     // Until the light rests, or so many reflections.
     void light(int limit);
     void bounce(std::size_t first);
-    // More records where the light changes between those that are there, in rounds of ever smaller
-    // blocks. They gather what the last reflection did for the others, which have no light of
+    // More records where reflected light changes between those that are there, in rounds of ever
+    // smaller blocks. They gather what the last reflection did for the others, which have no light of
     // theirs.
     void refine(const View& view);
     std::vector<float> read_doubt();
@@ -155,6 +155,7 @@ struct IrradianceCache::State {
     std::vector<CacheRecord> shown;  // what each pixel shows
     std::size_t capacity = 0, pick_stride = 0;
     std::uint32_t stride = 0;
+    std::uint32_t row_stride = 0;  // of the transport: refined records light no others
     IrradianceCacheStatus found;
 };
 

@@ -21,7 +21,7 @@ struct CacheBuffers {
     cl::Buffer visibility;       // [3 * size * size * records] ulong
     cl::Buffer nodes, lists;     // of the tree
     cl::Buffer sky;              // [1 or, with params.bright, 2][sky_height][sky_width][3] float
-    cl::Buffer rows;             // [records][3][stride] float
+    cl::Buffer rows;             // [records][3][row_stride] float
     cl::Buffer base, reflected;  // [3][stride] float, exposed lux
     cl::Buffer light, next;      // the same; without direct light but that of the sky
     cl::Buffer bright, shown;    // the same: of base, what shown light lacks; light without it

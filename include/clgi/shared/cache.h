@@ -77,9 +77,9 @@ typedef struct {
     uint skipped;  // emitters after the whole ones, which light no hemicube
     uint bright;   // 1: behind the sky's texels are those of its bright part, which shown light lacks
     uint every;    // surfaces are looked at in one of so many columns and rows, at least 1
+    uint row_stride;  // of a row of the transport: whole packets, for all records of the tree
     uint pad0_;
     uint pad1_;
-    uint pad2_;
 } CacheParams;
 
 // What a light lights in small places, such as the sun's spot behind a hole, falls between the pixels
@@ -112,9 +112,9 @@ typedef struct {
 
 typedef struct {
     uint record_count;
-    uint stride;  // of planes, and of a row of the transport
-    uint first;   // record
-    uint pad_;
+    uint stride;      // of planes
+    uint first;       // record
+    uint row_stride;  // as CacheParams has it, at most stride
 } CacheBounceParams;
 
 // A picture whose light of the sky is corrected, in blocks of so many pixels a side.
