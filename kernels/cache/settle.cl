@@ -4,13 +4,14 @@
 //
 //   e = (sum m b) / M - S,   E' = E + max(0, 1 - SETTLE_DOUBT V / |e|^2) e
 //   V = (sum (m b)^2 - Q |mean|^2) / M^2 (1 + 4 / n) (S + mean) / (2 mean),   mean = (sum m b) / M
+//                                          [derived: as gauge.cl; from two standard errors on]
 //
 // b: what m directions bring to the record by their maps; S: what its hemicube sees of the sky;
 // M, Q, n as gauge.cl has them, squares of luminances. The variance of what comes through a small
 // window grows with its mean. By its own mean a record that few directions happen to light would be
 // surer than one that many do, and all together would be too dark: so V is that of the middle between
 // mean and S. While n is below SETTLE_LEAST, or no direction lights the record, V is not known well
-// enough and nothing is corrected.            [derived: as gauge.cl; from two standard errors on]
+// enough and nothing is corrected.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH records (rounded up); any local size
 // Writes       sums and settled light of its own records
@@ -56,7 +57,8 @@ kernel void cache_settle(
                    (1.0f + 4.0f * params.squares / all);
     floatp e = luminance(off[0], off[1], off[2]);
     intp lit = mean > 0.0f;
-    noise *= packet_select(packet_zero, 1.0f - 0.5f * e / packet_select(packet_splat(1.0f), mean, lit), lit);
+    floatp own = packet_select(packet_splat(1.0f), mean, lit);
+    noise *= packet_select(packet_zero, 1.0f - 0.5f * e / own, lit);
     floatp needed = SETTLE_DOUBT * packet_max(noise, packet_zero);
     intp sure = lit & (e * e > needed);
     if (SETTLE_LEAST * params.squares > all) sure = (intp)(0);

@@ -5,6 +5,7 @@
 #include <clgi/passes/cache.hpp>
 #include <clgi/procedural.hpp>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 
 #include "device.hpp"
 #include "math_modes.hpp"
@@ -131,7 +132,6 @@ TEST(CachePasses, LinkBySurfacesInSomePixels) {
     for (SceneTriangle& t : half.triangles) t.material = middle(t).x > 0.0 ? 1 : 0;
     const DeviceScene scene = test::on_device(half);
     const cl::CommandQueue& queue = test::device().queue;
-    const CachePasses passes(test::programs(), test::usual_build());
     constexpr std::uint32_t size = 48;
     TwoRecords two;
     look_up(two.b, size);
@@ -147,10 +147,9 @@ TEST(CachePasses, LinkBySurfacesInSomePixels) {
     two.b.sky = test::upload(std::vector<float>{3.0f, 5.0f, 0.5f});
     CacheParams params{};
     params.count = 2;
-    constexpr std::uint32_t row = plane + 16;  // of the transport alone
+    constexpr std::uint32_t row = 3 * plane;  // of the transport alone
     params.stride = plane;
     params.row_stride = row;
-    two.b.rows = test::empty<float>(6 * row);
     params.size = size;
     params.sky = {1.0f, 1.0f, 1.0f, 1.0f};
     params.sky_width = params.sky_height = 1;
@@ -158,26 +157,36 @@ TEST(CachePasses, LinkBySurfacesInSomePixels) {
     params.emitter_step = params.thin = 1;
     const glm::dvec3 glow = glm::dvec3(half.materials[1].emission) / scene.frame().exposure,
                      sky(3.0, 5.0, 0.5), albedo(0.2, 0.5, 0.7);
-    for (const std::uint32_t every : {1u, 2u, 3u}) {
-        params.every = every;
-        passes.link(queue, params, two.tree, scene, no_emitters(), two.b);
-        const auto base = test::download<float>(two.b.base, 3 * plane),
-                   rows = test::download<float>(two.b.rows, 6 * row);
-        for (int c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < 2; ++i) {
-                const auto of = static_cast<std::size_t>(c);
-                const double wanted =
-                    glm::half_pi<double>() * sky[c] + glm::quarter_pi<double>() * glow[c];
-                EXPECT_NEAR(base[of * plane + i], wanted, 0.015 * wanted) << every << " " << c;
-                double reflected = 0.0;
-                for (std::size_t j = 0; j < row; ++j) reflected += rows[(3 * i + of) * row + j];
-                EXPECT_NEAR(reflected, 0.455 * albedo[c], 0.01 * albedo[c]) << every << " " << c;
-            }
+    for (const Form form : {Form::packets, Form::groups}) {  // link.cl, link_group.cl
+        BuildOptions build = test::usual_build();
+        build.form = form;
+        const CachePasses passes(test::programs(), build);
+        for (const auto& [every, thin] : {std::pair(1u, 1u), {2u, 1u}, {3u, 1u}, {1u, 3u}}) {
+            params.every = every;
+            params.thin = thin;
+            two.b.rows = test::upload(std::vector<float>(6 * row, 9.0f));  // to be overwritten
+            two.b.base = test::upload(std::vector<float>(3 * plane, 9.0f));
+            passes.link(queue, params, two.tree, scene, no_emitters(), two.b);
+            const auto base = test::download<float>(two.b.base, 3 * plane),
+                       rows = test::download<float>(two.b.rows, 6 * row);
+            for (int c = 0; c < 3; ++c)
+                for (std::size_t i = 0; i < 2; ++i) {
+                    const auto of = static_cast<std::size_t>(c);
+                    const double wanted =
+                        glm::half_pi<double>() * sky[c] + glm::quarter_pi<double>() * glow[c];
+                    EXPECT_NEAR(base[of * plane + i], wanted, 0.015 * thin * wanted)
+                        << every << " " << thin << " " << c;
+                    double reflected = 0.0;
+                    for (std::size_t j = 0; j < row; ++j) reflected += rows[(3 * i + of) * row + j];
+                    EXPECT_NEAR(reflected, 0.455 * albedo[c], 0.01 * thin * albedo[c])
+                        << every << " " << thin << " " << c;
+                }
+        }
+        params.every = 4;  // 12 pixels are no multiple of 8
+        EXPECT_THROW(passes.link(queue, params, two.tree, scene, no_emitters(), two.b), Error);
+        params.every = 0;
+        EXPECT_THROW(passes.link(queue, params, two.tree, scene, no_emitters(), two.b), Error);
     }
-    params.every = 4;  // 12 pixels are no multiple of 8
-    EXPECT_THROW(passes.link(queue, params, two.tree, scene, no_emitters(), two.b), Error);
-    params.every = 0;
-    EXPECT_THROW(passes.link(queue, params, two.tree, scene, no_emitters(), two.b), Error);
 }
 
 }  // namespace
