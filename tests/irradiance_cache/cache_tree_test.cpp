@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "device.hpp"
 #include "math_modes.hpp"
@@ -277,8 +279,8 @@ TEST(CacheRecords, AreRefinedWhereDoubtIsLargest) {
     EXPECT_TRUE(places(0).empty());
 }
 
-// Doubt counts by the square of what a pixel reflects: of a black one as of glTF's dielectrics. Rows
-// are longer than the picture.
+// Doubt counts by the square of what a pixel reflects: of a black one as of glTF's dielectrics.
+// Rows are longer than the picture.
 TEST(CacheRecords, AreRefinedForWhatIsReflected) {
     constexpr std::size_t stride = 5;
     std::vector<float> doubt = {2.0f, 3.0f, 4.0f, 0.0f}, base(3 * stride, 9.0f);
@@ -293,6 +295,22 @@ TEST(CacheRecords, AreRefinedForWhatIsReflected) {
     EXPECT_NEAR(doubt[1], 3.0 * second * second, 1e-6);
     EXPECT_NEAR(doubt[2], 4.0 * 0.04 * 0.04, 1e-8);
     EXPECT_EQ(doubt[3], 0.0f);
+}
+
+// Irradiances that are in doubt by 2 and 6, exposed by 8, half of which is reflected by diffuse
+// surfaces, in a picture of a mean luminance of 3. What is not a number does not count.
+TEST(CacheRecords, AreInDoubtByAShareOfThePicture) {
+    constexpr std::size_t stride = 5;
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    std::vector<float> radiance(3 * stride, 1e6f), doubt = {1.0f, 9.0f, none, 0.0f};
+    const glm::vec3 seen[] = {{2, 2, 2}, {4, 5, 6}, {1, 2, 3}, {0, 0, 0}};
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            radiance[c * stride + i] = seen[i][static_cast<glm::length_t>(c)];
+    const double mean = (2.0 + 0.2126 * 4.0 + 0.7152 * 5.0 + 0.0722 * 6.0) / 4.0;
+    EXPECT_NEAR(relative_doubt(doubt, radiance, stride, 8.0),
+                8.0 * std::sqrt((1.0 + 9.0) / 4.0) / std::numbers::pi / mean, 1e-6);
+    EXPECT_EQ(relative_doubt(doubt, std::vector<float>(3 * stride, 0.0f), stride, 8.0), 0.0);
 }
 
 // The first record shows the second alone, which shows the third, which shows itself and nothing:

@@ -70,6 +70,27 @@ TEST_P(IrradianceCachePictures, HaveTheSkyOfATiltedPlane) {
     }
 }
 
+// How much records differ does not depend on how bright the lamps are, and falls with their number.
+TEST_P(IrradianceCachePictures, AreInDoubtWhereRecordsAreFew) {
+    Scene scene = cornell();
+    const auto doubt = [&](int seen, float power) {
+        for (Material& material : scene.materials) material.emission *= power;
+        const DeviceScene device = test::on_device(scene);
+        IrradianceCacheOptions options = cache_options(seen, 3 * seen);
+        options.refined = 0;
+        options.face = 16;
+        IrradianceCache cache(test::programs(), test::device().queue, device, options);
+        cache.render(scene.cameras.at(0)).wait();
+        return cache.doubt();
+    };
+    const double few = doubt(20, 1.0f);
+    EXPECT_NEAR(doubt(20, 1000.0f), few, 1e-3 * few);
+    EXPECT_LT(doubt(320, 1e-3f), 0.6 * few);
+    EXPECT_GT(few, 0.02);
+    EXPECT_LT(few, 0.5);
+    EXPECT_EQ(doubt(20, 0.0f), 0.0);
+}
+
 // In a closed sphere of albedo p light that arrives as E is E / (1 - p) with all reflections; with
 // n of them the sum of p^k up to n.
 TEST_P(IrradianceCachePictures, HaveAllReflectionsOfASphere) {

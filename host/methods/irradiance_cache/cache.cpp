@@ -289,6 +289,8 @@ IrradianceCacheStatus IrradianceCache::status() const {
     return out;
 }
 
+double IrradianceCache::doubt() const { return state_->doubted(); }
+
 const Picture& IrradianceCache::picture() const { return state_->picture; }
 const IrradianceCacheOptions& IrradianceCache::options() const { return state_->options; }
 std::size_t IrradianceCache::bytes() const { return state_->picture.bytes() + state_->grown; }

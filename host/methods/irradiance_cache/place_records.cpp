@@ -189,18 +189,28 @@ void IrradianceCache::State::refine(const View& view) {
     }
 }
 
-std::vector<float> IrradianceCache::State::read_doubt() {
-    std::vector<float> out(picture.pixels());
+std::vector<float> IrradianceCache::State::read_planes(const cl::Buffer& from, std::size_t first,
+                                                       std::size_t count) {
+    std::vector<float> out(count);
     const WaitList pending = picture.record().waits();
-    picture.record().queue().enqueueReadBuffer(doubt, CL_TRUE, 0, out.size() * sizeof(float),
-                                               out.data(), &pending);
-    const std::size_t row = picture.stride();
-    std::vector<float> base(3 * row);
-    picture.record().queue().enqueueReadBuffer(picture.gbuffer().planes, CL_TRUE,
-                                               GBUFFER_BASE * row * sizeof(float),
-                                               base.size() * sizeof(float), base.data());
-    keep_what_is_reflected(out, base, row);
+    picture.record().queue().enqueueReadBuffer(from, CL_TRUE, first * sizeof(float),
+                                               count * sizeof(float), out.data(), &pending);
     return out;
+}
+
+std::vector<float> IrradianceCache::State::read_doubt() {
+    const std::size_t row = picture.stride();
+    std::vector<float> out = read_planes(doubt, 0, picture.pixels());
+    keep_what_is_reflected(out, read_planes(picture.gbuffer().planes, GBUFFER_BASE * row, 3 * row),
+                           row);
+    return out;
+}
+
+double IrradianceCache::State::doubted() {
+    if (records.empty()) return 0.0;
+    const std::size_t row = picture.stride();
+    return relative_doubt(read_doubt(), read_planes(picture.radiance(), 0, 3 * row), row,
+                          scene.frame().exposure);
 }
 
 }  // namespace clgi

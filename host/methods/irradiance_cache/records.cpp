@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <queue>
 
 #include "scene/luminance.hpp"
@@ -35,10 +36,24 @@ void keep_what_is_reflected(std::vector<float>& doubt, const std::vector<float>&
                             std::size_t stride) {
     constexpr double least = 0.04;
     for (std::size_t i = 0; i < doubt.size(); ++i) {
-        const double share = std::max(
-            least, luminance(glm::dvec3(base[i], base[stride + i], base[2 * stride + i])));
+        const double share =
+            std::max(least, luminance(glm::dvec3(base[i], base[stride + i], base[2 * stride + i])));
         doubt[i] = static_cast<float>(double{doubt[i]} * share * share);
     }
+}
+
+double relative_doubt(const std::vector<float>& doubt, const std::vector<float>& radiance,
+                      std::size_t stride, double exposure) {
+    double squares = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < doubt.size(); ++i) {
+        const double seen =
+            luminance(glm::dvec3(radiance[i], radiance[stride + i], radiance[2 * stride + i]));
+        if (!std::isfinite(doubt[i]) || !std::isfinite(seen)) continue;
+        squares += double{doubt[i]};
+        sum += seen;
+    }
+    const auto pixels = static_cast<double>(doubt.size());
+    return sum > 0.0 ? exposure / std::numbers::pi * std::sqrt(squares * pixels) / sum : 0.0;
 }
 
 std::vector<CacheRecord> doubtful_records(const std::vector<CacheRecord>& pixels,

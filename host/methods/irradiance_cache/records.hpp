@@ -17,11 +17,16 @@ std::vector<CacheRecord> seen_records(const std::vector<CacheRecord>& pixels, in
 // Side of these blocks, pixels.
 int block_side(int width, int height, int count);
 
-// Of `doubt` about what arrives at pixels, exposed lux squared, what the pixels reflect of it: times
-// the square of the luminance of their base colour, at least what glTF's dielectrics reflect.
+// Of `doubt` about what arrives at pixels, exposed lux squared, what the pixels reflect of it:
+// times the square of the luminance of their base colour, at least what glTF's dielectrics reflect.
 // base: three rows of `stride`.
 void keep_what_is_reflected(std::vector<float>& doubt, const std::vector<float>& base,
                             std::size_t stride);
+
+// What of a picture such doubt is: root of its mean, as radiance, over the mean luminance.
+// radiance: three rows of `stride`, cd/m^2. 0 for a black picture.
+double relative_doubt(const std::vector<float>& doubt, const std::vector<float>& radiance,
+                      std::size_t stride, double exposure);
 
 // A record in each of the `count` blocks of side x side pixels in which the sum of `doubt` is
 // largest, at the pixel where most of it is; none where there is no doubt.

@@ -64,10 +64,13 @@ struct IrradianceCache::State {
     void light(int limit);
     void bounce(std::size_t first);
     // More records where reflected light changes between those that are there, in rounds of ever
-    // smaller blocks. They gather what the last reflection did for the others, which have no light of
-    // theirs.
+    // smaller blocks. They gather what the last reflection did for the others, which have no light
+    // of theirs.
     void refine(const View& view);
-    std::vector<float> read_doubt();
+    // Waits. `count` floats from `first` on.
+    std::vector<float> read_planes(const cl::Buffer& from, std::size_t first, std::size_t count);
+    std::vector<float> read_doubt();  // of what pixels reflect
+    double doubted();                 // of the picture that was shown last
     // Whether the last step changed little.
     bool rests();
     // Of the records that pixels look up.
