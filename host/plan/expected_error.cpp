@@ -44,12 +44,6 @@ double direct_error(const Plan& plan) {
     return after_samples * usual / (has_edges_alone(plan) ? fineness : std::sqrt(fineness));
 }
 
-// Methods whose error is that of the whole picture, the sky's light with it.
-bool gathers_the_sky(const Plan& plan) {
-    return plan.method == Method::dynamic_transfer ||
-           (plan.method == Method::irradiance_cache && has_sky(plan));
-}
-
 // Lobes as wide as a bin, which glossy leaves alone have: `glossy-box` and `glossy-bust-like` erred
 // as if 0.6 and 0.2 of what lobes reflect were lost.
 constexpr double lost_in_bins = 0.4;
@@ -62,14 +56,13 @@ double lost_gloss(const Plan& plan) {
                                                         : plan.analysis.surfaces.gloss);
 }
 
-std::optional<double> indirect_error(const Plan& plan, const Preset& preset) {
+std::optional<double> indirect_error(const Plan& plan, double of_kind) {
     if (!plan.on(Effect::first_bounce)) {
         const EffectChoice& first = plan.effects[static_cast<std::size_t>(Effect::first_bounce)];
         return first.bound;
     }
-    const double relative = preset.error[static_cast<std::size_t>(kind_of(plan))];
-    if (!(relative > 0.0)) return std::nullopt;
-    return std::hypot(relative, lost_gloss(plan)) * indirect_share(plan);
+    if (!(of_kind > 0.0)) return std::nullopt;
+    return std::hypot(doubt_factor(plan) * of_kind, lost_gloss(plan)) * indirect_share(plan);
 }
 
 }  // namespace
@@ -80,14 +73,25 @@ bool has_exact_direct_light(const Plan& plan) {
            !plan.on(Effect::environment_light);
 }
 
-std::optional<double> expected_error(const Plan& plan, const Preset& preset) {
-    if (gathers_the_sky(plan)) {
-        const double whole = preset.error[static_cast<std::size_t>(kind_of(plan))];
-        return whole > 0.0 ? std::optional(whole) : std::nullopt;
-    }
+bool gathers_the_sky(const Plan& plan) {
+    return plan.method == Method::dynamic_transfer ||
+           (plan.method == Method::irradiance_cache && has_sky(plan));
+}
+
+double doubt_factor(const Plan& plan) {
+    double out = 1.0;
+    const double share = indirect_share(plan);
+    for (const PlanCheck& check : plan.checks)
+        if (check.found.doubt && check.indirect && !check.found.error && share > 0.0)
+            out = std::max(1.0, *check.found.doubt / (*check.indirect * share));
+    return out;
+}
+
+std::optional<double> expected_error(const Plan& plan, double of_kind) {
+    if (gathers_the_sky(plan)) return of_kind > 0.0 ? std::optional(of_kind) : std::nullopt;
     // A few lights for the whole sky: not measured.
     if (plan.method == Method::direct && has_sky(plan)) return std::nullopt;
-    const std::optional<double> indirect = indirect_error(plan, preset);
+    const std::optional<double> indirect = indirect_error(plan, of_kind);
     if (!indirect) return std::nullopt;
     const double out =
         std::hypot(*indirect, direct_error(plan), is_composed(plan) ? moving_error : 0.0);
@@ -108,7 +112,9 @@ std::string evidence_of_error(const Plan& plan) {
                                : plan.probe                 ? "direct light by a probe"
                                                             : "direct light as in closed rooms";
     if (!plan.on(Effect::first_bounce)) return direct;
-    return "indirect light as measured in " + kind + " scenes, " +
+    const bool seen = doubt_factor(plan) > 1.0;
+    return (seen ? "indirect light by how its records differ, "
+                 : "indirect light as measured in " + kind + " scenes, ") +
            (is_composed(plan)
                 ? "of what moves as in an office (behind a closing door it is up to all "
                   "of the light there), "

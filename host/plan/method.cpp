@@ -25,6 +25,7 @@ constexpr double near_enough = 1.05;  // errors that are as good as the least
 struct Candidate {
     Plan plan;
     std::optional<double> error;
+    double of_kind = 0.0;  // the preset's
 };
 
 bool fits(const cl::Device& device, const Plan& plan) {
@@ -52,9 +53,8 @@ void drop_checked(std::vector<Candidate>& candidates) {
 }
 
 // Records that were not measured in scenes of the kind.
-bool is_not_measured(const Plan& plan, const Preset& preset) {
-    return plan.method == Method::irradiance_cache &&
-           !(preset.error[static_cast<std::size_t>(kind_of(plan))] > 0.0);
+bool is_not_measured(const Candidate& one) {
+    return one.plan.method == Method::irradiance_cache && !(one.of_kind > 0.0);
 }
 
 // Removes those that the device has no room for, unless it has none for any.
@@ -113,9 +113,10 @@ bool choose_method(const cl::Device& device, Plan& plan) {
         for (const int fineness : {1, 2, 4, 8, 16}) {
             Candidate one{plan, std::nullopt};
             set(one.plan, preset, fineness);
-            if (is_not_measured(one.plan, preset)) continue;
+            one.of_kind = preset.error[static_cast<std::size_t>(kind_of(one.plan))];
+            if (is_not_measured(one)) continue;
             one.plan.cost = paced_cost(device, one.plan);
-            one.error = expected_error(one.plan, preset);
+            one.error = expected_error(one.plan, one.of_kind);
             if (one.error) *one.error *= error_factor(one.plan);
             candidates.push_back(std::move(one));
         }
@@ -168,6 +169,9 @@ bool choose_method(const cl::Device& device, Plan& plan) {
     plan.why = !request.method && is_composed(plan) ? "little moves through light that is baked"
                                                     : choice.why;
     if (!left_out_by_request(plan)) plan.error = best.error;
+    plan.indirect_error.reset();
+    if (plan.error && best.of_kind > 0.0 && !gathers_the_sky(plan))
+        plan.indirect_error = best.of_kind;
     if (plan.error) plan.error_evidence = evidence_of_error(plan);
     plan.meets_time = !request.seconds || quick(best);
     plan.meets_error = !request.error || (plan.error && right(best));

@@ -7,6 +7,7 @@
 #include <clgi/error.hpp>
 #include <cmath>
 
+#include "plan/expected_error.hpp"
 #include "plan/method.hpp"
 #include "plan/probe.hpp"
 #include "plan/reach.hpp"
@@ -42,6 +43,19 @@ void check(const PlanRequest& request) {
         need(std::find(request.without.begin(), request.without.end(), effect) ==
                  request.without.end(),
              std::string(name_of(effect)) + " is both with and without");
+}
+
+void check(const PlanOutcome& found) {
+    for (const std::optional<double>& value : {found.error, found.took_ms, found.doubt})
+        need(!value || (*value >= 0.0 && std::isfinite(*value)),
+             "the measured error, the time or the doubt is negative or not a number");
+}
+
+PlanCheck check_of(const Plan& plan, const PlanOutcome& found) {
+    std::optional<double> expected = plan.error;
+    if (expected) *expected /= error_factor(plan);
+    return {plan.method, expected, plan.indirect_error, plan.cost.total_ms() / pace_of(plan),
+            found};
 }
 
 // called: what the whole scene needs.
@@ -159,27 +173,32 @@ Plan trial_plan(const cl::Device& device, const Plan& plan, double seconds) {
     return out;
 }
 
+std::optional<double> error_of(const Plan& plan, const PlanOutcome& found) {
+    check(found);
+    if (found.error) return found.error;
+    if (!found.doubt || !plan.error || !plan.indirect_error) return plan.error;
+    Plan made = plan;
+    made.checks.push_back(check_of(plan, found));
+    return expected_error(made, *plan.indirect_error).value_or(*plan.error) * error_factor(plan);
+}
+
 std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan, const PlanOutcome& found,
                               std::optional<double> seconds) {
     constexpr double less = 0.95;        // of the error; otherwise it does not pay
     constexpr double surely_less = 0.7;  // what is asked for
     constexpr double patience = 1e4;     // ms, where no time was requested
-    const auto is_amount = [](std::optional<double> value) {
-        return !value || (*value >= 0.0 && std::isfinite(*value));
-    };
-    need(is_amount(found.error) && is_amount(found.took_ms) && is_amount(seconds),
-         "the measured error or the time is negative or not a number");
+    check(found);
+    need(!seconds || (*seconds >= 0.0 && std::isfinite(*seconds)),
+         "the time that is left is negative or not a number");
     Plan out = plan;
     if (seconds) out.request.seconds = seconds;
-    std::optional<double> expected = plan.error;
-    if (expected) *expected /= error_factor(plan);
-    out.checks.push_back({plan.method, expected, plan.cost.total_ms() / pace_of(plan), found});
+    out.checks.push_back(check_of(plan, found));
     if (out.request.error && found.error)
         out.request.error = std::min(*out.request.error, surely_less * *found.error);
     if (!choose_method(device, out)) return std::nullopt;
     price(device, out);
     const double most = out.request.seconds ? 1e3 * *out.request.seconds : patience;
-    const std::optional<double> error = found.error ? found.error : plan.error;
+    const std::optional<double> error = error_of(plan, found);
     if (out.cost.total_ms() > most) return std::nullopt;
     // Where errors are not known, finer settings of the same method are taken to err less.
     const bool better =

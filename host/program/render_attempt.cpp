@@ -22,7 +22,10 @@ std::string with_check(std::string text, const RenderRecord& record) {
     std::string more;
     if (record.samples > 1) more = fmt::format(", {} samples", record.samples);
     if (record.refine_ms > 0.0) more += fmt::format(" in {:.3g} ms more", record.refine_ms);
-    if (record.verified) more += ", " + verify_line(*record.verified);
+    if (record.verified)
+        more += ", " + verify_line(*record.verified);
+    else if (record.expected_error)
+        more += fmt::format(", error about {:.2g} %", 100.0 * *record.expected_error);
     return text.insert(std::min(text.find('\n'), text.size()), more);
 }
 
@@ -137,6 +140,21 @@ double RenderAttempt::time_apart(const std::function<void()>& draw) {
     return out;
 }
 
+PlanOutcome RenderAttempt::outcome() const {
+    PlanOutcome out;
+    out.took_ms = 1e3 * seconds();
+    if (const IrradianceCache* cache = renderer_.irradiance_cache()) out.doubt = cache->doubt();
+    return out;
+}
+
+// Of the plan, and of samples that are too few for edges, textures and lobes.
+std::optional<double> RenderAttempt::expected_error() const {
+    if (!record_.planned || flags_.fps) return std::nullopt;
+    const std::optional<double> out = error_of(record_.planned->plan, outcome());
+    if (!out || renderer_.samples() < 2) return out;
+    return std::hypot(*out, renderer_.sampling_error());
+}
+
 std::optional<Sampling> RenderAttempt::sampling() const {
     if (!(record_.refine_ms > 0.0)) return std::nullopt;
     const double count = renderer_.samples();
@@ -211,8 +229,9 @@ void RenderAttempt::finish(const std::vector<RenderedAttempt>& attempts, bool me
 
 // What is wrong with the picture, besides what the scene's warnings say.
 void RenderAttempt::warn() {
+    record_.expected_error = expected_error();
     if (record_.verified && record_.planned) {
-        const std::string less = expected_less(record_.planned->plan.error, *record_.verified);
+        const std::string less = expected_less(record_.expected_error, *record_.verified);
         if (!less.empty()) {
             record_.warnings.push_back(less);
             notice(false, "warning: " + less);

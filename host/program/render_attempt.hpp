@@ -47,6 +47,8 @@ public:
     const RenderRecord& record() const { return record_; }
     double seconds() const;  // that the first samples took, with all before them
     double refining() const { return 1e-3 * record_.refine_ms; }
+    // What a plan needs to know of its picture, which nothing checked.
+    PlanOutcome outcome() const;
     // As refine() has found it; none where it added no sample.
     std::optional<Sampling> sampling() const;
 
@@ -59,6 +61,7 @@ private:
     void follow(const Motion::Step& step, bool vectors);
     void render(int frame);
     void tune(const TuningTarget& target);
+    std::optional<double> expected_error() const;
     void tell();
     void warn();
 

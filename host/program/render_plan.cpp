@@ -47,7 +47,8 @@ std::optional<Planned> go_on(const cl::Device& device, const Planned& planned,
     if (error.value < nearly * target || plan.checks.size() + 1 >= most) return std::nullopt;
     std::optional<double> left = plan.request.seconds;
     if (left) *left = std::max(0.0, *left - spent);
-    const std::optional<Plan> next = next_plan(device, plan, {error.value, 1e3 * took}, left);
+    const std::optional<Plan> next =
+        next_plan(device, plan, {error.value, 1e3 * took, std::nullopt}, left);
     if (!next) return std::nullopt;
     return Planned{*next, planned.milliseconds};
 }
@@ -70,29 +71,31 @@ Plan begun(const cl::Device& device, const Plan& plan, double budget, double lef
 
 // Plans for what is left of it: for all of it, or for the part that leaves the least error together
 // with samples in the rest.
-std::optional<Planned> use_rest(const cl::Device& device, const Planned& planned, double took,
-                                double left, const std::optional<Sampling>& sampling) {
+std::optional<Planned> use_rest(const cl::Device& device, const Planned& planned,
+                                const PlanOutcome& found, double left,
+                                const std::optional<Sampling>& sampling) {
     constexpr double margin = 0.9;  // predictions from one picture to the next
     const Plan& plan = planned.plan;
     const auto next_within = [&](double share) {
-        return next_plan(device, plan, {std::nullopt, 1e3 * took},
-                         std::max(0.0, margin * share * left));
+        return next_plan(device, plan, found, std::max(0.0, margin * share * left));
     };
     std::optional<Plan> best;
-    if (!sampling || !plan.error) {
+    const std::optional<double> error = error_of(plan, found);
+    if (!sampling || !error) {
         best = next_within(1.0);
     } else {
         // Settings err by more in some scenes than where that was measured; samples, as they do
-        // here. So finer settings are taken where they are expected to err about as little.
-        constexpr double about = 1.1;
-        double least = error_with_samples(*plan.error, *sampling, left);
+        // here. So finer settings are taken where they are expected to err about as little, unless
+        // what they err by is known of this scene.
+        const double about = found.doubt && plan.indirect_error ? 1.0 : 1.1;
+        double least = error_with_samples(*error, *sampling, left);
         for (const double share : {0.2, 0.35, 0.5, 0.75, 1.0}) {
             const std::optional<Plan> next = next_within(share);
             if (!next || !next->error) continue;
-            const double error =
+            const double expected =
                 error_with_samples(*next->error, *sampling, left - 1e-3 * next->cost.total_ms());
-            least = std::min(least, error);
-            if (error < about * least) best = next;
+            least = std::min(least, expected);
+            if (expected <= about * least) best = next;
         }
     }
     if (!best) return std::nullopt;
@@ -203,7 +206,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
             constexpr std::uint32_t enough = 4;  // of them
             if (attempt->seconds() <= *budget - spent)
                 attempt->refine(looking * *budget, 2, 0.0, enough);
-            next = use_rest(session.device, *planned, attempt->seconds(),
+            next = use_rest(session.device, *planned, attempt->outcome(),
                             *budget - spent - attempt->refining(), attempt->sampling());
             if (next) spent += attempt->refining();
         }
@@ -214,8 +217,8 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         }
         if (target || (flags.verify.on && !next)) attempt->check(scene, target.value_or(0.0));
         const auto& verified = attempt->record().verified;
-        attempts.push_back({plan_settings(plan), plan.error, verified, attempt->seconds(),
-                            attempt->record().refine_ms});
+        attempts.push_back({plan_settings(plan), error_of(plan, attempt->outcome()), verified,
+                            attempt->seconds(), attempt->record().refine_ms});
         found = target && verified && verified->error.high <= *target;
         if (target && verified && !found && !interrupted())
             next = go_on(session.device, *planned, verified->error, *target, attempt->seconds(),

@@ -122,6 +122,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                          {"met", record.meets_target},
                          {"attempts", attempts_json(record)}};
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
+    if (record.expected_error) out["expected_error"] = *record.expected_error;
     if (record.verified) out["measured_error"] = verify_json(*record.verified);
     io::AtomicFile file(path);
     const std::string text = out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';

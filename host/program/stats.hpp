@@ -47,7 +47,7 @@ struct AntiradianceSummary {
 // One of several renders for an error that was asked for.
 struct RenderedAttempt {
     std::string settings;            // in words, with the method
-    std::optional<double> expected;  // error
+    std::optional<double> expected;  // error, but of its samples
     std::optional<reference::Verification> verified;
     double seconds = 0.0;    // of the first sample, with all before it
     double refine_ms = 0.0;  // of later ones
@@ -80,6 +80,7 @@ struct RenderRecord {
     std::optional<AntiradianceSummary> antiradiance;
     std::shared_ptr<const Planned> planned;  // of --method auto
     std::vector<RenderedAttempt> attempts;   // for an error or a time that was asked for: all
+    std::optional<double> expected_error;    // of the last picture, by a plan and its samples
     std::optional<double> budget_used;       // seconds of a time that was asked for
     bool meets_target = true;                // the last check's upper bound does
     std::vector<std::string> warnings;

@@ -34,7 +34,7 @@ struct PlanRequest {
     // Many samples follow the picture (Renderer::refine), which take most of the error of direct
     // light away: settings are chosen for the rest.
     bool refined = false;
-    bool camera_moves = false;   // no probe: it would hold for one picture alone
+    bool camera_moves = false;          // no probe: it would hold for one picture alone
     std::vector<Effect> with, without;  // overrule what is decided; no effect is in both
     std::optional<Method> method;       // overrules the choice
     // Of EmitterOptions, for direct light. None: the plan chooses.
@@ -54,11 +54,13 @@ struct PlanCost {
 struct PlanOutcome {
     std::optional<double> error;    // that a check measured
     std::optional<double> took_ms;  // with all before it
+    std::optional<double> doubt;    // IrradianceCache::doubt()
 };
 
 struct PlanCheck {
     Method method = Method::direct;
     std::optional<double> expected;  // error, by the kind of scene alone
+    std::optional<double> indirect;  // Plan::indirect_error
     double predicted_ms = 0.0;       // of all that the plan does, by the machine's class alone
     PlanOutcome found;
 };
@@ -87,6 +89,9 @@ struct Plan : RendererOptions {
     // effect that the scene needs.
     std::optional<double> error;
     std::string error_evidence;
+    // What indirect light is expected to err by, relative to itself, by the kind of scene alone;
+    // none where the error is that of the sky's light, too.
+    std::optional<double> indirect_error;
     // As predicted. True if nothing was requested; meets_error is false if the error is unknown.
     bool meets_time = true, meets_error = true;
 
@@ -107,15 +112,20 @@ CLGI_API Plan make_plan(const cl::CommandQueue& queue, const Programs& programs,
 CLGI_API Plan trial_plan(const cl::Device& device, const Plan& plan, double seconds);
 
 // The plan to go on with after a picture by `plan`. Settings of a method are expected to err by as
-// many times more as a check measured, and to take as many times as long as pictures of the plan
-// and of those before it did; if another method was quicker than predicted, that says nothing of a
-// method. What was tried, and what is coarser, is not tried again. None if nothing is expected to
-// err less than what was measured, or else expected of `plan`, within the seconds that are left;
-// without them, those that were requested. Where no error is expected, finer settings of the same
-// method follow. Throws Error for an error or a time that is negative or not a number.
+// many times more as a check measured, or of indirect light by as many times as its doubt says, and
+// to take as many times as long as pictures of the plan and of those before it did; if another
+// method was quicker than predicted, that says nothing of a method. What was tried, and what is
+// coarser, is not tried again. None if nothing is expected to err less than what was measured, or
+// else expected of `plan`, within the seconds that are left; without them, those that were
+// requested. Where no error is expected, finer settings of the same method follow. Throws Error for
+// an error, a time or a doubt that is negative or not a number.
 CLGI_API std::optional<Plan> next_plan(const cl::Device& device, const Plan& plan,
                                        const PlanOutcome& found,
                                        std::optional<double> seconds = std::nullopt);
+
+// The error to expect of a picture by a plan now that it is made: Plan::error, but where doubt is
+// known, of indirect light what that says instead of what scenes of the kind had.
+CLGI_API std::optional<double> error_of(const Plan& plan, const PlanOutcome& found);
 
 // Whether the picture reaches so little of the scene that methods that share their work out over
 // all of it, and a probe by them, tell little of the picture.

@@ -1,6 +1,7 @@
 // The plans that follow a check of a picture.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <clgi/error.hpp>
 #include <clgi/plan.hpp>
 #include <cmath>
 #include <limits>
@@ -66,10 +67,9 @@ TEST(PlanChecks, LeaveDirectLightToSamples) {
     first.bound = 0.0;
     plan.probe = ProbeResult{};
     plan.probe->direct_error = 0.4;
-    const Preset direct{Method::direct, 0, 0, {}};
-    const double usual = expected_error(plan, direct).value();
+    const double usual = expected_error(plan, 0.0).value();
     plan.request.refined = true;
-    EXPECT_NEAR(expected_error(plan, direct).value(), 0.3 * usual, 1e-9);
+    EXPECT_NEAR(expected_error(plan, 0.0).value(), 0.3 * usual, 1e-9);
     EXPECT_NEAR(usual, 0.4 / std::sqrt(fineness_of(plan)), 1e-9);
 }
 
@@ -92,7 +92,7 @@ TEST(PlanChecks, LeaveEdgesOfSunsToFineMaps) {
         plan.picture.emitters = EmitterOptions();
         plan.picture.emitters.shadow_size *= fineness;
         plan.picture.emitters.face_size *= fineness;
-        return expected_error(plan, {Method::direct, 0, 0, {}}).value();
+        return expected_error(plan, 0.0).value();
     };
     EXPECT_NEAR(error(4), 0.5 * error(1), 1e-9);
     plan.request.refined = true;
@@ -129,6 +129,48 @@ TEST(PlanChecks, CountErrorsByWhatWasExpectedAtFirst) {
     const std::optional<Plan> fourth = next(*third, 9.0 * *third->error);
     EXPECT_NEAR(fourth ? *fourth->checks[2].expected : *third->error / 9.0, *third->error / 9.0,
                 1e-9);
+}
+
+// Doubt that is larger than what scenes of the kind had is what indirect light is expected to err
+// by, in that picture and, for settings of all methods, as many times as much; smaller doubt says
+// nothing, and a check says more.
+TEST(PlanDoubt, IsWhatIndirectLightErrsBy) {
+    Plan plan = plan_of(std::nullopt, 0.05, Method::irradiance_cache);
+    plan.probe = ProbeResult{};
+    plan.probe->first_bounce = 0.5;
+    plan.probe->direct_error = 0.06;
+    const double share = 0.75;  // half as much again as one bounce
+    plan.error = expected_error(plan, *plan.indirect_error);
+    const double known = share * *plan.indirect_error;
+    const double direct = std::sqrt(*plan.error * *plan.error - known * known);
+    ASSERT_GT(direct, 0.001);
+    const auto of = [&](double doubt) {
+        return error_of(plan, {std::nullopt, std::nullopt, doubt}).value();
+    };
+    EXPECT_NEAR(of(3.0 * known), std::hypot(3.0 * known, direct), 1e-6);
+    EXPECT_NEAR(of(0.9 * known), *plan.error, 1e-12);
+    EXPECT_EQ(error_of(plan, {0.5, std::nullopt, 3.0 * known}), 0.5);
+    EXPECT_EQ(error_of(plan, {}), plan.error);
+
+    const cl::Device& device = test::device().device;
+    for (const std::optional<Method> method : {plan.request.method, std::optional<Method>()}) {
+        plan.request.method = method;
+        const auto after = [&](std::optional<double> error, double doubt) {
+            return next_plan(device, plan, {error, std::nullopt, doubt}, 2.0).value();
+        };
+        const Plan next = after(std::nullopt, 3.0 * known);
+        EXPECT_NEAR(doubt_factor(next), 3.0, 1e-9);
+        EXPECT_NEAR(*next.error, expected_error(next, *next.indirect_error).value(), 1e-9);
+        EXPECT_GT(*next.error, 2.0 * share * *next.indirect_error);
+        EXPECT_NE(next.error_evidence.find("records differ"), std::string::npos);
+        EXPECT_EQ(doubt_factor(after(std::nullopt, 0.9 * known)), 1.0);
+        EXPECT_EQ(doubt_factor(after(2.0 * *plan.error, 3.0 * known)), 1.0);
+    }
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (const double wrong : {-0.1, none}) {
+        EXPECT_THROW(of(wrong), Error);
+        EXPECT_THROW(next_plan(device, plan, {std::nullopt, std::nullopt, wrong}), Error);
+    }
 }
 
 // Without effects that were left out by request no error is expected; a method that is not finer
