@@ -9,7 +9,7 @@
 namespace clgi {
 namespace {
 
-constexpr std::size_t many_triangles = 20000;
+constexpr std::size_t many_triangles = 10000;
 // A probe has one bounce; with the others, indirect light was so many times as much. Of what
 // nothing shadows in the probe, no more is there.
 constexpr double all_bounces = 1.5, most_share = 2.0;

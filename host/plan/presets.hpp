@@ -12,15 +12,15 @@ namespace clgi {
 enum class SceneKind {
     convex,     // nothing lies between surfaces, or what does is left out
     furnished,  // large surfaces, things between them
-    fine,       // tens of thousands of triangles
+    fine,       // more than ten thousand triangles
     open,       // much light leaves
     indirect,   // most of what the camera sees is lit by other surfaces
     skylit,     // the sky lights it, by hemicubes
-    fine_sky,   // the same of tens of thousands of triangles
+    fine_sky,   // the same of more than ten thousand triangles
 };
 // Root mean square of indirect light over the mean of the picture, by the probe; 1 without one.
 double indirect_share(const Plan& plan);
-bool is_fine(const Plan& plan);  // of tens of thousands of triangles
+bool is_fine(const Plan& plan);  // of more than ten thousand triangles
 SceneKind kind_of(const Plan& plan);
 const char* name_of(SceneKind kind);
 

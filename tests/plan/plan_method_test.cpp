@@ -312,7 +312,9 @@ TEST(Plan, KnowsTheKindOfAScene) {
     };
     analysis.openness = 0.2;
     EXPECT_TRUE(stands_on(evidence(), "furnished scenes"));
-    analysis.surfaces.triangles = 30000;
+    analysis.surfaces.triangles = 10000;
+    EXPECT_TRUE(stands_on(evidence(), "furnished scenes"));
+    analysis.surfaces.triangles = 10001;
     EXPECT_TRUE(stands_on(evidence(), "finely modelled scenes"));
     analysis.openness = 0.4;
     EXPECT_TRUE(stands_on(evidence(), "open scenes"));
