@@ -3,8 +3,9 @@
 
     samples/systems.py build/clgi out/ SCENE.glb [--environment R,G,B] [--time 2s] [--exposure STOPS]
 
-Each method has a plan for the time, with all that it does before its picture, and as many samples as
-fit: through other points of the pixels, by other lights of the sky. The path tracer has as long. Errors
+Each method has a plan for the time, with all that it does before its picture but loading, upload and
+building kernels, and as many samples as fit: through other points of the pixels, by other lights of the
+sky. The path tracer has as long. Errors
 are those of clgi compare, without the noise of the ground truth. python3-matplotlib draws the sheet.
 SPDX-License-Identifier: MIT
 """
@@ -50,10 +51,10 @@ def main():
         found = json.loads(run(options.clgi, "compare", path(name + ".exr"), path("truth.exr"), "--json"))
         return f"error {100 * found['luminance_error']:.1f} %"
 
-    def trace(name, samples):
-        return picture("reference", name, "--filter", "box", "--spp", samples)
+    def trace(name, samples, seed):
+        return picture("reference", name, "--filter", "box", "--spp", samples, "--seed", seed)
 
-    truth = trace("truth", options.spp)
+    truth = trace("truth", options.spp, 1)
     panels = [("truth", "ground truth, by path tracing", f"standard error {100 * truth['relative_error']:.1f} %")]
     for method, name in METHODS.items():
         found = picture("render", method, "--method", method, "--time-budget", options.time)
@@ -61,7 +62,7 @@ def main():
         panels.append((method, f"{name}: {error(method)}",
                        f"{budget['used']:.2g} s, {found['samples']['count']} samples"))
     samples = max(1, int(options.spp * budget["seconds"] / truth["seconds"]))
-    seconds = trace("path", samples)["seconds"]
+    seconds = trace("path", samples, 2)["seconds"]
     panels.append(("path", f"path tracer: {error('path')}", f"{seconds:.2g} s, {samples} samples"))
     with open(path("data.json"), "w", encoding="utf-8") as file:
         json.dump([{"picture": name + ".png", "lines": lines} for name, *lines in panels], file)

@@ -81,9 +81,11 @@ bool gathers_the_sky(const Plan& plan) {
 double doubt_factor(const Plan& plan) {
     double out = 1.0;
     const double share = indirect_share(plan);
-    for (const PlanCheck& check : plan.checks)
-        if (check.found.doubt && check.indirect && !check.found.error && share > 0.0)
+    for (const PlanCheck& check : plan.checks) {
+        if (check.found.error) return 1.0;
+        if (check.found.doubt && check.indirect && share > 0.0)
             out = std::max(1.0, *check.found.doubt / (*check.indirect * share));
+    }
     return out;
 }
 
@@ -113,7 +115,7 @@ std::string evidence_of_error(const Plan& plan) {
                                                             : "direct light as in closed rooms";
     if (!plan.on(Effect::first_bounce)) return direct;
     const bool seen = doubt_factor(plan) > 1.0;
-    return (seen ? "indirect light by how its records differ, "
+    return (seen ? "indirect light by how records of a picture differ, "
                  : "indirect light as measured in " + kind + " scenes, ") +
            (is_composed(plan)
                 ? "of what moves as in an office (behind a closing door it is up to all "

@@ -16,8 +16,8 @@ namespace clgi {
 std::optional<double> expected_error(const Plan& plan, double of_kind);
 
 // How many times as large as in scenes of their kind errors of indirect light are here, by any
-// method: as the doubt of the last picture says that no check measured, and at least 1, because
-// records that agree may all lack the same light.
+// method: as the doubt of the last picture says, and at least 1, because records that agree may all
+// lack the same light. 1 once a check has measured an error.
 double doubt_factor(const Plan& plan);
 
 // Whether errors of the plan's method are those of the whole picture, the sky's light with it.

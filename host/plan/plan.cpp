@@ -54,6 +54,11 @@ void check(const PlanOutcome& found) {
 PlanCheck check_of(const Plan& plan, const PlanOutcome& found) {
     std::optional<double> expected = plan.error;
     if (expected) *expected /= error_factor(plan);
+    if (doubt_factor(plan) > 1.0) {
+        Plan by_kind = plan;
+        by_kind.checks.clear();
+        expected = expected_error(by_kind, plan.indirect_error.value_or(0.0));
+    }
     return {plan.method, expected, plan.indirect_error, plan.cost.total_ms() / pace_of(plan),
             found};
 }
@@ -176,9 +181,9 @@ Plan trial_plan(const cl::Device& device, const Plan& plan, double seconds) {
 std::optional<double> error_of(const Plan& plan, const PlanOutcome& found) {
     check(found);
     if (found.error) return found.error;
-    if (!found.doubt || !plan.error || !plan.indirect_error) return plan.error;
+    if (!plan.error || !plan.indirect_error) return plan.error;
     Plan made = plan;
-    made.checks.push_back(check_of(plan, found));
+    if (found.doubt) made.checks.push_back(check_of(plan, found));
     return expected_error(made, *plan.indirect_error).value_or(*plan.error) * error_factor(plan);
 }
 

@@ -23,4 +23,10 @@ inline double parse_percent(const std::string& command, const std::string& flag,
     return percent ? value / 100.0 : value;
 }
 
+// Of a share, about: two figures, or all before the point.
+inline std::string about_percent(double share) {
+    return share < 0.995 ? fmt::format("{:.2g}", 100.0 * share)
+                         : fmt::format("{:.0f}", 100.0 * share);
+}
+
 }  // namespace clgi::program

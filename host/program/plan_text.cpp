@@ -147,7 +147,8 @@ std::string plan_line(const Plan& plan) {
         "{}: {}; predicted {:.3g} ms before the first picture, {:.3g} ms a picture, {:.0f} MB",
         plan_settings(plan), plan.why, plan.cost.once_ms, plan.cost.frame_ms, plan.cost.megabytes);
     if (plan.error)
-        out += fmt::format("; error about {:.2g} % ({})", 100.0 * *plan.error, plan.error_evidence);
+        out +=
+            fmt::format("; error about {} % ({})", about_percent(*plan.error), plan.error_evidence);
     return out;
 }
 

@@ -13,6 +13,7 @@
 #include "lab/preview.hpp"
 #include "lab/replicates.hpp"
 #include "lab/timing.hpp"
+#include "program/percent.hpp"
 
 namespace clgi::program {
 namespace {
@@ -25,7 +26,7 @@ std::string with_check(std::string text, const RenderRecord& record) {
     if (record.verified)
         more += ", " + verify_line(*record.verified);
     else if (record.expected_error)
-        more += fmt::format(", error about {:.2g} %", 100.0 * *record.expected_error);
+        more += fmt::format(", error about {} %", about_percent(*record.expected_error));
     return text.insert(std::min(text.find('\n'), text.size()), more);
 }
 
@@ -72,6 +73,8 @@ void RenderAttempt::draw() {
     warm_up();
     if (target.frame_ms || target.error) tune(target);
     for (int frame = 0; frame < flags_.frames; ++frame) render(frame);
+    const IrradianceCache* cache = renderer_.irradiance_cache();
+    if (planned && cache && !flags_.fps) doubt_ = cache->doubt();
     if (flags_.replicates > 1) {
         record_.replicates = lab::replicate(renderer_, camera_, flags_.replicates, go_on);
         if (!record_.replicates) throw Interrupted();
@@ -143,14 +146,16 @@ double RenderAttempt::time_apart(const std::function<void()>& draw) {
 PlanOutcome RenderAttempt::outcome() const {
     PlanOutcome out;
     out.took_ms = 1e3 * seconds();
-    if (const IrradianceCache* cache = renderer_.irradiance_cache()) out.doubt = cache->doubt();
+    out.doubt = doubt_;
     return out;
 }
 
 // Of the plan, and of samples that are too few for edges, textures and lobes.
 std::optional<double> RenderAttempt::expected_error() const {
     if (!record_.planned || flags_.fps) return std::nullopt;
-    const std::optional<double> out = error_of(record_.planned->plan, outcome());
+    Plan plan = record_.planned->plan;
+    plan.request.refined = renderer_.samples() > 1;
+    const std::optional<double> out = error_of(plan, outcome());
     if (!out || renderer_.samples() < 2) return out;
     return std::hypot(*out, renderer_.sampling_error());
 }

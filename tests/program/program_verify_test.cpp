@@ -90,7 +90,7 @@ TEST_F(VerifyProgram, SaysWhereAPlanExpectedLess) {
                                 file("a.png").string() + " --stats " + file("s.json").string());
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const json stats = json::parse(read("s.json"));
-    ASSERT_LT(stats.at("plan").at("error"), stats.at("measured_error").at("low"));
+    ASSERT_LT(stats.at("expected_error"), stats.at("measured_error").at("low"));
     EXPECT_NE(outcome.err.find("clgi: warning: the plan expected an error of "), std::string::npos)
         << outcome.err;
     EXPECT_NE(stats.at("warnings").dump().find("the plan expected an error of "),

@@ -1,7 +1,9 @@
 // Where records lie: on what the picture shows, on what those see, and where their light changes.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <clgi/error.hpp>
 
+#include "core/opencl/error_text.hpp"
 #include "methods/irradiance_cache/state.hpp"
 
 namespace clgi {
@@ -193,8 +195,12 @@ std::vector<float> IrradianceCache::State::read_planes(const cl::Buffer& from, s
                                                        std::size_t count) {
     std::vector<float> out(count);
     const WaitList pending = picture.record().waits();
-    picture.record().queue().enqueueReadBuffer(from, CL_TRUE, first * sizeof(float),
-                                               count * sizeof(float), out.data(), &pending);
+    try {
+        picture.record().queue().enqueueReadBuffer(from, CL_TRUE, first * sizeof(float),
+                                                   count * sizeof(float), out.data(), &pending);
+    } catch (const cl::Error& error) {
+        throw DeviceError("irradiance-cache: planes cannot be read: " + error_text(error.err()));
+    }
     return out;
 }
 

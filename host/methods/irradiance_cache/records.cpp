@@ -44,15 +44,15 @@ void keep_what_is_reflected(std::vector<float>& doubt, const std::vector<float>&
 
 double relative_doubt(const std::vector<float>& doubt, const std::vector<float>& radiance,
                       std::size_t stride, double exposure) {
-    double squares = 0.0, sum = 0.0;
+    double squares = 0.0, sum = 0.0, pixels = 0.0;
     for (std::size_t i = 0; i < doubt.size(); ++i) {
         const double seen =
             luminance(glm::dvec3(radiance[i], radiance[stride + i], radiance[2 * stride + i]));
         if (!std::isfinite(doubt[i]) || !std::isfinite(seen)) continue;
         squares += double{doubt[i]};
         sum += seen;
+        pixels += 1.0;
     }
-    const auto pixels = static_cast<double>(doubt.size());
     return sum > 0.0 ? exposure / std::numbers::pi * std::sqrt(squares * pixels) / sum : 0.0;
 }
 
