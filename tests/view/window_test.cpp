@@ -48,7 +48,7 @@ protected:
 
     template <typename Done>
     bool wait(const Done& done) const {
-        for (int i = 0; i < 600; ++i) {
+        for (int i = 0; i < 3000; ++i) {  // a bake by groups takes minutes on a CPU
             if (done()) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
         }
