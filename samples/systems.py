@@ -22,6 +22,15 @@ METHODS = {"second-order": "second-order", "antiradiance": "antiradiance",
 SHEET = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "host", "lab", "plots", "sheet.py")
 
 
+def draw(folder):
+    """The sheet of a folder's data.json. python3 of the path may lack packages that the system's has."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        done = subprocess.run([python, SHEET], cwd=folder, capture_output=True, text=True)
+        if not done.returncode:
+            return
+    sys.exit(f"{done.stderr.strip().splitlines()[-1]}; the sheet needs python3-matplotlib")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("clgi", help="the program")
@@ -66,7 +75,7 @@ def main():
     panels.append(("path", f"path tracer: {error('path')}", f"{seconds:.2g} s, {samples} samples"))
     with open(path("data.json"), "w", encoding="utf-8") as file:
         json.dump([{"picture": name + ".png", "lines": lines} for name, *lines in panels], file)
-    subprocess.run([sys.executable, SHEET], cwd=options.out, check=True)
+    draw(options.out)
     os.replace(path("sheet.png"), path("systems.png"))
 
 
