@@ -2,8 +2,18 @@
 
 SPDX-License-Identifier: MIT
 """
+import argparse
 import subprocess
 import sys
+
+
+def arguments(description):
+    """A parser for scripts that take the program and a folder."""
+    parser = argparse.ArgumentParser(description=description,
+                                     formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("clgi", help="the program")
+    parser.add_argument("out", help="folder for pictures")
+    return parser
 
 
 def run(*command):

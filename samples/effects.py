@@ -9,13 +9,12 @@ sample with analysis, plan and all that is done before it, but without loading, 
 kernels. SCENE.glb,black stands for the scene with surfaces that reflect nothing.
 SPDX-License-Identifier: MIT
 """
-import argparse
 import json
 import os
 import statistics
 import struct
 
-from commands import run
+from commands import arguments, run
 
 
 def blackened(scene, path):
@@ -45,9 +44,7 @@ def milliseconds(stats):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("clgi", help="the program")
-    parser.add_argument("out", help="folder for pictures")
+    parser = arguments(__doc__)
     parser.add_argument("scenes", nargs="+")
     parser.add_argument("--environment", help="of all scenes")
     parser.add_argument("--error", default="0.1", help="that is expected of the pictures")

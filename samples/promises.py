@@ -13,13 +13,12 @@ end that the render names. With --peer the path tracer takes as long as the rend
 picture is judged as well. With --extents each scene stands in grounds of several sizes.
 SPDX-License-Identifier: MIT
 """
-import argparse
 import json
 import os
 import sys
 import time
 
-from commands import run
+from commands import arguments, run
 
 KINDS = ["room", "window", "sunlit", "slit", "courtyard", "pit", "terrain", "many-rooms", "dim-room",
          "dim-plain", "hidden-wall", "gloss"]
@@ -116,9 +115,7 @@ def plot(path, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("clgi")
-    parser.add_argument("out")
+    parser = arguments(__doc__.split("\n")[0])
     parser.add_argument("--kinds", default=",".join(KINDS), help="kinds or files")
     parser.add_argument("--seeds", default="1-3", help="1-10")
     parser.add_argument("--extents", default="", help="metres, with commas; 0: as the kind has it")

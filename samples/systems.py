@@ -5,17 +5,16 @@
 
 Each method has a plan for the time, with all that it does before its picture but loading, upload and
 building kernels, and as many samples as fit: through other points of the pixels, by other lights of the
-sky. The path tracer has as long. Errors
-are those of clgi compare, without the noise of the ground truth. python3-matplotlib draws the sheet.
+sky. The path tracer has as long. Errors are those of clgi compare, without the noise of the ground
+truth. python3-matplotlib draws the sheet.
 SPDX-License-Identifier: MIT
 """
-import argparse
 import json
 import os
 import subprocess
 import sys
 
-from commands import run
+from commands import arguments, run
 
 METHODS = {"second-order": "second-order", "antiradiance": "antiradiance",
            "atlas": "light atlas", "transfer": "dynamic transfer", "cache": "irradiance cache"}
@@ -32,9 +31,7 @@ def draw(folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("clgi", help="the program")
-    parser.add_argument("out", help="folder for pictures")
+    parser = arguments(__doc__)
     parser.add_argument("scene", help=".glb or .gltf file")
     parser.add_argument("--environment", help="file or R,G,B")
     parser.add_argument("--time", default="2s", help="of each picture")

@@ -42,29 +42,44 @@ TEST_F(Program, PlansBeforeItRenders) {
 }
 
 // A first picture for a part of the time, and another if there are settings of less error for the
-// rest.
+// rest. A bake's error is what its plan expects, of each attempt less; what records leave in doubt
+// is known with the picture, and the plan after it expects less than that.
 TEST_F(Program, UsesATimeByWhatItsFirstPictureTook) {
     const std::string scene = make("cornell --light spot");
-    ASSERT_EQ(run("render " + scene + " --size 64x48 --time-budget 2s --quiet -o " +
-                  file("a.exr").string() + " --stats " + file("s.json").string())
-                  .code,
-              0);
-    const auto stats = nlohmann::json::parse(read("s.json"));
-    const auto& budget = stats.at("time_budget");
-    EXPECT_EQ(budget.at("seconds"), 2.0);
-    const auto& attempts = budget.at("attempts");
     // On a GPU the first one has the finest settings already; on a busy CPU it may take it all.
     const bool gpu = run("devices").out.find("    CPU, ") == std::string::npos;
-    const bool room = attempts[0].at("seconds").get<double>() < 0.5;
-    ASSERT_GE(attempts.size(), !gpu && room ? 2u : 1u);
-    double sum = 1e-3 * stats.at("plan").at("ms").get<double>();
-    for (std::size_t i = 0; i < attempts.size(); ++i) {
-        sum += attempts[i].at("seconds").get<double>() +
-               1e-3 * attempts[i].at("refine_ms").get<double>();
-        EXPECT_GT(attempts[i].at("expected").get<double>(), 0.0);
+    for (const std::string method : {"", " --method cache"}) {
+        ASSERT_EQ(run("render " + scene + " --size 64x48 --time-budget 2s --quiet -o " +
+                      file("a.exr").string() + " --stats " + file("s.json").string() + method)
+                      .code,
+                  0);
+        const auto stats = nlohmann::json::parse(read("s.json"));
+        const auto& budget = stats.at("time_budget");
+        EXPECT_EQ(budget.at("seconds"), 2.0);
+        const auto& attempts = budget.at("attempts");
+        const bool room = attempts[0].at("seconds").get<double>() < 0.5;
+        ASSERT_GE(attempts.size(), !gpu && room ? 2u : 1u);
+        const auto expected = [&](std::size_t i) {
+            return attempts[i].at("expected").get<double>();
+        };
+        const double planned = stats.at("plan").at("error").get<double>();
+        double sum = 1e-3 * stats.at("plan").at("ms").get<double>();
+        for (std::size_t i = 0; i < attempts.size(); ++i) {
+            sum += attempts[i].at("seconds").get<double>() +
+                   1e-3 * attempts[i].at("refine_ms").get<double>();
+            if (i > 0) {
+                EXPECT_LT(expected(i), expected(i - 1)) << method;
+            }
+        }
+        EXPECT_NEAR(budget.at("used").get<double>(), sum, 1e-6);
+        EXPECT_EQ(attempts.back().at("refine_ms"), stats.at("samples").at("refine_ms"));
+        if (attempts.size() > 1) {
+            EXPECT_LT(planned, expected(attempts.size() - 2)) << method;
+        }
+        if (!stats.contains("cache")) {
+            EXPECT_NEAR(planned, expected(attempts.size() - 1), 1e-12) << method;
+        }
     }
-    EXPECT_NEAR(budget.at("used").get<double>(), sum, 1e-6);
-    EXPECT_EQ(attempts.back().at("refine_ms"), stats.at("samples").at("refine_ms"));
 
     const Outcome late = run("render " + scene + " --size 64x48 --time-budget 0.01ms --quiet -o " +
                              file("a.exr").string());
