@@ -187,6 +187,7 @@ kernel void cache_reflect(
                               reflect_row(rays.toward, 0), reflect_row(rays.toward, 1),
                               reflect_row(rays.toward, 2)};
             View pixel = reflect_view((float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), 0.0f);
+            pixel.window.w = CUBE_FOOTPRINT;
             pixel.right.w = pixel.up.w = 0.5f * sqrt(rays.angle);
             Surface surface = link_hits(&world, &pixel, &sight, 0.25f * rays.angle,
                                         first / CLGI_WIDTH + n, &packet);

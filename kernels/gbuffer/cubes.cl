@@ -63,7 +63,7 @@ kernel void gbuffer_cubes(
         view.right = (float4)(right, 1.0f);
         view.up = (float4)(up, half_face ? 0.5f : 1.0f);
         view.forward = (float4)(forward, valid ? params.near : INFINITY);
-        view.window = (float4)(0.0f, half_face ? 0.5f : 0.0f, 0.0f, 0.0f);
+        view.window = (float4)(0.0f, half_face ? 0.5f : 0.0f, 0.0f, CUBE_FOOTPRINT);
         view.width = params.size;
         view.height = half_face ? params.size / 2 : params.size;
         view.first_pixel = pixel;

@@ -1,0 +1,95 @@
+// Light of surfaces that share a texture with others, as in an atlas of a whole scene.
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cache_pictures.hpp"
+#include "math_modes.hpp"
+#include "microfacet.hpp"
+#include "scenes.hpp"
+
+namespace clgi {
+namespace {
+
+using std::numbers::pi;
+
+constexpr glm::vec3 lamp_of_atlas(3.0f, 2.0f, 1.0f);
+constexpr int atlas_side = 64;
+
+// Shines in its middle, a quarter of its side; black around that.
+Texture atlas_of_a_lamp() {
+    Texture out;
+    out.width = out.height = atlas_side;
+    for (int y = 0; y < atlas_side; ++y)
+        for (int x = 0; x < atlas_side; ++x) {
+            const bool shines = std::max(std::abs(x - 31.5), std::abs(y - 31.5)) < 8.0;
+            out.rgba.insert(out.rgba.end(), 3, shines ? 255 : 0);
+            out.rgba.push_back(255);
+        }
+    return out;
+}
+
+// A small floor that the camera looks at, and a metre above it wide wings of a ceiling that is
+// black.
+Scene below_a_ceiling(const Material& floor) {
+    Scene scene;
+    scene.materials = {floor};
+    test::add_floor(scene, 0.1);
+    Material glows;
+    glows.base_color = glm::vec4(0, 0, 0, 1);
+    glows.emission = lamp_of_atlas;
+    glows.emission_texture.texture = 0;
+    scene.textures = {atlas_of_a_lamp()};
+    const std::uint32_t material = test::add_material(scene, glows);
+    scene.uvs.resize(scene.positions.size(), glm::vec4(0.0f));
+    for (const double x : {-10.5, 0.5}) {
+        test::add_quad(scene,
+                       {glm::dvec3(x, 1, -10), {x + 10, 1, -10}, {x + 10, 1, 10}, {x, 1, 10}},
+                       material);
+        for (const glm::vec2 uv : {glm::vec2(0.02f), {0.3f, 0.02f}, {0.3f, 0.98f}, {0.02f, 0.98f}})
+            scene.uvs.emplace_back(uv, 0.0f, 0.0f);
+    }
+    scene.cameras = {test::camera_at({0, 0.8, 0.001}, {0, 0, 0}, 0.1f)};
+    return scene;
+}
+
+IrradianceCacheOptions by_coarse_hemicubes() {
+    IrradianceCacheOptions out = cache_options(100, 0);
+    out.emission = true;
+    out.face = 8;
+    return out;
+}
+
+CLGI_IN_BOTH_MATHS(SharedTextures);
+
+// Between the wings a square metre of lamp: E = 4 L a / A atan(a / A), a: half its side, A^2 = 1 +
+// a^2.
+TEST_P(SharedTextures, LeaveTheLightOfALampAsItIs) {
+    Material floor;
+    floor.base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+    Scene scene = below_a_ceiling(floor);
+    const auto lamp = static_cast<std::uint32_t>(scene.materials.size() - 1);
+    test::add_quad(
+        scene, {glm::dvec3(-0.5, 1, -0.5), {0.5, 1, -0.5}, {0.5, 1, 0.5}, {-0.5, 1, 0.5}}, lamp);
+    for (const glm::vec2 uv : {glm::vec2(0.42f), {0.58f, 0.42f}, {0.58f, 0.58f}, {0.42f, 0.58f}})
+        scene.uvs.emplace_back(uv, 0.0f, 0.0f);
+    const CachePicture found = pictured(scene, by_coarse_hemicubes());
+    const double half = 0.5, long_side = std::sqrt(1.0 + half * half);
+    const double factor = 4.0 * half / long_side * std::atan(half / long_side);
+    for (int c = 0; c < 3; ++c) {
+        const double wanted = 0.5 / pi * factor * lamp_of_atlas[c];
+        EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.03 * wanted) << c;
+    }
+}
+
+// Where a lobe's rays meet what is black there is nothing to reflect.
+TEST_P(SharedTextures, AreNotReflectedWhereTheyAreBlack) {
+    const CachePicture found =
+        pictured(below_a_ceiling(test::finished(1.0f, 0.5f, 1.0f)), by_coarse_hemicubes());
+    for (const glm::vec3& value : found.radiance) ASSERT_EQ(value, glm::vec3(0.0f));
+}
+
+}  // namespace
+}  // namespace clgi
