@@ -1,9 +1,15 @@
 // How much is in doubt at each place that was picked about the light that it sends.
 //
-//   worth = rho sqrt(spread + (CACHE_COARSE Y)^2)    rho: reflectance, Y: luminance of E there
+//   worth = rho sqrt(spread + (CACHE_COARSE Y)^2 + bare^2)    rho: reflectance, Y: luminance of E there
+//
+//   bare = max(1 - WEIGH_NEARER q / a, 0) Y_most
+//   a: least of |d|^2 + CACHE_OFF^2 off^2 of the records that stand in, q: least |d|^2 of all around,
+//   which may face any way, Y_most: the largest luminance of E of these
 //
 // spread is what the records there differ by (lookup.clh). The second part stands for change that
-// none of them shows, because all lie on one side of it.
+// none of them shows, because all lie on one side of it. The third is for surfaces of which no record
+// stands: those that stand in face the same way but are far off, and of the light there nothing is
+// known but what others around it have. The back of a screen is one, or the top of a wall.
 //                              [derived: error of a source, to be weighed by importance, Smits92]
 //
 // Work size    1D, one work-item for every CLGI_WIDTH picks (rounded up); any local size
@@ -12,6 +18,37 @@
 #include "cache/lookup.clh"
 
 #define CACHE_COARSE 0.1f
+#define WEIGH_NEARER 16.0f
+#define WEIGH_AROUND 5u  // of each list
+
+static floatp weigh_bare(const CacheTree* tree, global const uint* nodes, global const uint* lists,
+                         global const float* records, global const float* light, CacheVector point,
+                         CacheVector normal) {
+    floatp far = packet_splat(1e30f), standing = far, nearest = far, most = packet_zero;
+    intp first = cache_list_at(tree, nodes, point, normal) - cache_way(normal) * CACHE_LISTED;
+    for (uint i = 0; i < CACHE_WAYS * WEIGH_AROUND; ++i) {
+        int index[CLGI_WIDTH], record[CLGI_WIDTH];
+        packet_store(first + (int)(i / WEIGH_AROUND * CACHE_LISTED + i % WEIGH_AROUND), index);
+        intp of = as_intp((uintp)(packet_lookup(lists, index)));
+        intp listed = of != (int)CACHE_NONE;
+        if (!packet_any(listed)) continue;
+        packet_store(packet_select((intp)(0), of, listed), record);
+        CacheVector d = cache_row(records, tree->stride, record);
+        CacheVector n = cache_row(records + RECORD_NORMAL * tree->stride, tree->stride, record);
+        d.x -= point.x;
+        d.y -= point.y;
+        d.z -= point.z;
+        floatp square = cache_dot(d, d);
+        floatp off = CACHE_OFF * (fabs(cache_dot(n, d)) + fabs(cache_dot(normal, d)));
+        intp stands = listed & (cache_dot(n, normal) > CACHE_FACING);
+        nearest = packet_select(nearest, packet_min(nearest, square), listed);
+        standing = packet_select(standing, packet_min(standing, fma(off, off, square)), stands);
+        CacheVector e = cache_row(light, tree->stride, record);
+        most = packet_select(most, packet_max(most, luminance(e.x, e.y, e.z)), listed);
+    }
+    floatp share = 1.0f - WEIGH_NEARER * nearest / packet_max(standing, packet_splat(1e-30f));
+    return most * packet_max(share, packet_zero);
+}
 
 kernel void cache_weigh(
     const CacheParams    params,
@@ -41,6 +78,8 @@ kernel void cache_weigh(
         most = packet_select(most, share.weight[i], more);
         record = packet_select(record, packet_load(share.record[i]), more);
     }
+    floatp bare = weigh_bare(&tree, nodes, lists, records, light, point, normal);
+    spread = fma(bare, bare, spread);
     floatp reflectance = packet_load(places + PICK_REFLECTANCE * stride + item);
     packet_store(reflectance * sqrt(fma(change, change, spread)), worth + item);
     packet_store(as_uintp(record), nearest + item);

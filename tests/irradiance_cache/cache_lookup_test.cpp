@@ -116,5 +116,91 @@ TEST_P(CacheLookup, IsThatOfEachPointsOwnList) {
     EXPECT_EQ(longest, std::size_t{CACHE_LISTED});
 }
 
+// Of what is picked: what the records that stand in differ by, a tenth of what they say, and what
+// records around it have where those that stand in are far off, all in double precision. Of places
+// on a wall beside records of their own nothing is unknown; of some that face down, all.
+TEST_P(CacheLookup, WeighsPlacesOfWhichNoRecordStands) {
+    std::mt19937 random(72);
+    const std::vector<CacheRecord> records = crowded_records(random);
+    const test::Planted planted(records);
+    std::normal_distribution<float> about(0.0f, 1.0f);
+    std::vector<float> light(3 * std::size_t{planted.on_device.stride}, 0.0f),
+        held(PICK_PLANES * stride, 0.0f);
+    std::vector<double> shines;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 e(1.0f + std::abs(about(random)), 2.0f, 3.0f * std::abs(about(random)));
+        for (int c = 0; c < 3; ++c)
+            light[static_cast<std::uint32_t>(c) * planted.on_device.stride + i] = e[c];
+        shines.push_back(glm::dot(glm::dvec3(e), glm::dvec3(0.2126, 0.7152, 0.0722)));
+    }
+    std::vector<CacheRecord> places;
+    for (std::uint32_t k = 0; k < points; ++k) {
+        CacheRecord place = records[41 * k % count];
+        place.position += 0.02f * glm::vec3(about(random), about(random), about(random));
+        if (k % 3 == 0)
+            place.normal = glm::normalize(glm::vec3(about(random), about(random), about(random)));
+        if (k % 7 == 6) place.normal = {0.0f, -1.0f, 0.0f};
+        put(held, RECORD_POSITION, k, place.position);
+        put(held, RECORD_NORMAL, k, place.normal);
+        held[PICK_REFLECTANCE * stride + k] = 0.2f + 0.005f * static_cast<float>(k);
+        places.push_back(place);
+    }
+    CacheBuffers b = planted.b;
+    b.light = test::upload(light);
+    CacheParams params{};
+    params.count = 1;
+    params.picks = points;
+    params.pick_stride = stride;
+    const cl::Buffer worth = test::empty<float>(stride),
+                     nearest = test::empty<std::uint32_t>(stride);
+    CachePasses(test::programs(), test::usual_build())
+        .weigh(test::device().queue, params, planted.on_device, b, test::upload(held), worth,
+               nearest)
+        .wait();
+    const auto found = test::download<float>(worth, stride);
+    int known = 0, unknown = 0;
+    for (std::uint32_t k = 0; k < points; ++k) {
+        const glm::dvec3 point = places[k].position, normal = places[k].normal;
+        const auto listed = [&](const CacheRecord& place, int most) {
+            std::vector<std::uint32_t> out;
+            const std::uint32_t* list = planted.listed(place);
+            for (int i = 0; i < most && list[i] != CACHE_NONE; ++i) out.push_back(list[i]);
+            return out;
+        };
+        double mean = 0.0, spread = 0.0, near = 1e30, standing = 1e30, most = 0.0;
+        const std::vector<std::uint32_t> own = listed(places[k], CACHE_LISTED);
+        std::vector<glm::dvec3> at, normals;
+        for (const std::uint32_t i : own) {
+            at.push_back(records[i].position);
+            normals.push_back(records[i].normal);
+        }
+        const std::vector<double> share = shares_by_hand(at, normals, point, normal);
+        for (std::size_t i = 0; i < own.size(); ++i) mean += share[i] * shines[own[i]];
+        for (std::size_t i = 0; i < own.size(); ++i)
+            spread += share[i] * std::pow(shines[own[i]] - mean, 2.0);
+        for (int way = 0; way < CACHE_WAYS; ++way) {
+            CacheRecord turned = places[k];
+            turned.normal = glm::vec3(0.0f);
+            turned.normal[way / 2] = way % 2 == 0 ? 1.0f : -1.0f;
+            for (const std::uint32_t i : listed(turned, 5)) {
+                const glm::dvec3 d = glm::dvec3(records[i].position) - point, n = records[i].normal;
+                const double off = 4.0 * (std::abs(glm::dot(n, d)) + std::abs(glm::dot(normal, d)));
+                near = std::min(near, glm::dot(d, d));
+                most = std::max(most, shines[i]);
+                if (glm::dot(n, normal) > 0.3)
+                    standing = std::min(standing, glm::dot(d, d) + off * off);
+            }
+        }
+        const double bare = std::max(1.0 - 16.0 * near / standing, 0.0) * most;
+        const double wanted =
+            (0.2 + 0.005 * k) * std::sqrt(spread + 0.01 * mean * mean + bare * bare);
+        EXPECT_NEAR(found[k], wanted, 2e-3 * wanted) << k;
+        known += bare == 0.0;
+        unknown += bare > 0.9 * most;
+    }
+    EXPECT_GT(known, 10);
+    EXPECT_GT(unknown, 10);
+}
+
 }  // namespace
 }  // namespace clgi

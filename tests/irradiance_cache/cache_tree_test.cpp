@@ -359,6 +359,10 @@ TEST(CacheRecords, SplitTheCellThatIsWorthMost) {
     EXPECT_EQ(places(2), (std::vector<float>{8, 1}));
     picks.worth = {5.0f, 2.0f, 18.0f, 0.0f, 0.0f, 0.0f};
     EXPECT_EQ(places(2), (std::vector<float>{8, 9}));
+    // Where no record counts: one cell of their own, worth 9, and distances to the viewer at 0.
+    picks.nearest = {CACHE_NONE, CACHE_NONE, 0, 1, 1, CACHE_NONE};
+    picks.worth = {5.0f, 4.0f, 8.0f, 0.0f, 0.0f, 0.0f};
+    EXPECT_EQ(places(3), (std::vector<float>{9, 8, 1}));
 }
 
 }  // namespace

@@ -160,14 +160,17 @@ void split_cells(std::vector<CacheRecord>& records, std::size_t seen, const Weig
         return glm::dot(d, d);
     };
     const std::vector<double> importance = importance_of(records.size(), seen, picks);
-    std::vector<Cell> cells(records.size());
+    std::vector<Cell> cells(records.size() + 1);  // the last one: where no record counts
     for (std::size_t i = 0; i < picks.places.size(); ++i) {
-        const double worth = double{picks.worth[i]} * importance[i / picks.by_each];
-        if (!(worth > 0.0) || !std::isfinite(worth) || picks.nearest[i] >= cells.size()) continue;
-        Cell& cell = cells[picks.nearest[i]];
+        const std::size_t viewer = i / picks.by_each;
+        const double worth = double{picks.worth[i]} * importance[viewer];
+        if (!(worth > 0.0) || !std::isfinite(worth)) continue;
+        const bool counts = picks.nearest[i] < records.size();
+        Cell& cell = counts ? cells[picks.nearest[i]] : cells.back();
         cell.worth += worth;
         cell.candidates.push_back(
-            {&picks.places[i], worth, apart(picks.places[i], records[picks.nearest[i]])});
+            {&picks.places[i], worth,
+             apart(picks.places[i], records[counts ? picks.nearest[i] : viewer])});
     }
     const auto less = [&](std::size_t a, std::size_t b) { return cells[a].worth < cells[b].worth; };
     std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(less)> next(less);
