@@ -2,18 +2,20 @@
 //
 //   worth = rho sqrt(spread + (CACHE_COARSE Y)^2 + bare^2)    rho: reflectance, Y: luminance of E there
 //
-//   bare = max(1 - WEIGH_NEARER q / a, 0) Y_most
+//   bare = Y_most max(a - WEIGH_NEARER q, 0) / a
 //   a: least of |d|^2 + CACHE_OFF^2 off^2 of the records that stand in, q: least |d|^2 of all around,
-//   which may face any way, Y_most: the largest luminance of E of these
+//   whichever way they face, Y_most: the largest luminance of E of these
 //
 // spread is what the records there differ by (lookup.clh). The second part stands for change that
-// none of them shows, because all lie on one side of it. The third is for surfaces of which no record
+// none of them shows, because all lie on one side of it. The third is for surfaces on which no record
 // stands: those that stand in face the same way but are far off, and of the light there nothing is
-// known but what others around it have. The back of a screen is one, or the top of a wall.
+// known but what others around it have. The back of a screen is one, or the top of a wall. All around
+// are the first of the lists of a leaf; those that stand in are in the list of the surface's own way.
 //                              [derived: error of a source, to be weighed by importance, Smits92]
 //
 // Work size    1D, one work-item for every CLGI_WIDTH picks (rounded up); any local size
 // Writes       its own worth, and the record that counts most there; CACHE_NONE where none does
+// Cost         a look-up, and 30 records around, of some 50 flops and nine scattered reads each
 // SPDX-License-Identifier: MIT
 #include "cache/lookup.clh"
 
@@ -24,30 +26,32 @@
 static floatp weigh_bare(const CacheTree* tree, global const uint* nodes, global const uint* lists,
                          global const float* records, global const float* light, CacheVector point,
                          CacheVector normal) {
-    floatp far = packet_splat(1e30f), standing = far, nearest = far, most = packet_zero;
-    intp first = cache_list_at(tree, nodes, point, normal) - cache_way(normal) * CACHE_LISTED;
-    for (uint i = 0; i < CACHE_WAYS * WEIGH_AROUND; ++i) {
-        int index[CLGI_WIDTH], record[CLGI_WIDTH];
-        packet_store(first + (int)(i / WEIGH_AROUND * CACHE_LISTED + i % WEIGH_AROUND), index);
-        intp of = as_intp((uintp)(packet_lookup(lists, index)));
-        intp listed = of != (int)CACHE_NONE;
-        if (!packet_any(listed)) continue;
-        packet_store(packet_select((intp)(0), of, listed), record);
-        CacheVector d = cache_row(records, tree->stride, record);
-        CacheVector n = cache_row(records + RECORD_NORMAL * tree->stride, tree->stride, record);
-        d.x -= point.x;
-        d.y -= point.y;
-        d.z -= point.z;
-        floatp square = cache_dot(d, d);
-        floatp off = CACHE_OFF * (fabs(cache_dot(n, d)) + fabs(cache_dot(normal, d)));
-        intp stands = listed & (cache_dot(n, normal) > CACHE_FACING);
-        nearest = packet_select(nearest, packet_min(nearest, square), listed);
-        standing = packet_select(standing, packet_min(standing, fma(off, off, square)), stands);
-        CacheVector e = cache_row(light, tree->stride, record);
-        most = packet_select(most, packet_max(most, luminance(e.x, e.y, e.z)), listed);
-    }
-    floatp share = 1.0f - WEIGH_NEARER * nearest / packet_max(standing, packet_splat(1e-30f));
-    return most * packet_max(share, packet_zero);
+    floatp zero = packet_zero, standing = packet_splat(1e30f), nearest = standing, most = zero;
+    intp first = cache_lists_at(tree, nodes, point), own = cache_way(normal);
+    for (uint way = 0; way < CACHE_WAYS; ++way)
+        for (uint k = 0; k < WEIGH_AROUND; ++k) {
+            int index[CLGI_WIDTH], record[CLGI_WIDTH];
+            packet_store(first + (int)(way * CACHE_LISTED + k), index);
+            intp of = as_intp((uintp)(packet_lookup(lists, index)));
+            intp listed = of != (int)CACHE_NONE;
+            if (!packet_any(listed)) break;
+            packet_store(packet_select((intp)(0), of, listed), record);
+            CacheVector d = cache_row(records, tree->stride, record);
+            CacheVector n = cache_row(records + RECORD_NORMAL * tree->stride, tree->stride, record);
+            d.x -= point.x;
+            d.y -= point.y;
+            d.z -= point.z;
+            floatp square = cache_dot(d, d);
+            floatp off = CACHE_OFF * (fabs(cache_dot(n, d)) + fabs(cache_dot(normal, d)));
+            intp stands = listed & (own == (int)way) & (cache_dot(n, normal) > CACHE_FACING);
+            nearest = packet_select(nearest, packet_min(nearest, square), listed);
+            standing =
+                packet_select(standing, packet_min(standing, fma(off, off, square)), stands);
+            CacheVector e = cache_row(light, tree->stride, record);
+            most = packet_select(most, packet_max(most, luminance(e.x, e.y, e.z)), listed);
+        }
+    floatp farther = packet_max(fma(-WEIGH_NEARER, nearest, standing), zero);
+    return most * farther / packet_max(standing, packet_splat(1e-30f));  // 0 on a record itself
 }
 
 kernel void cache_weigh(

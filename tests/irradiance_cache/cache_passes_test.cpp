@@ -53,15 +53,16 @@ TEST(CachePasses, ShowsTheMeanOfRecordsAndHowFarTheyDiffer) {
     EXPECT_EQ(doubts[next_packet], -1.0f);
 }
 
-// worth = rho sqrt(spread + (Y / 10)^2), by hand: in the middle, beside each record, and of nothing.
-// Of a surface that faces away no record says anything; it may have as much as the brightest.
+// worth = rho sqrt(spread + (Y / 10)^2 + bare^2), by hand: in the middle, on the second record,
+// beside the first, and of nothing. Of a surface that faces away no record says anything; it may
+// have as much as the brightest.
 TEST(CachePasses, WeighWhatPicksSend) {
     const CachePasses passes(test::programs(), test::usual_build());
     const cl::CommandQueue& queue = test::device().queue;
     const TwoRecords two;
     constexpr std::uint32_t stride = plane;
     std::vector<float> places(PICK_PLANES * stride, 0.0f);
-    const float across[] = {0.0f, 0.9f, 0.0f, -0.9f};
+    const float across[] = {0.0f, 1.0f, 0.0f, -0.9f};
     for (std::uint32_t i = 0; i < 4; ++i) {
         places[i] = across[i];
         places[(RECORD_NORMAL + 1) * stride + i] = i == 2 ? -1.0f : 1.0f;
@@ -80,9 +81,13 @@ TEST(CachePasses, WeighWhatPicksSend) {
     queue.enqueueReadBuffer(nearest, CL_TRUE, 0, stride * sizeof(float), cells.data());
     const float mean = 0.2126f * 3.0f + 0.7152f * 1.5f + 0.0722f * 5.5f;
     EXPECT_NEAR(found[0], 0.25f * std::sqrt(two.half * two.half + 0.01f * mean * mean), 1e-5f);
+    const auto luminance_of = [&](int i) {
+        return 0.2126f * two.values[i][0] + 0.7152f * two.values[i][1] + 0.0722f * two.values[i][2];
+    };
+    EXPECT_NEAR(found[1], 0.25f * 0.1f * luminance_of(1), 1e-4f);
     EXPECT_EQ(cells[1], 1u);
     EXPECT_EQ(cells[3], 0u);
-    EXPECT_NEAR(found[2], 0.25f * (0.2126f * 5.0f + 0.7152f * 1.0f + 0.0722f * 8.0f), 1e-5f);
+    EXPECT_NEAR(found[2], 0.25f * luminance_of(1), 1e-5f);
     EXPECT_EQ(found[4], 0.0f);
     for (const std::uint32_t none : {2u, 4u}) EXPECT_EQ(cells[none], CACHE_NONE);
     EXPECT_EQ(found[next_packet], -1.0f);

@@ -310,6 +310,7 @@ TEST(Views, AroundPointsAreThoseOfTheHost) {
                 EXPECT_LT(glm::distance(forward, sides[face - 1]), 1e-6f);
                 EXPECT_LT(glm::distance(up, normal[point]), 1e-6f);
                 EXPECT_EQ(view.window.y, 0.5f);  // the half above the surface
+                EXPECT_EQ(view.window.w, CUBE_FOOTPRINT);
                 EXPECT_EQ(view.up.w, 0.5f);
             }
         }

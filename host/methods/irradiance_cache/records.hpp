@@ -55,10 +55,10 @@ struct WeighedPicks {
 std::vector<double> importance_of(std::size_t records, std::size_t seen, const WeighedPicks& picks);
 
 // Adds up to `count` of the picks to the records. A pick is worth its doubt times the importance of
-// the record that sees it, and lies in the cell of the record that counts most there, or in one of
-// all where none does. The cell that is worth most is split first, at the pick that is worth most
-// times the square of its distance to the cell's records (at first, where none counts, to the
-// viewer); that leaves half of its worth.
+// the record that sees it, and lies in the cell of the record that counts most there, or, where
+// none counts, in one cell that all such picks share. The cell that is worth most is split first,
+// at the pick that is worth most times the square of its distance to the cell's records (in the
+// shared one at first to the record that sees it); that leaves half of its worth.
 void split_cells(std::vector<CacheRecord>& records, std::size_t seen, const WeighedPicks& picks,
                  std::size_t count);
 

@@ -90,7 +90,7 @@ public:
                        const cl::Buffer& views, const WaitList& wait = {}) const;
 
     // Hemicubes or cubes around chosen[first_chosen] .. of the points [POINT_PLANES][stride] float
-    // -> views, from first_view on.
+    // -> views, from first_view on, in which textures are looked up over CUBE_FOOTPRINT of a pixel.
     cl::Event cubes(const cl::CommandQueue& queue, const CubeParams& params,
                     const cl::Buffer& points, const cl::Buffer& chosen, const cl::Buffer& views,
                     const WaitList& wait = {}) const;

@@ -117,9 +117,9 @@ typedef struct {
     uint pad2_;
 } CubeParams;
 
-// Of the area of a pixel of a hemicube: over so much of it textures are looked up. Pixels of hemicubes
-// are large. Means over all of one would mix the charts of an atlas, so that walls glow with the lamps
-// of theirs, and would turn the normals of a texture.
+// Of the area of a pixel of hemicubes and cubes, and of rays like theirs: over so much of it textures
+// are looked up. Such pixels are large. Means over all of one would mix the charts of an atlas, so that
+// walls glow with the lamps beside their charts, and would turn the normals of a texture.
 #define CUBE_FOOTPRINT 0.00390625f
 
 // Planes of a G-buffer, each `stride` floats: three for every vector, y and z behind x.
