@@ -362,9 +362,9 @@ TEST(CacheRecords, SplitTheCellThatIsWorthMost) {
     // Where no record counts, one cell for all, worth 9.4, beside 8.2 and 5.1: at first with
     // distances to the viewer of each, of which the second, at 10, has an importance of 0.17.
     picks.nearest = {CACHE_NONE, CACHE_NONE, 1, CACHE_NONE, 0, 1};
-    picks.places = {at(1), at(9), at(8), at(10.5f), at(12), {}};
-    picks.worth = {5.0f, 4.0f, 8.0f, 1.0f, 30.0f, 0.0f};
-    EXPECT_EQ(places(5), (std::vector<float>{9, 8, 12, 1, 10.5f}));
+    picks.places = {at(1), at(9), at(8), at(-20), at(12), {}};
+    picks.worth = {5.0f, 4.0f, 8.0f, 3.0f, 30.0f, 0.0f};
+    EXPECT_EQ(places(5), (std::vector<float>{-20, 8, 12, 9, 1}));
 }
 
 }  // namespace
