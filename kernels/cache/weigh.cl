@@ -51,7 +51,7 @@ static floatp weigh_bare(const CacheTree* tree, global const uint* nodes, global
             most = packet_select(most, packet_max(most, luminance(e.x, e.y, e.z)), listed);
         }
     floatp farther = packet_max(fma(-WEIGH_NEARER, nearest, standing), zero);
-    return most * farther / packet_max(standing, packet_splat(1e-30f));  // 0 on a record itself
+    return most * (farther / packet_max(standing, packet_splat(1e-30f)));  // 0 on a record itself
 }
 
 kernel void cache_weigh(
