@@ -3,15 +3,16 @@
 //   worth = rho sqrt(spread + (CACHE_COARSE Y)^2 + bare^2)    rho: reflectance, Y: luminance of E there
 //
 //   bare = Y_most max(a - WEIGH_NEARER q, 0) / a
-//   a: least of |d|^2 + CACHE_OFF^2 off^2 of the records that stand in, q: least |d|^2 of all around,
-//   whichever way they face, Y_most: the largest luminance of E of these
+//                              [derived: error of a source, to be weighed by importance, Smits92]
+//
+// a: least of |d|^2 + CACHE_OFF^2 off^2 of the records that stand in, which are in the list of the
+// surface's own way; q: least |d|^2 of all around, the first of each list of a leaf; Y_most: the
+// largest luminance of E of these.
 //
 // spread is what the records there differ by (lookup.clh). The second part stands for change that
 // none of them shows, because all lie on one side of it. The third is for surfaces on which no record
-// stands: those that stand in face the same way but are far off, and of the light there nothing is
-// known but what others around it have. The back of a screen is one, or the top of a wall. All around
-// are the first of the lists of a leaf; those that stand in are in the list of the surface's own way.
-//                              [derived: error of a source, to be weighed by importance, Smits92]
+// stands, such as the back of a screen or the top of a wall: those that stand in face the same way but
+// are far off, and of the light there nothing is known but what others around it have.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH picks (rounded up); any local size
 // Writes       its own worth, and the record that counts most there; CACHE_NONE where none does
