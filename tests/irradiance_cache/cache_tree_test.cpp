@@ -359,7 +359,7 @@ TEST(CacheRecords, SplitTheCellThatIsWorthMost) {
     EXPECT_EQ(places(2), (std::vector<float>{8, 1}));
     picks.worth = {5.0f, 2.0f, 18.0f, 0.0f, 0.0f, 0.0f};
     EXPECT_EQ(places(2), (std::vector<float>{8, 9}));
-    // Where no record counts, one cell for all, worth 9.4, beside 8.2 and 5.1: at first with
+    // Where no record counts, one cell for all, worth 9.8, beside 8.2 and 5.1: at first with
     // distances to the viewer of each, of which the second, at 10, has an importance of 0.17.
     picks.nearest = {CACHE_NONE, CACHE_NONE, 1, CACHE_NONE, 0, 1};
     picks.places = {at(1), at(9), at(8), at(-20), at(12), {}};

@@ -67,8 +67,8 @@ IrradianceCacheOptions by_coarse_hemicubes() {
 
 CLGI_IN_BOTH_MATHS(SharedTextures);
 
-// Between the wings a square metre of lamp: E = 4 L a / A atan(a / A), a: half its side, A^2 = 1 +
-// a^2.
+// Between the wings a square metre of lamp: E = 4 L a / A atan(a / A), A^2 = 1 + a^2, a: half its
+// side.
 TEST_P(SharedTextures, LeaveTheLightOfALampAsItIs) {
     Material floor;
     floor.base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
