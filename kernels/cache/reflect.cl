@@ -190,7 +190,7 @@ kernel void cache_reflect(
             pixel.window.w = CUBE_FOOTPRINT;
             pixel.right.w = pixel.up.w = 0.5f * sqrt(rays.angle);
             Surface surface = link_hits(&world, &pixel, &sight, 0.25f * rays.angle,
-                                        first / CLGI_WIDTH + n, &packet);
+                                        first / CLGI_WIDTH + n, info.flags, &packet);
             CacheVector there = cache_light(&packet.share, light, tree.stride);
             float found[3][CLGI_WIDTH], side[3][CLGI_WIDTH];
             packet_store(there.x, found[0]);

@@ -101,5 +101,69 @@ TEST_P(SharedTextures, LeaveDarkWhatIsDark) {
     }
 }
 
+// Form factor of a rectangle from the origin, one metre below its plane: x0..x1 by y0..y1.
+double rectangle_above(double x0, double x1, double y0, double y1) {
+    const auto corner = [](double x, double y) {
+        const double along = std::sqrt(1.0 + x * x), across = std::sqrt(1.0 + y * y);
+        return (x / along * std::atan(y / along) + y / across * std::atan(x / across)) / (2.0 * pi);
+    };
+    return corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
+}
+
+// A lamp's quarters shine in four colours, where its texture has them: of coordinates far from 0,
+// of a texture whose sides differ, which repeats along one and is mirrored along the other, and of
+// texels that are far smaller than a pixel of a hemicube.
+TEST_P(SharedTextures, ShineWhereTheirTexelsLie) {
+    constexpr int width = 1024, height = 256;
+    constexpr std::uint8_t byte = 153;  // 0.6; of sRGB 0.3185 (IEC 61966-2-1)
+    constexpr glm::vec3 quarters[2][2] = {{{1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {1, 1, 0}}};
+    for (const bool linear : {false, true}) {
+        Texture texture;
+        texture.width = width;
+        texture.height = height;
+        texture.wrap_t = Wrap::mirrored_repeat;
+        texture.srgb = !linear;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const glm::vec3 color = quarters[2 * y / height][2 * x / width];
+                for (int c = 0; c < 3; ++c)
+                    texture.rgba.push_back(static_cast<std::uint8_t>(byte * color[c]));
+                texture.rgba.push_back(255);
+            }
+        Scene scene;
+        Material floor;
+        floor.base_color = glm::vec4(0.8f, 0.6f, 0.4f, 1.0f);
+        scene.materials = {floor};
+        test::add_floor(scene, 0.02);
+        Material glows;
+        glows.base_color = glm::vec4(0, 0, 0, 1);
+        glows.emission = lamp_of_atlas;
+        glows.emission_texture.texture = 0;
+        glows.double_sided = true;
+        scene.textures = {texture};
+        const std::uint32_t lamp = test::add_material(scene, glows);
+        scene.uvs.resize(scene.positions.size(), glm::vec4(0.0f));
+        test::add_quad(
+            scene, {glm::dvec3(0.2, 1, 0.1), {1.4, 1, 0.1}, {1.4, 1, 0.9}, {0.2, 1, 0.9}}, lamp);
+        // Its rows from 0.1 on are those of the texture from below.
+        for (const glm::vec2 uv :
+             {glm::vec2(-5.0f, 7.0f), {-4.0f, 7.0f}, {-4.0f, 8.0f}, {-5.0f, 8.0f}})
+            scene.uvs.emplace_back(uv, 0.0f, 0.0f);
+        scene.cameras = {test::camera_at({0, 0.5, 0.001}, {0, 0, 0}, 0.04f)};
+        IrradianceCacheOptions options = by_coarse_hemicubes();
+        options.face = 32;
+        const glm::dvec3 found = mean_radiance(pictured(scene, options).radiance);
+        glm::dvec3 wanted(0.0);
+        for (int row = 0; row < 2; ++row)
+            for (int column = 0; column < 2; ++column)
+                wanted += glm::dvec3(quarters[1 - row][column]) *
+                          rectangle_above(0.2 + 0.6 * column, 0.8 + 0.6 * column, 0.1 + 0.4 * row,
+                                          0.5 + 0.4 * row);
+        wanted *=
+            (linear ? 0.6 : 0.3185) * glm::dvec3(lamp_of_atlas) * glm::dvec3(floor.base_color);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 0.03 * wanted[c]) << c;
+    }
+}
+
 }  // namespace
 }  // namespace clgi
