@@ -1,7 +1,8 @@
 // One step of the iteration over the records' light.
 //
-//   E_i' = B_i + R_i + sum_j T_ij E_j     (link.cl)                       [derived: Jacobi iteration]
+//   next_i = B_i + R_i + sum_j T_ij light_j     (link.cl)                 [derived: Jacobi iteration]
 //
+// light: that of the step before, sharpened (sharpen.cl).
 // What is shown of it lacks the light of the sky's bright parts, which light pixels as lamps do.
 //
 // Work size    1D, one work-item a record and channel; any local size; tail guarded

@@ -258,7 +258,21 @@ TEST(CachePasses, RefuseBuffersThatAreTooSmall) {
     const auto show = [&](const CacheBuffers& b) {
         passes.show(queue, {4, stride, 0, 0}, tree, b, points, irradiance, doubt);
     };
+    const CachePasses::Sharpened sharp{test::empty<float>(3 * stride),
+                                       test::empty<float>(3 * stride)},
+        no_from{test::empty<float>(1), sharp.to}, no_to{sharp.from, test::empty<float>(1)};
+    const auto sharpen = [&](const CacheBuffers& b, const CachePasses::Sharpened& light,
+                             const CachePasses::Sharpened& more, std::uint32_t most = 1) {
+        passes.sharpen(queue, {most, 0, 1, 0}, tree, b, light, more);
+    };
+    for (const auto& bad : {no_from, no_to}) {
+        EXPECT_THROW(sharpen(buffers(nullptr), bad, sharp), Error);
+        EXPECT_THROW(sharpen(buffers(nullptr), sharp, bad), Error);
+    }
+    for (const std::uint32_t most : {0u, CACHE_LISTED + 1u})
+        EXPECT_THROW(sharpen(buffers(nullptr), sharp, sharp, most), Error);
     using B = CacheBuffers;
+    EXPECT_THROW(sharpen(buffers(&B::planes), sharp, sharp), Error);
     for (const auto small : {&B::views, &B::visibility}) EXPECT_THROW(pick(buffers(small)), Error);
     for (const auto small :
          {&B::planes, &B::views, &B::visibility, &B::rows, &B::base, &B::reflected, &B::bright})

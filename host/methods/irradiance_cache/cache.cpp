@@ -131,7 +131,7 @@ IrradianceCache::State::State(const Programs& programs, const cl::CommandQueue& 
     std::vector<std::uint32_t> order(std::max<std::size_t>(capacity, most_chosen));
     std::iota(order.begin(), order.end(), 0u);
     picture.record().write(chosen, order.data(), order.size() * sizeof(std::uint32_t));
-    passes.build({"list", "link", "bounce", "show"});
+    passes.build({"list", "link", "bounce", "sharpen", "show"});
     if (options.met > 0) passes.build({"pick", "weigh"});
     if (casts_spots()) passes.build({"mark", "tally", "spots", "shine"});
     const auto side = static_cast<std::uint32_t>(drawn);
@@ -169,7 +169,8 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     table.add(b.visibility, "what hemicubes see", lower,
               3 * face * face * capacity * sizeof(std::uint64_t));
     table.add(b.rows, "transport", lower, 3 * row_stride * word * capacity);
-    for (cl::Buffer* light : {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown})
+    for (cl::Buffer* light : {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown,
+                              &sharp_light, &sharp_shown})
         table.add(*light, "light", lower, 3 * plane);
     table.add(chosen, "records", lower, std::max<std::size_t>(capacity, most_chosen) * word);
     table.add(doubt, "doubt", "width or height", word * picture.stride());
@@ -194,7 +195,7 @@ void IrradianceCache::State::add_to(BufferTable& table) {
               static_cast<std::size_t>(sky.width * sky.height) * word);
     table.add(found_light, "corrections", "width or height", 3 * of_picture);
     table.add(corrections, "corrections", "width or height", 4 * of_picture);
-    table.add(settled, "light", lower, 3 * plane);
+    for (cl::Buffer* light : {&settled, &sharp_sky}) table.add(*light, "light", lower, 3 * plane);
     table.add(settled_sums, "light", lower, 4 * plane);
     table.add(shares, "corrections", "width or height",
               blocks(options.picture.width) * blocks(options.picture.height) * word);

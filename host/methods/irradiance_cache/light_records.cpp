@@ -46,7 +46,7 @@ void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
         plant(tree, b.nodes, b.lists);
         // To the stride: rows are summed in whole packets.
         for (const cl::Buffer* buffer :
-             {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown})
+             {&b.base, &b.reflected, &b.bright, &b.light, &b.next, &b.shown, &sharp_light})
             record.fill(*buffer, 0);
         if (!sky.texels.empty())
             record.write(b.sky, sky.texels.data(), sky.texels.size() * sizeof(float));
@@ -98,8 +98,9 @@ void IrradianceCache::State::bounce(std::size_t first) {
     Recorder& record = picture.record();
     const auto count = static_cast<std::uint32_t>(records.size() - first);
     const CacheBounceParams params{count, stride, static_cast<std::uint32_t>(first), row_stride};
+    const CacheBuffers lit = sent_buffers();
     record("cache.bounce", 3 * count,
-           [&](const WaitList& wait) { return passes.bounce(record.queue(), params, b, wait); });
+           [&](const WaitList& wait) { return passes.bounce(record.queue(), params, lit, wait); });
     std::swap(b.light, b.next);
 }
 
@@ -120,9 +121,20 @@ bool IrradianceCache::State::rests() {
     return change <= rest * most;
 }
 
+CacheBuffers IrradianceCache::State::sent_buffers() {
+    Recorder& record = picture.record();
+    record("cache.sharpen", tree.record_count, [&](const WaitList& wait) {
+        const CachePasses::Sharpened light{b.light, sharp_light};
+        return passes.sharpen(record.queue(), {CACHE_FEW, 0, 0, 0}, tree, b, light, light, wait);
+    });
+    CacheBuffers out = b;
+    out.light = sharp_light;
+    return out;
+}
+
 CacheBuffers IrradianceCache::State::shown_buffers() const {
     CacheBuffers out = b;
-    out.light = settles() ? settled : b.shown;
+    out.light = sharp_shown;
     if (found.refined > 0) {
         out.nodes = all_nodes;
         out.lists = all_lists;
@@ -131,12 +143,19 @@ CacheBuffers IrradianceCache::State::shown_buffers() const {
 }
 
 void IrradianceCache::State::show(bool sky) {
+    Recorder& record = picture.record();
+    const CacheBuffers of = shown_buffers();
+    const std::uint32_t more = sky ? 1 : 0;
+    record("cache.sharpen", records.size(), [&](const WaitList& wait) {
+        return passes.sharpen(record.queue(), {CACHE_LISTED, 1, more, 0}, shown_tree(), of,
+                              {settles() ? settled : b.shown, sharp_shown}, {b.next, sharp_sky},
+                              wait);
+    });
     const CacheShowParams params{static_cast<std::uint32_t>(picture.pixels()), picture.stride(),
-                                 sky ? 1u : 0u, 0};
-    picture.record()("cache.show", picture.pixels(), [&](const WaitList& wait) {
-        return passes.show(picture.record().queue(), params, shown_tree(), shown_buffers(),
-                           picture.gbuffer(), picture.irradiance(), doubt, {b.next, found_light},
-                           wait);
+                                 more, 0};
+    record("cache.show", picture.pixels(), [&](const WaitList& wait) {
+        return passes.show(record.queue(), params, shown_tree(), of, picture.gbuffer(),
+                           picture.irradiance(), doubt, {sharp_sky, found_light}, wait);
     });
 }
 

@@ -89,7 +89,7 @@ void need_spots(const PassKernel& pass, const SpotParams& params, std::uint32_t 
 
 CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) {
     const BuildOptions whole = full(options);
-    const std::vector<std::string> records = {"pick", "list", "link", "bounce", "weigh"},
+    const std::vector<std::string> records = {"pick", "list", "link", "bounce", "weigh", "sharpen"},
                                    spots = {"mark", "tally", "spots", "shine"},
                                    sky = {"sight", "gauge", "correct", "settle"},
                                    gloss = {"around", "gloss", "reflect"};
@@ -105,6 +105,7 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
                     : few("link", records);
     bounce_ = few("bounce", records);
     weigh_ = few("weigh", records);
+    sharpen_ = few("sharpen", records);
     show_ = programs.kernel("cache", "show", options);
     mark_ = few("mark", spots);
     tally_ = few("tally", spots);
@@ -120,8 +121,8 @@ CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) 
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
-    build_named({pick_, list_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
-                 gauge_, correct_, settle_, around_, gloss_, reflect_},
+    build_named({pick_, list_, link_, bounce_, weigh_, sharpen_, show_, mark_, tally_, spots_,
+                 shine_, sight_, gauge_, correct_, settle_, around_, gloss_, reflect_},
                 passes);
 }
 
@@ -247,6 +248,21 @@ cl::Event CachePasses::weigh(const cl::CommandQueue& queue, const CacheParams& p
     need(weigh_, "nearest", nearest, word * params.pick_stride);
     return launch(weigh_, queue, packets(weigh_, picks), wait, params, tree, b.nodes, b.lists,
                   b.planes, b.light, places, worth, nearest);
+}
+
+cl::Event CachePasses::sharpen(const cl::CommandQueue& queue, const CacheSharpenParams& params,
+                               const CacheTree& tree, const CacheBuffers& b, const Sharpened& light,
+                               const Sharpened& more, const WaitList& wait) const {
+    need_tree(sharpen_, tree, b);
+    need_range(sharpen_.name.c_str(), "most", params.most, 1u, unsigned{CACHE_LISTED});
+    const Sharpened second = params.more ? more : light;  // else not read or written
+    const std::size_t size = 3 * word * tree.stride;
+    need(sharpen_, "light.from", light.from, size);
+    need(sharpen_, "light.to", light.to, size);
+    need(sharpen_, "more.from", second.from, size);
+    need(sharpen_, "more.to", second.to, size);
+    return launch(sharpen_, queue, packets(sharpen_, tree.record_count), wait, params, tree,
+                  b.nodes, b.lists, b.planes, light.from, light.to, second.from, second.to);
 }
 
 cl::Event CachePasses::show(const cl::CommandQueue& queue, const CacheShowParams& params,

@@ -75,7 +75,9 @@ struct IrradianceCache::State {
     bool rests();
     // Of the records that pixels look up.
     const CacheTree& shown_tree() const { return found.refined > 0 ? all_tree : tree; }
-    CacheBuffers shown_buffers() const;
+    CacheBuffers shown_buffers() const;  // with the light that show() made of it
+    // With the light that hemicubes look up, sharpened anew.
+    CacheBuffers sent_buffers();
     // sky: light_by_sky() has been called.
     void show(bool sky = false);
     // Where the scene has a sky and options ask for its directions: light of the sky between the
@@ -145,6 +147,7 @@ struct IrradianceCache::State {
     LightPasses lights;
     cl::Buffer around, mirrored_sky, sight, found_light, corrections, shares;
     cl::Buffer settled, settled_sums;
+    cl::Buffer sharp_light, sharp_shown, sharp_sky;  // as hemicubes and pixels look it up
     bool weighed = false;  // whether the records of this picture see the sky is known
     std::shared_ptr<const SkyWeights> sky_weights;  // by these records; null: they do not
     LocalBox receivers{};                           // of light of the sky

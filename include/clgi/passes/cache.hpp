@@ -104,6 +104,16 @@ public:
                     const CacheBuffers& buffers, const cl::Buffer& places, const cl::Buffer& worth,
                     const cl::Buffer& nearest, const WaitList& wait = {}) const;
 
+    // Light of all records of the tree -> light that interpolation between them blurs less:
+    // [3][tree.stride] float each, in different buffers; buffers.light is not read. `more`, where
+    // params.more is 1, as `light` is.
+    struct Sharpened {
+        cl::Buffer from, to;
+    };
+    cl::Event sharpen(const cl::CommandQueue& queue, const CacheSharpenParams& params,
+                      const CacheTree& tree, const CacheBuffers& buffers, const Sharpened& light,
+                      const Sharpened& more, const WaitList& wait = {}) const;
+
     // buffers.light -> irradiance [IRRADIANCE_PLANES][params.stride] of the points of a G-buffer,
     // in the storage of these passes, and how much the records of each differ, doubt
     // [params.stride] float. With params.more also more.light -> more.irradiance, by the same
@@ -183,8 +193,8 @@ public:
     void build(std::initializer_list<const char*> passes) const;
 
 private:
-    PassKernel pick_, list_, link_, bounce_, weigh_, show_, mark_, tally_, spots_, shine_, sight_,
-        gauge_, correct_, settle_, around_, gloss_, reflect_;
+    PassKernel pick_, list_, link_, bounce_, weigh_, sharpen_, show_, mark_, tally_, spots_, shine_,
+        sight_, gauge_, correct_, settle_, around_, gloss_, reflect_;
     bool groups_;  // a record by a group of work-items
 };
 

@@ -18,7 +18,8 @@ enum { PICK_REFLECTANCE = RECORD_PLANES, PICK_ALBEDO, PICK_PLANES = PICK_ALBEDO 
 
 // A tree over space that names the records near each place: eight children a node, and in leaves a
 // list for each of the six ways that a surface can face, +x, -x, +y and so on.
-enum { CACHE_LISTED = 16, CACHE_WAYS = 6 };
+// Where the mean over many places counts, as in hemicubes, the first few are looked at.
+enum { CACHE_LISTED = 16, CACHE_FEW = 5, CACHE_WAYS = 6 };
 #define CACHE_LEAF 0x80000000u  // of a node: the rest is the leaf's number, else the first child's place
 #define CACHE_NONE 0xffffffffu
 
@@ -153,6 +154,14 @@ typedef struct {
     uint more;    // 1: a second light is shown by the same shares
     uint pad_;
 } CacheShowParams;
+
+// How the light that is sharpened will be looked up.
+typedef struct {
+    uint most;     // records of a list that are looked at, at most CACHE_LISTED
+    uint carried;  // 1: their shares are carried on, as for pixels
+    uint more;     // 1: a second light is sharpened as the first is
+    uint pad_;
+} CacheSharpenParams;
 
 // Radiance in the pixels of hemicubes, and its means over 2 x 2 and 4 x 4 of them. Records that were
 // met have none; the others have a slot each, in their order.
