@@ -1,7 +1,7 @@
 // What records have around them, once the light between them is known: the radiance in each pixel of
 // their hemicubes, and its means over blocks of pixels.
 //
-//   L = L_sky, or L_e + D + rho/pi E        E: of records (sharpen.cl), D: direct light that the surface
+//   L = L_sky, or L_e + D + rho/pi E        E: of records (lookup.clh), D: direct light that the surface
 //                                           reflects towards the record (link.clh)
 //                                      [Krivanek05: radiance that is cached; derived: in hemicubes]
 //

@@ -3,6 +3,7 @@
 //
 //   E_i = B_i + R_i + sum_j T_ij E_j'
 //   T_ij = sum over pixels w rho W_j,   B_i = sum w pi L,   R_i = sum w pi D
+//                                             [derived: radiosity of points, gathered by hemicubes]
 //
 // w: form factor of a pixel, rho: albedo of the surface in it, lobes taken for diffuse, W_j: share of
 // record j in it (lookup.clh), E': light that is sharpened for that (sharpen.cl), D: radiance that it
@@ -10,7 +11,6 @@
 // (microfacet.clh). E has no direct light but that of the sky. Of bright parts of the sky that pixels
 // are lit by directions of, `bright` says what they bring. Sample points of emissive surfaces, of
 // which there may be hundreds, take turns from one block of 16 pixels to the next.
-//                                             [derived: radiosity of points, gathered by hemicubes]
 //
 // Work size    1D, one work-item a record; any local size; tail guarded
 // Writes       its own row and its own base light

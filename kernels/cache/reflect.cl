@@ -3,7 +3,7 @@
 //
 //   L = 1/K sum_k F G_1(l_k) L(l_k),   L(l) = L_e + D + rho/pi E, or L_sky
 //                                           l_k: directions of the lobe (microfacet_sample.clh)
-//                                           E: of records (sharpen.cl), D: direct light that is
+//                                           E: of records (lookup.clh), D: direct light that is
 //                                           reflected back along the ray (link.clh)
 //
 // Of smooth surfaces that a ray meets E counts by their diffuse share, and another ray follows for

@@ -32,19 +32,27 @@ Texture atlas_of_a_lamp() {
     return out;
 }
 
-// A small floor that the camera looks at, and a metre above it wide wings of a ceiling that is
-// black. The far ends of their charts are nearest to what shines.
-Scene below_a_ceiling(const Material& floor) {
+// A floor, and a second material that shines by the texture.
+Scene floor_and_lamp(const Material& floor, double half, const Texture& texture) {
     Scene scene;
     scene.materials = {floor};
-    test::add_floor(scene, 0.1);
+    test::add_floor(scene, half);
     Material glows;
     glows.base_color = glm::vec4(0, 0, 0, 1);
     glows.emission = lamp_of_atlas;
     glows.emission_texture.texture = 0;
-    scene.textures = {atlas_of_a_lamp()};
-    const std::uint32_t material = test::add_material(scene, glows);
+    glows.double_sided = true;
+    test::add_material(scene, glows);
+    scene.textures = {texture};
     scene.uvs.resize(scene.positions.size(), glm::vec4(0.0f));
+    return scene;
+}
+
+// A small floor that the camera looks at, and a metre above it wide wings of a ceiling that is
+// black. The far ends of their charts are nearest to what shines.
+Scene below_a_ceiling(const Material& floor) {
+    Scene scene = floor_and_lamp(floor, 0.1, atlas_of_a_lamp());
+    constexpr std::uint32_t material = 1;
     for (const double way : {-1.0, 1.0}) {
         const double near = 0.5 * way, far = 10.5 * way;
         test::add_quad(scene,
@@ -53,7 +61,6 @@ Scene below_a_ceiling(const Material& floor) {
         for (const glm::vec2 uv : {glm::vec2(0.02f), {0.3f, 0.02f}, {0.3f, 0.98f}, {0.02f, 0.98f}})
             scene.uvs.emplace_back(uv, 0.0f, 0.0f);
     }
-    scene.materials[material].double_sided = true;
     scene.cameras = {test::camera_at({0, 0.8, 0.001}, {0, 0, 0}, 0.1f)};
     return scene;
 }
@@ -130,21 +137,11 @@ TEST_P(SharedTextures, ShineWhereTheirTexelsLie) {
                     texture.rgba.push_back(static_cast<std::uint8_t>(byte * color[c]));
                 texture.rgba.push_back(255);
             }
-        Scene scene;
         Material floor;
         floor.base_color = glm::vec4(0.8f, 0.6f, 0.4f, 1.0f);
-        scene.materials = {floor};
-        test::add_floor(scene, 0.02);
-        Material glows;
-        glows.base_color = glm::vec4(0, 0, 0, 1);
-        glows.emission = lamp_of_atlas;
-        glows.emission_texture.texture = 0;
-        glows.double_sided = true;
-        scene.textures = {texture};
-        const std::uint32_t lamp = test::add_material(scene, glows);
-        scene.uvs.resize(scene.positions.size(), glm::vec4(0.0f));
-        test::add_quad(
-            scene, {glm::dvec3(0.2, 1, 0.1), {1.4, 1, 0.1}, {1.4, 1, 0.9}, {0.2, 1, 0.9}}, lamp);
+        Scene scene = floor_and_lamp(floor, 0.02, texture);
+        test::add_quad(scene,
+                       {glm::dvec3(0.2, 1, 0.1), {1.4, 1, 0.1}, {1.4, 1, 0.9}, {0.2, 1, 0.9}}, 1);
         // Its rows from 0.1 on are those of the texture from below.
         for (const glm::vec2 uv :
              {glm::vec2(-5.0f, 7.0f), {-4.0f, 7.0f}, {-4.0f, 8.0f}, {-5.0f, 8.0f}})

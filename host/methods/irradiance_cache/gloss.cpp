@@ -32,10 +32,9 @@ void IrradianceCache::State::look_around() {
                     static_cast<std::uint32_t>(records.size()) - met,
                     static_cast<std::uint32_t>(options.face)};
     Recorder& record = picture.record();
-    const CacheBuffers lit = sent_buffers();
     record("cache.around", surroundings.slots, [&](const WaitList& wait) {
         return passes.around(record.queue(), params(0, records.size()), surroundings, tree, scene,
-                             picture.emitter_buffers(), lit, around, wait);
+                             picture.emitter_buffers(), b, around, wait);
     });
     if (!mirrored.texels.empty())
         record.write(mirrored_sky, mirrored.texels.data(), mirrored.texels.size() * sizeof(float));
@@ -64,11 +63,9 @@ void IrradianceCache::State::add_gloss(const View& view) {
     take_directions(params, followed, sample);
     CacheParams seen = this->params(0, records.size());
     seen.spots = 0;  // rays see what hemicubes leave to VPLs
-    CacheBuffers lit = b;
-    lit.light = sharp_light;
     record("cache.reflect", picture.pixels(), [&](const WaitList& wait) {
         return passes.reflect(
-            record.queue(), params, seen, tree, scene, picture.emitter_buffers(), lit,
+            record.queue(), params, seen, tree, scene, picture.emitter_buffers(), b,
             {picture.gbuffer(), mirrored_sky, picture.radiance(), picture.counter()}, wait);
     });
 }

@@ -98,7 +98,12 @@ void IrradianceCache::State::bounce(std::size_t first) {
     Recorder& record = picture.record();
     const auto count = static_cast<std::uint32_t>(records.size() - first);
     const CacheBounceParams params{count, stride, static_cast<std::uint32_t>(first), row_stride};
-    const CacheBuffers lit = sent_buffers();
+    CacheBuffers lit = b;
+    lit.light = sharp_light;
+    record("cache.sharpen", tree.record_count, [&](const WaitList& wait) {
+        const CachePasses::Sharpened light{b.light, sharp_light};
+        return passes.sharpen(record.queue(), {CACHE_FEW, 0, 0, 0}, tree, b, light, light, wait);
+    });
     record("cache.bounce", 3 * count,
            [&](const WaitList& wait) { return passes.bounce(record.queue(), params, lit, wait); });
     std::swap(b.light, b.next);
@@ -119,17 +124,6 @@ bool IrradianceCache::State::rests() {
             change = std::max(change, std::abs(now[at] - before[at]));
         }
     return change <= rest * most;
-}
-
-CacheBuffers IrradianceCache::State::sent_buffers() {
-    Recorder& record = picture.record();
-    record("cache.sharpen", tree.record_count, [&](const WaitList& wait) {
-        const CachePasses::Sharpened light{b.light, sharp_light};
-        return passes.sharpen(record.queue(), {CACHE_FEW, 0, 0, 0}, tree, b, light, light, wait);
-    });
-    CacheBuffers out = b;
-    out.light = sharp_light;
-    return out;
 }
 
 CacheBuffers IrradianceCache::State::shown_buffers() const {

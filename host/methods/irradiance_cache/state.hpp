@@ -76,8 +76,6 @@ struct IrradianceCache::State {
     // Of the records that pixels look up.
     const CacheTree& shown_tree() const { return found.refined > 0 ? all_tree : tree; }
     CacheBuffers shown_buffers() const;  // with the light that show() made of it
-    // With the light that hemicubes look up, sharpened anew.
-    CacheBuffers sent_buffers();
     // sky: light_by_sky() has been called.
     void show(bool sky = false);
     // Where the scene has a sky and options ask for its directions: light of the sky between the
