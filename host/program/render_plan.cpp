@@ -108,12 +108,14 @@ bool is_better(const reference::Verification& found,
 }
 
 // The rest of a budget, or half as much as what came before; for an error that is asked for, what
-// it takes, within limits.
+// it takes, within limits, and what costs next to nothing.
 void refine(RenderAttempt& attempt, std::optional<double> left, std::optional<double> target) {
     constexpr double fine = 2e-3, share = 0.4;  // relative errors; of the target
-    if (target)
+    constexpr double little = 0.1;              // of the picture's time
+    if (target) {
         attempt.refine(std::max(2.0, 2.0 * attempt.seconds()), 4, share * *target);
-    else if (left)
+        attempt.refine(little * attempt.seconds(), 4, fine);
+    } else if (left)
         attempt.refine(*left, 1, fine);
     else
         attempt.refine(0.5 * attempt.seconds(), 4, fine);

@@ -24,7 +24,7 @@ kernel void lights_direct(
     floatp nx = row_load(gbuffer_row(planes, GBUFFER_NORMAL, stride), at);
     floatp ny = row_load(gbuffer_row(planes, GBUFFER_NORMAL + 1, stride), at);
     floatp nz = row_load(gbuffer_row(planes, GBUFFER_NORMAL + 2, stride), at);
-    ShadowMaps maps = {visibility, (int)params.depth_words};
+    ShadowMaps maps = {visibility, (int)params.depth_words, (int)params.edges};
     uintp worst = max(packet_magnitude(nx), max(packet_magnitude(ny), packet_magnitude(nz)));
     worst = max(worst, direct_point_magnitude(&point));
     floatp sum[3] = {packet_zero, packet_zero, packet_zero};

@@ -6,6 +6,9 @@
 //         the plane that it shows, followed to the receiver, is nearer than that, too. If all are
 //         nearer than the receiver, and so are all planes, all block
 //   bias = texel_bias texels at 45 degrees + 1/64 of the plane's slope in x and y + 1e-6
+//
+// Where edges count, texels that show what is behind the receiver's plane, by the same with a
+// quarter of a texel, have no weight, unless none has.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -27,12 +30,14 @@ struct Shadowed {
     double x = 0.0, y = 0.0;     // texels from the centre of the upper left one
     double closeness = 0.0, slope_x = 0.0, slope_y = 0.0, bias = 0.0;
     double fall_x = 0.0, fall_y = 0.0;  // of a plane that blocks, from texel to texel, at most
-    bool doubtful = false;              // which view it is in depends on rounding
+    double behind = 0.0, behind_by_slopes = 0.0;  // what is behind the plane lies so far from it
+    bool doubtful = false;                        // which view it is in depends on rounding
 
+    // How much nearer than the receiver its plane is at a texel.
+    double along(int column, int row) const { return slope_x * (column - x) + slope_y * (row - y); }
     // Closeness that a blocker at this texel must exceed.
     double limit(int column, int row) const {
-        const double along = slope_x * (column - x) + slope_y * (row - y);
-        return closeness + bias + std::max(along, 0.0);
+        return closeness + bias + std::max(along(column, row), 0.0);
     }
     // k: 0 and 1 are the texels around the receiver, -1 and 2 those beyond.
     int column(int k) const {
@@ -82,8 +87,10 @@ inline Shadowed shadowed(const Emitter& emitter, const std::vector<View>& views,
         };
         out.slope_x = capped(glm::dot(geometric, right), texel_x);
         out.slope_y = capped(-glm::dot(geometric, up), texel_y);  // rows run downwards
-        out.bias = unit * texel_bias * std::max(texel_x, texel_y) +
-                   (std::abs(out.slope_x) + std::abs(out.slope_y)) / 64.0 + out.closeness * 1e-6;
+        out.behind_by_slopes =
+            (std::abs(out.slope_x) + std::abs(out.slope_y)) / 64.0 + out.closeness * 1e-6;
+        out.bias = unit * texel_bias * std::max(texel_x, texel_y) + out.behind_by_slopes;
+        out.behind = unit * 0.25 * std::max(texel_x, texel_y) + out.behind_by_slopes;
         out.fall_x = followed * unit * texel_x;
         out.fall_y = followed * unit * texel_y;
         out.x = (u * 0.5 + 0.5) * view.width - 0.5;
@@ -107,11 +114,30 @@ inline std::uint64_t word_of(float closeness, std::uint32_t triangle) {
     return std::uint64_t{~bits} << 32 | triangle;
 }
 
+inline double weight_of(const Shadowed& at, int kx, int ky) {
+    const double fx = at.x - std::floor(at.x), fy = at.y - std::floor(at.y);
+    return (kx ? fx : 1.0 - fx) * (ky ? fy : 1.0 - fy);
+}
+
+inline bool is_past_edge(const Shadowed& at, int kx, int ky,
+                         const std::vector<std::uint64_t>& visibility) {
+    return closeness_of(visibility[at.texel(kx, ky)]) <
+           at.closeness + at.along(at.column(kx), at.row(ky)) - at.behind;
+}
+
+// Weight of the texels that are not past the receiver's edge.
+inline double known_share(const Shadowed& at, const std::vector<std::uint64_t>& visibility) {
+    double out = 0.0;
+    for (int k = 0; at.view && k < 4; ++k)
+        if (!is_past_edge(at, k & 1, k >> 1, visibility)) out += weight_of(at, k & 1, k >> 1);
+    return out;
+}
+
 // Share of light that arrives; sets doubtful where a comparison is within rounding.
 inline double lit_share(const Shadowed& at, const std::vector<std::uint64_t>& visibility,
-                        bool* doubtful) {
+                        bool* doubtful, bool edges = false) {
     if (at.view == nullptr) return 1.0;
-    const double fx = at.x - std::floor(at.x), fy = at.y - std::floor(at.y);
+    const double known = edges ? known_share(at, visibility) : 0.0;
     double own = 0.0, all = 0.0;  // weights of texels that do not block, without and with planes
     bool some = false, within = false, follows = false;
     for (int ky = 0; ky < 2; ++ky)
@@ -124,7 +150,11 @@ inline double lit_share(const Shadowed& at, const std::vector<std::uint64_t>& vi
             // 1e-6 of itself, as the bias has it, and what 16 roundings make of the slope.
             const double rounding = 8 * 0x1p-24 * (limit + 4 * (limit - at.closeness));
             if (std::abs(seen - limit) < rounding) *doubtful = true;
-            const double weight = (kx ? fx : 1.0 - fx) * (ky ? fy : 1.0 - fy);
+            const double past = at.closeness + at.along(at.column(kx), at.row(ky)) - at.behind;
+            if (edges && std::abs(seen - past) < rounding) *doubtful = true;
+            const bool counts = !(known > 0.0) || !is_past_edge(at, kx, ky, visibility);
+            const double weight =
+                counts ? weight_of(at, kx, ky) / (known > 0.0 ? known : 1.0) : 0.0;
             // What blocks, where the receiver is.
             const double rise_x = std::clamp(seen - shown(3 * kx - 1, ky), -at.fall_x, at.fall_x);
             const double rise_y = std::clamp(seen - shown(kx, 3 * ky - 1), -at.fall_y, at.fall_y);

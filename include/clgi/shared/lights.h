@@ -80,7 +80,7 @@ typedef struct {
     uint depth_words;  // words of a shadow map's pixel: 1 for depth alone, 2 for visibility
     uint add;          // 0: in the place of what is there; DIRECT_ADD, DIRECT_TAKE
     uint first_emitter;
-    uint pad_;
+    uint edges;  // 1: texels of shadow maps past a receiver's edge count for nothing
 } DirectParams;
 
 enum { DIRECT_ADD = 1, DIRECT_TAKE = 2 };  // to what is there, from it
