@@ -95,7 +95,7 @@ TEST_P(DirectEdges, AreLeftOutAsInDoublePrecision) {
         }
     }
     const std::vector<float> found = in.light(1), usual = in.light(0);
-    int compared = 0, differ = 0;
+    int compared = 0, differ = 0, none_known = 0;
     for (std::uint32_t i = 0; i < places; ++i) {
         const test::Shadowed at = in.place(i);
         bool doubtful = at.doubtful;
@@ -105,7 +105,9 @@ TEST_P(DirectEdges, AreLeftOutAsInDoublePrecision) {
         const glm::dvec3 toward = GetParam() ? -glm::dvec3(emitter.axis) : glm::normalize(away);
         const double cosine = glm::dot(toward, glm::dvec3(in.normal[i]));
         const double least = 0.02;  // of the weights: what is left over may be next to nothing
-        if (doubtful || cosine < 0.05 || test::known_share(at, in.visibility) < least) continue;
+        const double known = test::known_share(at, in.visibility);
+        if (doubtful || cosine < 0.05 || (known > 0.0 && known < least)) continue;
+        none_known += known == 0.0;
         ++compared;
         const double strength = GetParam() ? cosine : cosine / glm::dot(away, away);
         for (int c = 0; c < 3; ++c) {
@@ -117,6 +119,7 @@ TEST_P(DirectEdges, AreLeftOutAsInDoublePrecision) {
     }
     EXPECT_GT(compared, 130);
     EXPECT_GT(differ, 40);
+    EXPECT_GT(none_known, 2);
 }
 
 // A receiver of which no texel is known is lit as ever, and one that all texels show, too.
