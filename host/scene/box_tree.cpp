@@ -83,14 +83,13 @@ private:
 
     std::vector<ClusterRun> divided(const ClusterRun& of) {
         std::vector<ClusterRun> out{of};
-        const std::size_t whole = of.size() > NODE_BOXES ? NODE_BOXES : 1;
         const auto larger = [&](const ClusterRun& a, const ClusterRun& b) {
-            if ((a.size() > whole) != (b.size() > whole)) return a.size() > whole;
+            if ((a.size() > 1) != (b.size() > 1)) return a.size() > 1;
             return by_area() ? half_area(a.extent) > half_area(b.extent) : a.size() > b.size();
         };
         while (out.size() < NODE_BOXES) {
             const auto largest = std::min_element(out.begin(), out.end(), larger);
-            if (largest->size() <= whole) break;
+            if (largest->size() == 1) break;
             const std::size_t at = cut(*largest), last = largest->last;
             *largest = run(largest->first, at);
             out.push_back(run(at, last));

@@ -62,8 +62,9 @@ void set_part(const std::vector<glm::uvec4>& triangles, const std::vector<glm::v
               std::size_t first, std::size_t last, Cluster& cluster, std::size_t part) {
     glm::vec3 middle(0.0f);
     float square = 0.0f;
+    Corners box{glm::vec3(0.0f), glm::vec3(0.0f)};
     if (first < last) {
-        const Corners box = corners_of(triangles, positions, first, last);
+        box = corners_of(triangles, positions, first, last);
         middle = 0.5f * (box.low + box.high);
         for (std::size_t t = first; t < last; ++t)
             for (int k = 0; k < 3; ++k) {
@@ -71,8 +72,11 @@ void set_part(const std::vector<glm::uvec4>& triangles, const std::vector<glm::v
                 square = std::max(square, (d.x * d.x + d.y * d.y) + d.z * d.z);
             }
     }
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         cluster.part[axis][part] = middle[static_cast<int>(axis)];
+        cluster.part_low[axis][part] = box.low[static_cast<int>(axis)];
+        cluster.part_high[axis][part] = box.high[static_cast<int>(axis)];
+    }
     cluster.part[3][part] = std::sqrt(square);
 }
 

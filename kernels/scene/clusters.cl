@@ -45,10 +45,10 @@ static float4 cone_of(global const uint4* triangles, global const float4* positi
 // Triangles first .. last - 1, or none.
 static void set_part(global const uint4* triangles, global const float4* positions, uint first,
                      uint last, global Cluster* cluster, int part) {
-    float3 middle = (float3)(0.0f);
+    float3 middle = (float3)(0.0f), low = (float3)(0.0f), high = (float3)(0.0f);
     float radius = 0.0f;
     if (first < last) {
-        float3 low = positions[triangles[first].x].xyz, high = low;
+        low = high = positions[triangles[first].x].xyz;
         for (uint t = first; t < last; ++t) {
             uint4 corner = triangles[t];
             float3 p[3] = {positions[corner.x].xyz, positions[corner.y].xyz,
@@ -72,6 +72,12 @@ static void set_part(global const uint4* triangles, global const float4* positio
     cluster->part[1][part] = middle.y;
     cluster->part[2][part] = middle.z;
     cluster->part[3][part] = radius;
+    cluster->part_low[0][part] = low.x;
+    cluster->part_low[1][part] = low.y;
+    cluster->part_low[2][part] = low.z;
+    cluster->part_high[0][part] = high.x;
+    cluster->part_high[1][part] = high.y;
+    cluster->part_high[2][part] = high.z;
 }
 
 // Corners of triangles first .. first + PART_TRIANGLES - 1; past the last one, its own.

@@ -110,6 +110,27 @@ TEST(Clusters, HaveSpheresAroundTheirParts) {
     }
 }
 
+TEST(Clusters, HaveTheLeastBoxesAroundTheirParts) {
+    for (const int count : {1, 8, 9, 63, 65, 1000}) {
+        const Uploaded on(dust(count));
+        const auto& [scene, triangles, positions, clusters] = on;
+        for (std::size_t p = 0; p < clusters.size() * CLUSTER_PARTS; ++p) {
+            const Cluster& cluster = clusters[p / CLUSTER_PARTS];
+            const std::size_t k = p % CLUSTER_PARTS;
+            for (int axis = 0; axis < 3; ++axis) {
+                std::vector<float> corners;
+                for (std::size_t t = 8 * p; t < std::min<std::size_t>(8 * p + 8, triangles.size());
+                     ++t)
+                    for (int c = 0; c < 3; ++c) corners.push_back(positions[triangles[t][c]][axis]);
+                if (corners.empty()) corners.push_back(0.0f);
+                const auto [low, high] = std::minmax_element(corners.begin(), corners.end());
+                EXPECT_EQ(cluster.part_low[axis][k], *low) << count << ", " << p;
+                EXPECT_EQ(cluster.part_high[axis][k], *high) << count << ", " << p;
+            }
+        }
+    }
+}
+
 std::vector<PartCorners> parts_of(const DeviceScene& scene) {
     return test::download<PartCorners>(scene.parts(),
                                        scene.info().cluster_count * std::size_t{CLUSTER_PARTS});
