@@ -179,6 +179,8 @@ TEST_F(VerifyProgram, GoesOnUntilTheErrorIsReached) {
     EXPECT_EQ(easy.at("target").at("met"), true) << easy;
     EXPECT_EQ(easy.at("target").at("error"), 0.2);
     EXPECT_LE(easy.at("measured_error").at("high"), 0.2);
+    // 32 samples would do, but more cost next to nothing.
+    EXPECT_GT(easy.at("samples").at("count"), 32) << easy.at("samples");
     EXPECT_EQ(easy.at("err").get<std::string>().find("not reached"), std::string::npos);
     // Nothing reaches a thousandth of a percent: the settings become finer, the best is kept.
     const json hard = target("0.001%");

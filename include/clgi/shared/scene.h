@@ -92,7 +92,8 @@ typedef struct {
     // Without triangles: 0.
     float part[4][CLUSTER_PARTS];
     // Boxes around them. Without triangles: 0.
-    float part_low[3][CLUSTER_PARTS], part_high[3][CLUSTER_PARTS];
+    float part_low[3][CLUSTER_PARTS];
+    float part_high[3][CLUSTER_PARTS];
 } Cluster;
 
 // A tree of boxes over the clusters. A node has up to sixteen of them side by side, each around a
