@@ -111,7 +111,7 @@ bool is_better(const reference::Verification& found,
 // it takes, within limits, and what costs next to nothing.
 void refine(RenderAttempt& attempt, std::optional<double> left, std::optional<double> target) {
     constexpr double fine = 2e-3, share = 0.4;  // relative errors; of the target
-    constexpr double little = 0.1;              // of the picture's time
+    constexpr double little = 0.1;              // of the picture's time, all samples together
     if (target) {
         attempt.refine(std::max(2.0, 2.0 * attempt.seconds()), 4, share * *target);
         attempt.refine(little * attempt.seconds(), 4, fine);

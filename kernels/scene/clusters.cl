@@ -1,5 +1,5 @@
-// The box around every cluster of triangles, the cone of their normals, spheres around its parts,
-// and the parts' corners.
+// The box around every cluster of triangles, the cone of their normals, spheres and boxes around
+// its parts, and the parts' corners.
 // [derived: minima and maxima are exact, so the boxes are those of the host at load, bit for bit]
 //
 // Work size    1D, one work-item a cluster; any local size; tail guarded

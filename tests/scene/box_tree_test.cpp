@@ -125,6 +125,23 @@ TEST(BoxTree, TakesLargeBoxesApartFirst) {
     EXPECT_EQ(small + large, 16);
 }
 
+// However few these are.
+TEST(BoxTree, TakesFewLargeBoxesApartBeforeManySmallOnes) {
+    std::vector<Cluster> clusters;
+    for (int i = 0; i < 70; ++i) {
+        const bool small = i < 60;
+        const float x = small ? 1e-3f * static_cast<float>(i) : static_cast<float>(i);
+        clusters.push_back(cluster_at(
+            {x, 0, 0}, small ? glm::vec3(x + 5e-4f, 1e-3f, 1e-3f) : glm::vec3(x + 0.9f, 1, 1)));
+    }
+    const BoxNode root = make_box_tree(clusters).nodes[0];
+    int alone = 0;
+    for (int k = 0; k < NODE_BOXES; ++k)
+        alone += root.child[k] != NODE_NONE && (root.child[k] & NODE_CLUSTER) != 0 &&
+                 root.low[0][k] >= 60.0f;
+    EXPECT_EQ(alone, 10);
+}
+
 TEST(BoxTree, KeepsListsOfWalksShort) {
     for (const std::vector<Cluster>& clusters :
          {random_clusters(20000, 9), spiral(5000), std::vector<Cluster>(70000, spiral(1)[0])}) {

@@ -288,6 +288,36 @@ TEST(TraceViews, LeaveNoGapBetweenTriangles) {
     }
 }
 
+// Whose borders lie in faces of boxes along the axes, and whose corners are far beside how near the
+// eye is.
+TEST(TraceViews, LeaveNoGapBetweenTilesSeenFromClose) {
+    Scene floor = test::plain_scene();
+    constexpr int tiles = 40;
+    for (int i = 0; i < tiles; ++i)
+        for (int k = 0; k < tiles; ++k) {
+            const double x = i - 0.5 * tiles, z = k - 0.5 * tiles;
+            test::add_quad(floor,
+                           {glm::dvec3(x, 0, z + 1), {x + 1, 0, z + 1}, {x + 1, 0, z}, {x, 0, z}});
+        }
+    const DeviceScene scene = test::on_device(floor);
+    test::Random random(41);
+    std::vector<View> views;
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+        const double border = random.integer(-10, 10), along = random(-10, 10);
+        const glm::dvec3 at = i % 2 ? glm::dvec3(border, 0, along) : glm::dvec3(along, 0, border);
+        const double apart = std::pow(10.0, random(-3, 0)), turn = random(0, 6.28);
+        const glm::dvec3 eye =
+            at + apart * glm::dvec3(std::cos(turn), random(0.01, 1), std::sin(turn));
+        View view = make_view(test::camera_at(eye, at, 1e-3), scene.frame(), 3, 3);
+        view.forward.w = 0.0f;
+        view.first_pixel = 9 * i;
+        views.push_back(view);
+    }
+    const auto words = traced<std::uint64_t>(scene, views, GBufferPasses(test::programs()));
+    EXPECT_EQ(std::count(words.begin(), words.end(), test::no_triangle), 0);
+    EXPECT_EQ(words.size(), 27000u);
+}
+
 TEST(TraceViews, OfNothingShowNothing) {
     const DeviceScene scene = test::on_device(Scene());
     View view = make_view(test::camera_at({0, 0, 0}, {0, 0, 1}), scene.frame(), 4, 4);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int most_map = 256;  // pixels a side: a direction is one of many
 // Texels: light passes so far beneath walls that have no thickness, and brightens their corners.
-// Receivers are followed to their edges, so that little is left to it.
+// Texels past a receiver's edge count for nothing (DirectParams::edges), so that little is enough.
 constexpr float bias = 0.06f;
 constexpr int nearby = 1;  // texels by which what records see is spread, as they are few
 // The directions of so many samples are taken in parts, each with a correction of its own: how far

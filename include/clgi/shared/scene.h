@@ -91,7 +91,7 @@ typedef struct {
     // Spheres around its eighths, in the order of triangles: x, y and z of centres, and radii.
     // Without triangles: 0.
     float part[4][CLUSTER_PARTS];
-    // Boxes around them. Without triangles: 0.
+    // Boxes around the same eighths. Without triangles: 0.
     float part_low[3][CLUSTER_PARTS];
     float part_high[3][CLUSTER_PARTS];
 } Cluster;
