@@ -16,6 +16,7 @@
 #include "scene/local_frame.hpp"
 #include "scene/luminance.hpp"
 #include "shading/lights/emitter_views.hpp"
+#include "shading/lights/lamp_powers.hpp"
 #include "shading/lights/replicate.hpp"
 #include "shading/lights/single_view.hpp"
 
@@ -168,30 +169,29 @@ AreaPlace area_place(std::uint32_t stratum, const EmitterOptions& options) {
             shifted_radical_inverse(index, 3, replicate_shift(seed, ShiftUse::area, 1))};
 }
 
-// Points on the emissive triangles, each standing for an equal share of their power.
+// Points on the emissive triangles, each standing for a share of their power.
 std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions& options) {
     const std::vector<EmissiveTriangle>& triangles = scene.emissive();
     std::vector<Source> out;
     if (triangles.empty() || options.area_samples < 1 || options.environment_alone) return out;
-    std::vector<double> cumulative;
-    double total = 0.0;
     const SceneFrame& frame = scene.frame();
     const auto is_beyond = [&](const EmissiveTriangle& t) {
         const glm::vec3 middle = (t.corner[0] + t.corner[1] + t.corner[2]) * (1.0f / 3.0f);
         return options.focused && glm::dot(middle, middle) > frame.detail * frame.detail;
     };
+    std::vector<double> powers;
     for (const EmissiveTriangle& t : triangles)
-        cumulative.push_back(total += is_beyond(t) ? 0.0 : pi * t.area * luminance(t.radiance));
-    if (!(total > 0.0)) return out;
-    const int count =
-        options.sample == 0 ? options.area_samples : std::max(options.area_samples / 4, 1);
-    const double share = total / count;
-    for (int k = 0; k < count; ++k) {
-        const AreaPlace place = area_place(static_cast<std::uint32_t>(k), options);
-        const double target = (k + place.within) * share;
-        const std::size_t pick = static_cast<std::size_t>(
-            std::upper_bound(cumulative.begin(), cumulative.end(), target) - cumulative.begin());
-        const EmissiveTriangle& t = triangles[std::min(pick, triangles.size() - 1)];
+        powers.push_back(is_beyond(t) ? 0.0 : pi * t.area * luminance(t.radiance));
+    const LampPowers lamps(triangles, powers);
+    if (!(lamps.total() > 0.0)) return out;
+    // What is lit by the first points alone has each lamp's power; those of later samples do
+    // together.
+    const bool first = options.sample == 0;
+    const int count = first ? options.area_samples : std::max(options.area_samples / 4, 1);
+    for (const PowerStretch& stretch : lamps.stretches(count, first)) {
+        const AreaPlace place = area_place(static_cast<std::uint32_t>(out.size()), options);
+        const double power = stretch.end - stretch.begin;
+        const EmissiveTriangle& t = triangles[lamps.at(stretch.begin + place.within * power)];
         const float root = std::sqrt(place.u), v = place.v;  // uniform on the triangle
         const glm::vec3 on = t.corner[0] * (1.0f - root) + t.corner[1] * (root * (1.0f - v)) +
                              t.corner[2] * (root * v);
@@ -202,10 +202,10 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
         e.position = glm::vec4(on + t.normal * lift, 0.0f);
         e.axis = glm::vec4(t.normal, 0.0f);
         e.right = glm::vec4(across(t.normal), 0.0f);
-        e.intensity = glm::vec4(t.radiance * static_cast<float>(share / lum), 0.0f);
-        e.area = static_cast<float>(share / (pi * lum));
+        e.intensity = glm::vec4(t.radiance * static_cast<float>(power / lum), 0.0f);
+        e.area = static_cast<float>(power / (pi * lum));
         e.kind = EMITTER_AREA;
-        source.power = share;
+        source.power = power;
         source.group = surfaces;
         source.views = hemicube(glm::vec3(e.position), t.normal, 0.5f * lift, options.face_size);
         out.push_back(source);
