@@ -128,8 +128,8 @@ TEST(BoxTree, TakesLargeBoxesApartFirst) {
 // However few these are.
 TEST(BoxTree, TakesFewLargeBoxesApartBeforeManySmallOnes) {
     std::vector<Cluster> clusters;
-    for (int i = 0; i < 70; ++i) {
-        const bool small = i < 60;
+    for (int i = 0; i < 310; ++i) {
+        const bool small = i < 300;
         const float x = small ? 1e-3f * static_cast<float>(i) : static_cast<float>(i);
         clusters.push_back(cluster_at(
             {x, 0, 0}, small ? glm::vec3(x + 5e-4f, 1e-3f, 1e-3f) : glm::vec3(x + 0.9f, 1, 1)));
@@ -138,7 +138,7 @@ TEST(BoxTree, TakesFewLargeBoxesApartBeforeManySmallOnes) {
     int alone = 0;
     for (int k = 0; k < NODE_BOXES; ++k)
         alone += root.child[k] != NODE_NONE && (root.child[k] & NODE_CLUSTER) != 0 &&
-                 root.low[0][k] >= 60.0f;
+                 root.low[0][k] >= 300.0f;
     EXPECT_EQ(alone, 10);
 }
 

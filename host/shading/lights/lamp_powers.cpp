@@ -39,7 +39,6 @@ LampPowers::LampPowers(const std::vector<EmissiveTriangle>& triangles,
             lamp_ends_.push_back(total);
         ends_.push_back(total += powers[order_[i]]);
     }
-    if (!lamp_ends_.empty() && !(lamp_ends_.back() < total)) lamp_ends_.pop_back();
 }
 
 std::vector<PowerStretch> LampPowers::stretches(int count, bool by_lamp) const {

@@ -30,7 +30,7 @@ public:
 private:
     std::vector<std::uint32_t> order_;  // of the triangles, those of a lamp together
     std::vector<double> ends_;          // of theirs, as `order_` has them
-    std::vector<double> lamp_ends_;     // before the total
+    std::vector<double> lamp_ends_;     // of lamps before the last
 };
 
 }  // namespace clgi
