@@ -105,16 +105,21 @@ TEST(BoxTree, IsCutWhereNothingIs) {
     }
 }
 
+// The root of a tree over small clusters side by side, and as far on as there are, large ones.
+BoxNode root_of(int small, int large) {
+    std::vector<Cluster> clusters;
+    for (int i = 0; i < small + large; ++i) {
+        const bool is_small = i < small;
+        const float x = is_small ? 1e-3f * static_cast<float>(i) : static_cast<float>(i);
+        clusters.push_back(cluster_at(
+            {x, 0, 0}, is_small ? glm::vec3(x + 5e-4f, 1e-3f, 1e-3f) : glm::vec3(x + 0.9f, 1, 1)));
+    }
+    return make_box_tree(clusters).nodes[0];
+}
+
 // The root takes the largest boxes apart first: of as many large clusters as small ones, the large.
 TEST(BoxTree, TakesLargeBoxesApartFirst) {
-    std::vector<Cluster> clusters;
-    for (int i = 0; i < 360; ++i) {
-        const bool small = i < 180;
-        const float x = small ? 1e-3f * static_cast<float>(i) : static_cast<float>(i);
-        clusters.push_back(cluster_at(
-            {x, 0, 0}, small ? glm::vec3(x + 5e-4f, 1e-3f, 1e-3f) : glm::vec3(x + 0.9f, 1, 1)));
-    }
-    const BoxNode root = make_box_tree(clusters).nodes[0];
+    const BoxNode root = root_of(180, 180);
     int small = 0, large = 0;
     for (int k = 0; k < NODE_BOXES; ++k) {
         small += root.child[k] != NODE_NONE && root.high[0][k] < 180.0f;
@@ -127,14 +132,7 @@ TEST(BoxTree, TakesLargeBoxesApartFirst) {
 
 // However few these are.
 TEST(BoxTree, TakesFewLargeBoxesApartBeforeManySmallOnes) {
-    std::vector<Cluster> clusters;
-    for (int i = 0; i < 310; ++i) {
-        const bool small = i < 300;
-        const float x = small ? 1e-3f * static_cast<float>(i) : static_cast<float>(i);
-        clusters.push_back(cluster_at(
-            {x, 0, 0}, small ? glm::vec3(x + 5e-4f, 1e-3f, 1e-3f) : glm::vec3(x + 0.9f, 1, 1)));
-    }
-    const BoxNode root = make_box_tree(clusters).nodes[0];
+    const BoxNode root = root_of(300, 10);
     int alone = 0;
     for (int k = 0; k < NODE_BOXES; ++k)
         alone += root.child[k] != NODE_NONE && (root.child[k] & NODE_CLUSTER) != 0 &&

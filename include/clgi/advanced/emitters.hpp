@@ -84,12 +84,12 @@ struct EmitterSet {
 // One emitter for each punctual light, `area_samples` for the emissive triangles (stratified by
 // power; in the first sample up to as many more, so that each lamp, triangles with common corners,
 // has its power) and `environment_lights` for the environment (median cut [Debevec05]), each with
-// its views (without EmitterOptions::shadows: none) and its share of the VPLs: three quarters of them by
-// power, a quarter evenly to each lamp, to the emissive triangles and to the environment, so that a
-// dim lamp has some beside a bright one that lights nothing. Lights without power are left out.
-// Emitters too weak for a VPL of their own leave their indirect light to the others of their group
-// (punctual lights, directions, samples). A group without any VPL leaves it to all. Power is
-// luminance.
+// its views (without EmitterOptions::shadows: none) and its share of the VPLs: three quarters of
+// them by power, a quarter evenly to each lamp, to the emissive triangles and to the environment,
+// so that a dim lamp has some beside a bright one that lights nothing. Lights without power are
+// left out. Emitters too weak for a VPL of their own leave their indirect light to the others of
+// their group (punctual lights, directions, samples). A group without any VPL leaves it to all.
+// Power is luminance.
 //
 // A spot of more than 60 degrees from its axis has the views of a cube, like a point light.
 // If more than 2^22 candidates would have to be tried (300 VPLs below a degree), the cone is mapped
