@@ -14,6 +14,7 @@
 #include "scene/clusters.hpp"
 #include "scene/emission.hpp"
 #include "scene/environment.hpp"
+#include "scene/lamps.hpp"
 #include "scene/local_frame.hpp"
 #include "scene/locality.hpp"
 #include "scene/luminance.hpp"
@@ -208,6 +209,7 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
         glowing.radiance = radiance;
         glowing.double_sided = material.double_sided;
     }
+    find_lamps();
     list_emissive();
 
     TexturePool pool = make_texture_pool(scene.textures);
@@ -246,13 +248,22 @@ DeviceScene::DeviceScene(const cl::Context& context, const cl::Device& device, c
     bytes_ = upload.bytes;
 }
 
-// Along a Z-order curve, so that moved ones are sampled as loaded ones are.
+void DeviceScene::find_lamps() {
+    std::vector<std::array<glm::vec3, 3>> triangles;
+    for (const Glowing& g : glowing_) triangles.push_back({g.corner[0], g.corner[1], g.corner[2]});
+    const std::vector<std::uint32_t> lamps = lamps_of(triangles);
+    for (std::size_t i = 0; i < lamps.size(); ++i) glowing_[i].lamp = lamps[i];
+}
+
+// Lamp by lamp, and those of one along a Z-order curve, so that moved ones are sampled as loaded
+// ones are.
 void DeviceScene::list_emissive() {
     std::vector<std::pair<std::uint32_t, const Glowing*>> order;
     for (const Glowing& g : glowing_)
         order.emplace_back(place_on_curve(g.corner[0], g.corner[1], g.corner[2]), &g);
     std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-        return std::tie(a.first, a.second->triangle) < std::tie(b.first, b.second->triangle);
+        return std::tie(a.second->lamp, a.first, a.second->triangle) <
+               std::tie(b.second->lamp, b.first, b.second->triangle);
     });
     emissive_.clear();
     for (const auto& [place, glowing] : order) {
@@ -265,6 +276,7 @@ void DeviceScene::list_emissive() {
         source.normal = normal / twice_area;
         source.area = 0.5f * twice_area;
         source.radiance = glowing->radiance;
+        source.lamp = glowing->lamp;
         emissive_.push_back(source);
         if (!glowing->double_sided) continue;
         source.normal = -source.normal;

@@ -36,6 +36,7 @@ struct EmissiveTriangle {
     glm::vec3 normal;                      // unit, the side that emits
     float area = 0.0f;                     // local units squared
     glm::vec3 radiance = glm::vec3(0.0f);  // exposed; mean over the triangle's texels
+    std::uint32_t lamp = 0;  // triangles with common corners are one lamp, as the scene was loaded
 };
 
 // How much the light of each part of an environment counts: [rows][columns], above 0, over the
@@ -138,7 +139,9 @@ private:
         glm::vec3 corner[3];
         glm::vec3 radiance;
         bool double_sided;
+        std::uint32_t lamp;
     };
+    void find_lamps();
     void list_emissive();
 
     SceneFrame frame_;

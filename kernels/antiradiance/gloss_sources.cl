@@ -111,7 +111,7 @@ kernel void antiradiance_gloss_sources(
     global float* rows = sources + (ulong)base * 3 * ROW_BINS;
     for (uint i = 0; i < together * 3 * ROW_BINS; ++i) rows[i] = 0.0f;
 
-    ShadowMaps maps = {visibility, (int)params.depth_words, 0};
+    ShadowMaps maps = {visibility, (int)params.depth_words};
     for (uint e = 0; e < params.emitter_count; ++e) {
         global const Emitter* emitter = emitters + e;
         LobeLight light[CLGI_WIDTH];

@@ -102,7 +102,7 @@ kernel void image_combine(
             microfacet_view(&microfacet);
         }
 
-        ShadowMaps maps = {visibility, (int)params.depth_words, 0};
+        ShadowMaps maps = {visibility, (int)params.depth_words};
         for (uint e = 0; e < params.emitter_count; ++e) {
             global const Emitter* emitter = emitters + e;
             DirectRay ray = direct_ray(emitter, &point);

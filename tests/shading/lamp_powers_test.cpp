@@ -11,18 +11,10 @@
 namespace clgi {
 namespace {
 
-// Two triangles of a strip at x, the second of which lies after those of other strips.
-std::vector<EmissiveTriangle> strips(int count) {
-    std::vector<EmissiveTriangle> out;
-    for (int half = 0; half < 2; ++half)
-        for (int i = 0; i < count; ++i) {
-            const float x = 2.0f * static_cast<float>(i), y = static_cast<float>(half);
-            EmissiveTriangle t;
-            t.corner[0] = {x, y, 0.0f};
-            t.corner[1] = {x + 1.0f, 1.0f, 0.0f};
-            t.corner[2] = {x, 1.0f - y, 0.5f * y};
-            out.push_back(t);
-        }
+// Lamps of two triangles each.
+std::vector<EmissiveTriangle> pairs(std::uint32_t count) {
+    std::vector<EmissiveTriangle> out(2 * count);
+    for (std::uint32_t i = 0; i < 2 * count; ++i) out[i].lamp = i / 2;
     return out;
 }
 
@@ -36,24 +28,23 @@ void expect_stretches(const std::vector<PowerStretch>& found,
 }
 
 TEST(LampPowers, AreCutWhereALampEnds) {
-    // Lamps of 3, 1 and 4; triangles in the order of `strips`.
-    const LampPowers lamps(strips(3), {1.0, 0.5, 3.5, 2.0, 0.5, 0.5});
+    const LampPowers lamps(pairs(3), {1.0, 2.0, 0.5, 0.5, 3.5, 0.5});
     EXPECT_EQ(lamps.total(), 8.0);
     expect_stretches(lamps.stretches(4, true), {{0, 2}, {2, 3}, {3, 4}, {4, 6}, {6, 8}});
     expect_stretches(lamps.stretches(4, false), {{0, 2}, {2, 4}, {4, 6}, {6, 8}});
     expect_stretches(lamps.stretches(2, true), {{0, 3}, {3, 4}, {4, 8}});
     expect_stretches(lamps.stretches(1, true), {{0, 8}});  // two lamps end before the last
-    const std::size_t wanted[] = {0, 3, 3, 1, 2, 2, 2, 2};
+    const std::size_t wanted[] = {0, 1, 1, 2, 4, 4, 4, 4};
     for (int k = 0; k < 8; ++k) EXPECT_EQ(lamps.at(k + 0.4), wanted[k]) << k;
-    EXPECT_EQ(lamps.at(3.7), 4u);
+    EXPECT_EQ(lamps.at(3.7), 3u);
     EXPECT_EQ(lamps.at(7.9), 5u);
     EXPECT_EQ(lamps.at(8.0), 5u);
 }
 
 TEST(LampPowers, HaveNoCutsOfDarkLamps) {
-    const LampPowers lamps(strips(3), {0.0, 3.0, 0.0, 0.0, 1.0, 0.0});
+    const LampPowers lamps(pairs(3), {0.0, 0.0, 3.0, 1.0, 0.0, 0.0});
     expect_stretches(lamps.stretches(2, true), {{0, 2}, {2, 4}});
-    EXPECT_EQ(lamps.at(0.0), 1u);
+    EXPECT_EQ(lamps.at(0.0), 2u);
     EXPECT_EQ(LampPowers({}, {}).total(), 0.0);
 }
 

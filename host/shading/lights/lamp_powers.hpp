@@ -3,7 +3,6 @@
 #pragma once
 
 #include <clgi/device_scene.hpp>
-#include <cstdint>
 #include <vector>
 
 namespace clgi {
@@ -15,22 +14,20 @@ struct PowerStretch {
 
 class LampPowers {
 public:
-    // Triangles that hang together by common corners are one lamp. powers: of the triangles, at
-    // least 0.
+    // triangles: those of a lamp one after the other. powers: of the triangles, at least 0.
     LampPowers(const std::vector<EmissiveTriangle>& triangles, const std::vector<double>& powers);
 
     double total() const { return ends_.empty() ? 0.0 : ends_.back(); }
     // `count` equal stretches of a total above 0; by_lamp: those cut in two in which one lamp ends
-    // and the next begins, so that points of a lamp have its power, unless more lamps end than there
-    // are stretches.
+    // and the next begins, so that points of a lamp have its power, unless more lamps end than
+    // there are stretches.
     std::vector<PowerStretch> stretches(int count, bool by_lamp) const;
     // The triangle at a place in [0, total).
     std::size_t at(double place) const;
 
 private:
-    std::vector<std::uint32_t> order_;  // of the triangles, those of a lamp together
-    std::vector<double> ends_;          // of theirs, as `order_` has them
-    std::vector<double> lamp_ends_;     // of lamps before the last
+    std::vector<double> ends_;       // of the triangles
+    std::vector<double> lamp_ends_;  // of lamps before the last
 };
 
 }  // namespace clgi
