@@ -33,8 +33,8 @@ void IrradianceCache::State::plant(CacheTree& of, cl::Buffer& nodes, cl::Buffer&
     put(crowds.records, planted.records);
     put(crowds.order, planted.order);
     put(crowds.boxes, planted.boxes);
-    const std::size_t count = planted.leaves.size() * CACHE_WAYS;
-    grow(lists, count * CACHE_LISTED * sizeof(std::uint32_t));
+    const std::size_t count = planted.leaves.size();
+    grow(lists, count * CACHE_WAYS * CACHE_LISTED * sizeof(std::uint32_t));
     record("cache.list", count, [&](const WaitList& wait) {
         return passes.list(record.queue(), planted.params, crowds, lists, wait);
     });

@@ -150,8 +150,8 @@ cl::Event CachePasses::list(const cl::CommandQueue& queue, const CacheListParams
     need(list_, "order", crowds.order, word * params.stride);
     need(list_, "boxes", crowds.boxes, 6 * word * params.crowd_stride);
     need(list_, "lists", lists, std::size_t{params.leaf_count} * CACHE_WAYS * CACHE_LISTED * word);
-    return launch(list_, queue, std::size_t{params.leaf_count} * CACHE_WAYS, wait, params,
-                  crowds.leaves, crowds.records, crowds.order, crowds.boxes, lists);
+    return launch(list_, queue, params.leaf_count, wait, params, crowds.leaves, crowds.records,
+                  crowds.order, crowds.boxes, lists);
 }
 
 cl::Event CachePasses::link(const cl::CommandQueue& queue, const CacheParams& params,
