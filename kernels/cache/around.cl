@@ -34,7 +34,7 @@ kernel void cache_around(
     int stands = link_stands(&params, planes, record);
     View view = views[5 * record + face];
     uint across = view.width / params.every, down = view.height / params.every;
-    uint to = around_face(&of, slot, face, 0), pixels = across * down;
+    uint to = around_face(of.size, slot, face), pixels = across * down;
     for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
         LinkPacket packet;
         float found[3][CLGI_WIDTH];
@@ -51,14 +51,27 @@ kernel void cache_around(
                 stands ? around_pack(around_radiance(&world, &view, &packet, found, k)) : (uint2)(0);
     }
     for (uint level = 1; level < AROUND_LEVELS; ++level) {
-        uint from = to, width = across >> level, height = down >> level;
-        to = around_face(&of, slot, face, level);
-        for (uint pixel = 0; pixel < width * height; ++pixel) {
-            uint at = from + pixel / width * 4 * width + pixel % width * 2;
-            float3 sum = around_unpack(around[at]) + around_unpack(around[at + 1]) +
-                         around_unpack(around[at + 2 * width]) +
-                         around_unpack(around[at + 2 * width + 1]);
-            around[to + pixel] = around_pack(0.25f * sum);
+        uint from = to, width = across >> level, count = width * (down >> level);
+        to = around_first(of.slots, of.size, level) + around_face(of.size >> level, slot, face);
+        for (uint pixel = 0; pixel < count; pixel += CLGI_WIDTH) {
+            int at[CLGI_WIDTH];
+            for (uint k = 0; k < CLGI_WIDTH; ++k) {
+                uint of_pixel = min(pixel + k, count - 1);
+                at[k] = (int)(from + of_pixel / width * 4 * width + of_pixel % width * 2);
+            }
+            CacheVector sum = {packet_zero, packet_zero, packet_zero};
+            for (uint part = 0; part < 4; ++part) {
+                CacheVector of_part = around_unpack(around + (part / 2 * 2 * width + part % 2), at);
+                sum.x += of_part.x;
+                sum.y += of_part.y;
+                sum.z += of_part.z;
+            }
+            float mean[3][CLGI_WIDTH];
+            packet_store(0.25f * sum.x, mean[0]);
+            packet_store(0.25f * sum.y, mean[1]);
+            packet_store(0.25f * sum.z, mean[2]);
+            for (uint k = 0; k < CLGI_WIDTH && pixel + k < count; ++k)
+                around[to + pixel + k] = around_pack(link_lane(mean, (int)k));
         }
     }
 }

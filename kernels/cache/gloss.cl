@@ -12,7 +12,7 @@
 //
 // Work size    1D, one work-item for every CLGI_WIDTH pixels (rounded up); any local size
 // Writes       radiance of its own pixels; values that are not finite are counted and left out
-// Cost         a look-up, and some 250 flops and two scattered reads a direction
+// Cost         a look-up, and some 250 flops and four scattered reads a direction
 // SPDX-License-Identifier: MIT
 #include "cache/around.clh"
 #include "cache/lookup.clh"
@@ -21,37 +21,66 @@
 
 #define CHANGE_MOST 2.0f
 
-// Radiance about a unit direction, over a solid angle; 0 where the record has none.
-static float3 gloss_around(const CacheAround* of, global const View* views,
-                           global const uint2* around, uint record, float3 direction, float angle) {
-    global const View* front = views + 5 * record;
-    float a = dot(direction, front->right.xyz), b = dot(direction, front->up.xyz);
-    float c = fabs(dot(direction, front->forward.xyz));  // beneath a surface that bends away: mirrored
+CLGI_INLINE floatp gloss_along(const float4* axis, CacheVector direction) {
+    return packet_dot(direction.x, direction.y, direction.z, (floatp)(packet_collect(axis, x)),
+                      (floatp)(packet_collect(axis, y)), (floatp)(packet_collect(axis, z)));
+}
+
+// Radiance about unit directions, over solid angles; 0 where a record has none.
+static CacheVector gloss_around(const CacheAround* of, global const View* views,
+                                global const uint2* around, intp record, CacheVector direction,
+                                floatp angle) {
+    int lane[CLGI_WIDTH];
+    packet_store(record, lane);
+    float4 right[CLGI_WIDTH], up[CLGI_WIDTH], forward[CLGI_WIDTH];
+    for (int k = 0; k < CLGI_WIDTH; ++k) {
+        global const View* front = views + 5 * lane[k];
+        right[k] = front->right;
+        up[k] = front->up;
+        forward[k] = front->forward;
+    }
+    floatp a = gloss_along(right, direction), b = gloss_along(up, direction);
+    floatp c = fabs(gloss_along(forward, direction));  // beneath what bends away: mirrored
     // Faces as faces_of() numbers them; x and y on their image planes.
-    int across = fabs(a) >= fabs(b);
-    float side = across ? a : b, larger = fabs(side), other = across ? b : -a;
-    uint face = c >= larger ? 0 : (across ? 1u : 2u) + (side < 0.0f ? 2u : 0u);
-    float x = face == 0 ? a / c : other / side, y = face == 0 ? b / c : c / larger;
-    float square = fma(x, x, fma(y, y, 1.0f)), half_size = 0.5f * (float)of->size;
-    float pixels = angle * square * sqrt(square) * half_size * half_size;
-    uint level = pixels < 8.0f ? 0 : pixels < 32.0f ? 1 : 2;
-    uint width = of->size, height = face == 0 ? width : width / 2;
-    uint column = min((uint)fmax(fma(x, half_size, half_size), 0.0f), width - 1) >> level;
-    uint row = min((uint)fmax((1.0f - y) * half_size, 0.0f), height - 1) >> level;
-    uint slot = record < of->seen ? record : record - of->met;
-    return around_unpack(
-        around[around_face(of, slot, face, level) + row * (width >> level) + column]);
+    intp across = fabs(a) >= fabs(b);
+    floatp side = packet_select(b, a, across), other = packet_select(-a, b, across);
+    floatp larger = fabs(side), half_size = packet_splat(0.5f * (float)of->size);
+    intp none = (intp)(0), ahead = c >= larger;
+    intp face = packet_select((intp)(2), (intp)(1), across) +
+                packet_select(none, (intp)(2), side < 0.0f);
+    face = packet_select(face, none, ahead);
+    floatp x = packet_select(other / side, a / c, ahead);
+    floatp y = packet_select(c / larger, b / c, ahead);
+    floatp square = fma(x, x, fma(y, y, packet_splat(1.0f)));
+    floatp pixels = angle * square * sqrt(square) * half_size * half_size;
+    intp level = packet_select(none, (intp)(1), pixels >= 8.0f) +
+                 packet_select(none, (intp)(1), pixels >= 32.0f);
+    intp width = (intp)((int)of->size), height = packet_select(width / 2, width, ahead);
+    x = packet_max(fma(x, half_size, half_size), packet_zero);
+    y = packet_max(fma(-y, half_size, half_size), packet_zero);
+    intp column = min(packet_int(x), width - 1) >> level;
+    intp row = min(packet_int(y), height - 1) >> level;
+    intp slot = record - packet_select((intp)((int)of->met), none, record < (int)of->seen);
+    uintp place = min(as_uintp(slot), of->slots - 1);
+    intp at = none;
+    for (uint k = 0; k < AROUND_LEVELS; ++k) {
+        uint size = of->size >> k;
+        uintp begins = around_face(size, place, as_uintp(face));
+        begins += around_first(of->slots, of->size, k);
+        at = packet_select(at, as_intp(begins) + row * (int)size + column, level == (int)k);
+    }
+    packet_store(at, lane);
+    return around_unpack(around, lane);
 }
 
 // Whose turn it is, `left` of the way through the records that have anything around them.
-CLGI_INLINE uint gloss_record(const CacheShare* share, const float weight[CACHE_LISTED][CLGI_WIDTH],
-                              float left, int lane) {
-    uint record = 0;
+CLGI_INLINE intp gloss_record(const CacheShare* share, const floatp* weight, floatp left) {
+    intp record = (intp)(0), found = (intp)(0);
     for (uint i = 0; i < share->count; ++i) {
-        if (!(weight[i][lane] > 0.0f)) continue;
-        record = (uint)share->record[i][lane];
-        if (left < weight[i][lane]) break;
-        left -= weight[i][lane];
+        intp turn = (weight[i] > 0.0f) & (found == 0);
+        record = packet_select(record, packet_load(share->record[i]), turn);
+        found |= turn & (left < weight[i]);
+        left -= weight[i];
     }
     return record;
 }
@@ -75,60 +104,65 @@ kernel void cache_gloss(
 {
     uint first = (uint)get_global_id(0) * CLGI_WIDTH, stride = params.stride;
     if (first >= params.pixel_count) return;
-    int lanes = (int)min(params.pixel_count - first, (uint)CLGI_WIDTH), glossy[CLGI_WIDTH], any = 0;
-    for (int k = 0; k < lanes; ++k) {
-        float3 normal = gbuffer_load3(planes, GBUFFER_NORMAL, stride, first + k);
-        float4 surface = pixel_surface(ids, materials, stride, first + k);
-        glossy[k] = dot(normal, normal) > 0.0f && surface.x + surface.z + surface.w > 0.0f &&
-                    surface.y > params.smooth;
-        any |= glossy[k];
-    }
-    if (!any) return;
-    CacheVector points = cache_points(planes, GBUFFER_POSITION, stride, first);
-    CacheVector normals = cache_points(planes, GBUFFER_NORMAL, stride, first);
+    int lanes = (int)min(params.pixel_count - first, (uint)CLGI_WIDTH);
+    float4 surface[CLGI_WIDTH];
+    intp glossy = pixel_lobe_surfaces(planes, ids, materials, stride, first, lanes, surface);
+    glossy &= (floatp)(packet_collect(surface, y)) > params.smooth;
+    if (!packet_any(glossy)) return;
+    PixelLobe lobe = pixel_lobe(&params, planes, ids, surface, first, glossy);
     CacheShare share;
-    CacheVector places[CACHE_LISTED];
-    cache_lookup(&tree, nodes, lists, records, points, normals, CACHE_LISTED, &share, places);
+    CacheVector places[CACHE_LISTED], normals = cache_points(planes, GBUFFER_NORMAL, stride, first);
+    cache_lookup(&tree, nodes, lists, records, lobe.point, normals, CACHE_LISTED, &share, places);
     cache_carry_on(&share, places);
     CacheVector before = cache_light(&share, light, tree.stride);
-    floatp all = packet_zero;
-    float weight[CACHE_LISTED][CLGI_WIDTH], sums[CLGI_WIDTH], was[CLGI_WIDTH];
+    floatp all = packet_zero, one = packet_splat(1.0f), weight[CACHE_LISTED];
     for (uint i = 0; i < share.count; ++i) {
         intp record = packet_load(share.record[i]);
         intp met = (record >= (int)of.seen) & (record < (int)(of.seen + of.met));
-        floatp has = packet_select(share.weight[i], packet_zero, met);
-        packet_store(has, weight[i]);
-        all += has;
+        weight[i] = packet_select(share.weight[i], packet_zero, met);
+        all += weight[i];
     }
-    packet_store(all, sums);
-    packet_store(luminance(before.x, before.y, before.z), was);
-
-    for (int k = 0; k < lanes; ++k) {
-        if (!glossy[k]) continue;
-        uint pixel = first + k;
-        PixelLobe lobe = pixel_lobe(&params, planes, ids, materials, pixel);
-        float3 shown;
-        shown.x = row_load_one(irradiance_row(irradiance, 0, stride), pixel);
-        shown.y = row_load_one(irradiance_row(irradiance, 1, stride), pixel);
-        shown.z = row_load_one(irradiance_row(irradiance, 2, stride), pixel);
-        float3 sum = (float3)(0.0f);
-        for (uint n = 0; sums[k] > 0.0f && n < params.directions; ++n) {
-            float3 numbers = gloss_numbers(pixel, params.first_direction + n);
-            float3 direction, factor;
-            float density = pixel_lobe_direction(&lobe, numbers, &direction, &factor);
-            if (!(density > 0.0f)) continue;
-            sum += factor * gloss_around(&of, views, around,
-                                         gloss_record(&share, weight, numbers.z * sums[k], k),
-                                         direction, 1.0f / (density * (float)params.shared));
-        }
-        float is = luminance(shown.x, shown.y, shown.z);
-        sum *= (was[k] > 0.0f ? clamp(is / was[k], 0.0f, CHANGE_MOST) : 1.0f) / (float)params.directions;
-        if (!(sums[k] > 0.0f)) {
-            float4 means = pixel_reflectance(ids, materials, stride, pixel);
-            sum = (means.y + means.z * lobe.base) * shown * (1.0f / CLGI_PI);
-        }
-        add_reflected(pixel, params.exposure, sum.x, radiance, non_finite);
-        add_reflected(stride + pixel, params.exposure, sum.y, radiance, non_finite);
-        add_reflected(2 * stride + pixel, params.exposure, sum.z, radiance, non_finite);
+    intp some = glossy & (all > 0.0f);
+    CacheVector sum = {packet_zero, packet_zero, packet_zero};
+    for (uint n = 0; packet_any(some) && n < params.directions; ++n) {
+        CacheVector numbers = gloss_numbers(first, params.first_direction + n), direction, factor;
+        floatp density = pixel_lobe_direction(&lobe, numbers, &direction, &factor);
+        intp goes = some & (density > 0.0f);
+        floatp angle = 1.0f / (packet_select(one, density, goes) * (float)params.shared);
+        CacheVector seen = gloss_around(&of, views, around,
+                                        gloss_record(&share, weight, numbers.z * all), direction,
+                                        angle);
+        sum.x += packet_select(packet_zero, factor.x * seen.x, goes);
+        sum.y += packet_select(packet_zero, factor.y * seen.y, goes);
+        sum.z += packet_select(packet_zero, factor.z * seen.z, goes);
     }
+    CacheVector shown = {row_load(irradiance_row(irradiance, 0, stride), first),
+                         row_load(irradiance_row(irradiance, 1, stride), first),
+                         row_load(irradiance_row(irradiance, 2, stride), first)};
+    floatp was = luminance(before.x, before.y, before.z);
+    floatp change = luminance(shown.x, shown.y, shown.z) / packet_select(one, was, was > 0.0f);
+    change = packet_min(packet_max(change, packet_zero), packet_splat(CHANGE_MOST));
+    sum = cache_times(sum, packet_select(one, change, was > 0.0f) / (float)params.directions);
+    if (packet_any(packet_select(glossy, (intp)(0), all > 0.0f))) {
+        float4 means[CLGI_WIDTH];
+        for (int k = 0; k < CLGI_WIDTH; ++k)
+            means[k] = pixel_reflectance(ids, materials, stride,
+                                         min(first + (uint)k, params.pixel_count - 1));
+        floatp white = (floatp)(packet_collect(means, y));
+        floatp tint = (floatp)(packet_collect(means, z));
+        CacheVector diffuse = {fma(tint, lobe.base.x, white) * shown.x * (1.0f / CLGI_PI),
+                               fma(tint, lobe.base.y, white) * shown.y * (1.0f / CLGI_PI),
+                               fma(tint, lobe.base.z, white) * shown.z * (1.0f / CLGI_PI)};
+        sum = cache_select(diffuse, sum, all > 0.0f);
+    }
+    int reflects[CLGI_WIDTH];
+    float reflected[3][CLGI_WIDTH];
+    packet_store(glossy, reflects);
+    packet_store(sum.x, reflected[0]);
+    packet_store(sum.y, reflected[1]);
+    packet_store(sum.z, reflected[2]);
+    for (int k = 0; k < lanes; ++k)
+        for (uint c = 0; reflects[k] && c < 3; ++c)
+            add_reflected(c * stride + first + k, params.exposure, reflected[c][k], radiance,
+                          non_finite);
 }

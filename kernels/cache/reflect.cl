@@ -43,75 +43,74 @@ static View reflect_view(float3 from, float3 direction, float near) {
 }
 
 // Where the rays of a packet begin and go, and what their light is multiplied by on its way to the
-// eye. Those that go nowhere have no factor.
+// eye.
 typedef struct {
-    float3 from[CLGI_WIDTH], toward[CLGI_WIDTH], factor[CLGI_WIDTH];
-    int goes[CLGI_WIDTH];
+    CacheVector from, toward, factor;
+    intp goes;
     float angle;  // solid angle that each stands for, at most
 } ReflectRays;
 
-// Sends ray k in a direction of a lobe. side: the geometric normal; factor: of what the lobe reflects;
-// share: of all directions that are drawn.
-static void reflect_send(const PixelLobe* lobe, float3 side, float3 numbers, float3 factor, float share,
-                         int k, ReflectRays* rays) {
-    float3 reflected;
-    float density = pixel_lobe_direction(lobe, numbers, &rays->toward[k], &reflected);
-    rays->goes[k] = density > 0.0f && dot(side, rays->toward[k]) > 0.0f;
-    if (!rays->goes[k]) return;
-    float3 size = fabs(lobe->point);
-    rays->from[k] = lobe->point + REFLECT_LIFT * (size.x + size.y + size.z) * side;
-    rays->factor[k] = factor * reflected;
-    rays->angle = fmin(rays->angle, share / density);
+// Sends rays in directions of lobes, where they go on. side: the geometric normals; share: of all
+// directions that are drawn.
+static void reflect_send(const PixelLobe* lobe, CacheVector side, CacheVector numbers, float share,
+                         ReflectRays* rays) {
+    CacheVector reflected;
+    floatp density = pixel_lobe_direction(lobe, numbers, &rays->toward, &reflected);
+    rays->goes &= (density > 0.0f) & (cache_dot(side, rays->toward) > 0.0f);
+    floatp lift = REFLECT_LIFT * (fabs(lobe->point.x) + fabs(lobe->point.y) + fabs(lobe->point.z));
+    rays->from.x = fma(lift, side.x, lobe->point.x);
+    rays->from.y = fma(lift, side.y, lobe->point.y);
+    rays->from.z = fma(lift, side.z, lobe->point.z);
+    rays->factor.x *= reflected.x;
+    rays->factor.y *= reflected.y;
+    rays->factor.z *= reflected.z;
+    float lane[CLGI_WIDTH];
+    packet_store(packet_select(packet_splat(REFLECT_WIDEST), share / density, rays->goes), lane);
+    for (int k = 0; k < CLGI_WIDTH; ++k) rays->angle = fmin(rays->angle, lane[k]);
 }
 
-CLGI_INLINE floatp reflect_row(const float3* values, int axis) {
-    float lanes[CLGI_WIDTH];
-    for (int k = 0; k < CLGI_WIDTH; ++k)
-        lanes[k] = axis == 0 ? values[k].x : axis == 1 ? values[k].y : values[k].z;
-    return packet_load(lanes);
+CLGI_INLINE void reflect_lanes(CacheVector v, float lanes[3][CLGI_WIDTH]) {
+    packet_store(v.x, lanes[0]);
+    packet_store(v.y, lanes[1]);
+    packet_store(v.z, lanes[2]);
 }
 
-// The lobes of what a packet of rays meets. Returns in which lanes they are to be followed.
-static ulong reflect_lobes(const LinkWorld* world, const ViewRays* rays, float smooth,
-                           const LinkPacket* packet, const Surface* seen, PixelLobe* lobes) {
-    ulong out = 0;
+// The lobes of what a packet of rays meets, and their metalness, alpha, f0 and f90. Returns where they
+// are to be followed.
+static intp reflect_lobes(const LinkWorld* world, const ViewRays* rays, float smooth,
+                          const LinkPacket* packet, const Surface* seen, float4* of_lobe,
+                          PixelLobe* lobe) {
+    int follows[CLGI_WIDTH], code[CLGI_WIDTH];
     for (int k = 0; k < CLGI_WIDTH; ++k) {
+        of_lobe[k] = (float4)(0.0f, 1.0f, 0.0f, 0.0f);
+        follows[k] = 0;
         if (packet->at.seen[k] < 0) continue;
         uint4 triangle = world->scene.triangles[packet->at.seen[k]];
         global const MaterialRecord* of = world->scene.materials + (triangle.w & TRIANGLE_MATERIAL);
         if (!packet->front[k] && !(triangle.w & (uint)TRIANGLE_DOUBLE_SIDED)) continue;
-        float4 s = of->surface;
+        float4 s = of_lobe[k] = of->surface;
         int finished = of->metallic_roughness_texture >= 0;
-        if (finished || (s.y <= smooth && s.x + s.z + s.w > 0.0f)) out |= (ulong)1 << k;
+        follows[k] = finished || (s.y <= smooth && s.x + s.z + s.w > 0.0f) ? -1 : 0;
     }
-    if (!out) return out;
+    intp out = packet_load(follows);
+    if (!packet_any(out)) return out;
     intp mapped, metallic_roughness, triangle = packet_load(packet->at.seen);
     Surface surface = *seen;
     gbuffer_detail(rays, triangle, &world->scene, world->flags, &surface, &mapped, &metallic_roughness);
     detail_normals(mapped, &surface.normal_x, &surface.normal_y, &surface.normal_z);
-    floatp place[9] = {surface.x,        surface.y,        surface.z,
-                       surface.normal_x, surface.normal_y, surface.normal_z,
-                       rays->dx,         rays->dy,         rays->dz};
-    float lane[9][CLGI_WIDTH];
-    int code[CLGI_WIDTH];
-    for (int i = 0; i < 9; ++i) packet_store(place[i], lane[i]);
     packet_store(metallic_roughness, code);
-    for (int k = 0; k < CLGI_WIDTH; ++k) {
-        if (!(out >> k & 1)) continue;
-        uint4 of = world->scene.triangles[packet->at.seen[k]];
-        PixelLobe* lobe = lobes + k;
-        pixel_lobe_finish(
-            detail_surface(world->scene.materials[of.w & TRIANGLE_MATERIAL].surface, code[k]), lobe);
-        if (lobe->alpha > smooth) {
-            out &= ~((ulong)1 << k);
-            continue;
-        }
-        lobe->point = (float3)(lane[0][k], lane[1][k], lane[2][k]);
-        lobe->base = (float3)(packet->base[0][k], packet->base[1][k], packet->base[2][k]);
-        pixel_lobe_frame(normalize((float3)(lane[3][k], lane[4][k], lane[5][k])),
-                         -(float3)(lane[6][k], lane[7][k], lane[8][k]), lobe);
-    }
-    return out;
+    for (int k = 0; k < CLGI_WIDTH; ++k)
+        if (follows[k]) of_lobe[k] = detail_surface(of_lobe[k], code[k]);
+    pixel_lobe_finish(of_lobe, lobe);
+    CacheVector point = {surface.x, surface.y, surface.z};
+    CacheVector base = {packet_load(packet->base[0]), packet_load(packet->base[1]),
+                        packet_load(packet->base[2])};
+    CacheVector normal = {surface.normal_x, surface.normal_y, surface.normal_z};
+    CacheVector eye = {-rays->dx, -rays->dy, -rays->dz};
+    lobe->point = point;
+    lobe->base = base;
+    pixel_lobe_frame(cache_normalized(normal), eye, lobe);
+    return out & (lobe->alpha <= smooth);
 }
 
 kernel void cache_reflect(
@@ -129,17 +128,12 @@ kernel void cache_reflect(
 {
     uint first = (uint)get_global_id(0) * CLGI_WIDTH, stride = lobes.stride;
     if (first >= lobes.pixel_count) return;
-    int lanes = (int)min(lobes.pixel_count - first, (uint)CLGI_WIDTH), smooth[CLGI_WIDTH], any = 0;
-    for (int k = 0; k < CLGI_WIDTH; ++k) {
-        smooth[k] = 0;
-        if (k >= lanes) continue;
-        float3 normal = gbuffer_load3(pixels, GBUFFER_NORMAL, stride, first + k);
-        float4 surface = pixel_surface(ids, materials, stride, first + k);
-        smooth[k] = dot(normal, normal) > 0.0f && surface.x + surface.z + surface.w > 0.0f &&
-                    surface.y <= lobes.smooth;
-        any |= smooth[k];
-    }
-    if (!any) return;
+    int lanes = (int)min(lobes.pixel_count - first, (uint)CLGI_WIDTH);
+    float4 of_pixel[CLGI_WIDTH];
+    intp smooth = pixel_lobe_surfaces(pixels, ids, materials, stride, first, lanes, of_pixel);
+    smooth &= (floatp)(packet_collect(of_pixel, y)) <= lobes.smooth;
+    if (!packet_any(smooth)) return;
+    PixelLobe seen = pixel_lobe(&lobes, pixels, ids, of_pixel, first, smooth);
     LinkWorld world = LINK_WORLD;
     float share = 1.0f / (float)lobes.shared;
     float3 sums[CLGI_WIDTH];
@@ -147,83 +141,78 @@ kernel void cache_reflect(
     for (uint n = 0; n < lobes.directions; ++n) {
         ReflectRays rays;
         rays.angle = REFLECT_WIDEST;
-        for (int k = 0; k < CLGI_WIDTH; ++k) {
-            rays.goes[k] = 0;
-            rays.from[k] = rays.factor[k] = (float3)(0.0f);
-            rays.toward[k] = (float3)(0.0f, 0.0f, 1.0f);
-            if (!smooth[k]) continue;
-            PixelLobe lobe = pixel_lobe(&lobes, pixels, ids, materials, first + k);
-            reflect_send(&lobe, gbuffer_load3(pixels, GBUFFER_GEOMETRIC, stride, first + k),
-                         gloss_numbers(first + k, lobes.first_direction + n), (float3)(1.0f), share, k,
-                         &rays);
-        }
+        rays.goes = smooth;
+        rays.factor.x = rays.factor.y = rays.factor.z = packet_splat(1.0f);
+        reflect_send(&seen, cache_points(pixels, GBUFFER_GEOMETRIC, stride, first),
+                     gloss_numbers(first, lobes.first_direction + n), share, &rays);
         for (int hop = 0; hop < REFLECT_HOPS; ++hop) {
             LinkPacket packet;
-            int some = 0;
+            float from[3][CLGI_WIDTH], toward[3][CLGI_WIDTH], factor[3][CLGI_WIDTH];
+            int goes[CLGI_WIDTH], some = 0;
+            reflect_lanes(rays.from, from);
+            reflect_lanes(rays.toward, toward);
+            reflect_lanes(rays.factor, factor);
+            packet_store(rays.goes, goes);
             for (int k = 0; k < CLGI_WIDTH; ++k) {
                 packet.at.seen[k] = -1;
                 packet.at.factor[k] = 1.0f;
-                if (!rays.goes[k]) continue;
-                float3 size = fabs(rays.from[k]);
-                View view = reflect_view(rays.from[k], rays.toward[k],
+                if (!goes[k]) continue;
+                float3 size = fabs(link_lane(from, k)), direction = link_lane(toward, k);
+                View view = reflect_view(link_lane(from, k), direction,
                                          REFLECT_LIFT * (size.x + size.y + size.z) + FLT_MIN);
                 RayScene of = {&view, info.flags, info.triangle_count - 1, boxes, clusters, parts,
                                &world.scene, REFLECT_DOUBT};
                 int met = visibility_triangle(ray_word(&of, 0, 0));
                 packet.at.seen[k] = met;
                 some |= met >= 0;
-                if (met >= 0) continue;
-                rays.goes[k] = 0;
-                if (lobes.sky_width > 0)
-                    sums[k] += rays.factor[k] * params.sky.xyz *
+                if (met < 0 && lobes.sky_width > 0)
+                    sums[k] += link_lane(factor, k) * params.sky.xyz *
                                vload3(sky_texel_of(params.sky_turn, lobes.sky_width,
-                                                  lobes.sky_height, rays.toward[k]),
-                                     whole_sky);
+                                                   lobes.sky_height, direction),
+                                      whole_sky);
             }
             if (!some) break;
-            ViewRays sight = {reflect_row(rays.from, 0),   reflect_row(rays.from, 1),
-                              reflect_row(rays.from, 2),   reflect_row(rays.toward, 0),
-                              reflect_row(rays.toward, 1), reflect_row(rays.toward, 2),
-                              reflect_row(rays.toward, 0), reflect_row(rays.toward, 1),
-                              reflect_row(rays.toward, 2)};
+            rays.goes = packet_load(packet.at.seen) >= 0;
+            ViewRays sight = {rays.from.x,   rays.from.y,   rays.from.z,
+                              rays.toward.x, rays.toward.y, rays.toward.z,
+                              rays.toward.x, rays.toward.y, rays.toward.z};
             View pixel = reflect_view((float3)(0.0f), (float3)(0.0f, 0.0f, 1.0f), 0.0f);
             pixel.window.w = CUBE_FOOTPRINT;
             pixel.right.w = pixel.up.w = 0.5f * sqrt(rays.angle);
             Surface surface = link_hits(&world, &pixel, &sight, 0.25f * rays.angle,
                                         first / CLGI_WIDTH + n, info.flags, &packet);
-            CacheVector there = cache_light(&packet.share, light, tree.stride);
-            float found[3][CLGI_WIDTH], side[3][CLGI_WIDTH];
-            packet_store(there.x, found[0]);
-            packet_store(there.y, found[1]);
-            packet_store(there.z, found[2]);
-            packet_store(surface.geometric_x, side[0]);
-            packet_store(surface.geometric_y, side[1]);
-            packet_store(surface.geometric_z, side[2]);
-            PixelLobe next[CLGI_WIDTH];
-            ulong follows = 0;
+            float found[3][CLGI_WIDTH];
+            reflect_lanes(cache_light(&packet.share, light, tree.stride), found);
+            PixelLobe next;
+            float4 of_next[CLGI_WIDTH];
+            int follows[CLGI_WIDTH];
+            intp on = (intp)(0);
             if (hop + 1 < REFLECT_HOPS)
-                follows = reflect_lobes(&world, &sight, REFLECT_FOLLOWED, &packet, &surface, next);
+                on = reflect_lobes(&world, &sight, REFLECT_FOLLOWED, &packet, &surface, of_next,
+                                   &next);
+            packet_store(on, follows);
             for (int k = 0; k < CLGI_WIDTH; ++k) {
-                if (!rays.goes[k]) continue;
-                int on = (int)(follows >> k & 1);
+                if (packet.at.seen[k] < 0) continue;
                 float4 shares = link_shares(&world, &packet, k);
-                if (on) {
-                    shares = microfacet_means(next[k].metallic, next[k].alpha, next[k].f0, next[k].f90);
-                    shares.y = shares.z = 0.0f;
+                if (follows[k]) {
+                    float4 s = of_next[k];
+                    shares = (float4)(microfacet_means(s.x, s.y, s.z, s.w).x, 0.0f, 0.0f, 0.0f);
                 }
-                float3 factor = rays.factor[k];
-                sums[k] += factor * link_radiance(&world, &packet, found, shares, k);
-                rays.goes[k] = 0;
-                if (on)
-                    reflect_send(next + k, link_lane(side, k),
-                                 gloss_numbers(first + k + (uint)(hop + 1) * 0x632be5abu,
-                                               lobes.first_direction + n),
-                                 factor, share, k, &rays);
+                sums[k] += link_lane(factor, k) * link_radiance(&world, &packet, found, shares, k);
             }
+            if (!packet_any(on)) break;
+            rays.goes = on;
+            CacheVector side = {surface.geometric_x, surface.geometric_y, surface.geometric_z};
+            reflect_send(&next, side,
+                         gloss_numbers(first + (uint)(hop + 1) * 0x632be5abu,
+                                       lobes.first_direction + n),
+                         share, &rays);
         }
     }
+    int reflects[CLGI_WIDTH];
+    packet_store(smooth, reflects);
     for (int k = 0; k < lanes; ++k) {
-        if (!smooth[k]) continue;
+        if (!reflects[k]) continue;
         float3 sum = sums[k] * (1.0f / (float)lobes.directions);
         add_reflected(first + k, lobes.exposure, sum.x, radiance, non_finite);
         add_reflected(stride + first + k, lobes.exposure, sum.y, radiance, non_finite);

@@ -10,6 +10,7 @@
 #include "glossy_records.hpp"
 #include "math_modes.hpp"
 #include "shading.hpp"
+#include "shares_by_hand.hpp"
 
 namespace clgi {
 namespace {
@@ -268,6 +269,34 @@ TEST_P(GlossPasses, CountRecordsByTheirWeights) {
     for (const glm::dvec3& found : in.reflected(points, 3.0f))
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(found[c], 3.0 / pi * double{means.coat + means.lobe}, 1e-5);
+}
+
+// Of records that pixels see, one that was met, and refined ones, each with its own colour.
+TEST_P(GlossPasses, FindWhatEachRecordHasAroundIt) {
+    const Material metal = test::finished(1.0f, 0.5f, 1.0f);
+    const glm::dvec3 up(0, 1, 0);
+    const std::vector<glm::dvec3> places = {
+        {-1, 0, 0}, {0.4, 0, 0.5}, {0.2, 0, -0.6}, {1, 0, 0}, {0.5, 0, 1.1}};
+    const std::vector<glm::dvec3> colours = {{1, 2, 4}, {5, 1, 0.5}, {}, {0.2, 7, 1}, {3, 0.1, 9}};
+    std::vector<test::RecordPlace> records;
+    for (const glm::dvec3& place : places) records.push_back({place, up});
+    Glossy in({metal}, records, 8);
+    in.of = {2, 1, 4, 8};
+    for (std::uint32_t slot = 0; slot < 4; ++slot)
+        in.fill(slot, colours[slot < 2 ? slot : slot + 1]);
+    const std::vector<Point> points = {
+        {{0.1, 0, 0.1}}, {{-0.6, 0, 0.2}}, {{0.9, 0, 0.1}}, {{0.45, 0, 0.8}}};
+    const LobeAlbedo albedo = lobe_albedo(metal, up, up);
+    const std::vector<glm::dvec3> found = in.reflected(points);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const std::vector<glm::dvec3> normals(places.size(), up);
+        const std::vector<double> share = carried_by_hand(
+            shares_by_hand(places, normals, points[p].place, up), places, points[p].place);
+        glm::dvec3 wanted(0.0);
+        for (std::size_t i = 0; i < places.size(); ++i) wanted += share[i] * colours[i];
+        wanted *= (albedo.white + albedo.tint) / (1.0 - share[2]);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[p][c], wanted[c], 0.02 * wanted[c]) << p;
+    }
 }
 
 // What was corrected in the irradiance is so in the gloss, up to twice as much.
