@@ -118,14 +118,15 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error, st
     constexpr double unknown = 0.25;  // of the picture, before the first
     std::uint32_t looked = 2;         // at the error
     while (renderer_.samples() < most && !interrupted()) {
-        const double next = spent > 0.0 ? longest_refine_ms_ : 1e3 * unknown * this->seconds();
+        const double next = spent > 0.0 ? std::max(last_refine_ms_, before_refine_ms_)
+                                        : 1e3 * unknown * this->seconds();
         if (renderer_.samples() >= least && spent + next >= limit) break;
         if (renderer_.samples() >= std::max(least, 2 * looked)) {
             looked = renderer_.samples();
             if (renderer_.sampling_error() <= error) break;
         }
         const double taken = time_apart([&] { renderer_.refine(); });
-        longest_refine_ms_ = std::max(longest_refine_ms_, taken);
+        before_refine_ms_ = std::exchange(last_refine_ms_, taken);
         if (!(spent > 0.0)) first_refine_ms_ = taken;
         spent += taken;
     }

@@ -79,7 +79,8 @@ private:
     bool moves_;          // vertices do, between frames
     AntiradianceFrames exchanges_;
     RenderRecord record_;
-    double first_refine_ms_ = 0.0, longest_refine_ms_ = 0.0;  // some samples draw shadow maps
+    // Of samples: the first ones take longer than others, and some draw shadow maps.
+    double first_refine_ms_ = 0.0, before_refine_ms_ = 0.0, last_refine_ms_ = 0.0;
     std::optional<double> doubt_;  // of the first sample, by the irradiance cache
     io::Image picture_;            // of the last frame
 };
