@@ -142,6 +142,12 @@ struct Plates {
     bool textured = false;  // the plate above, tilted
     glm::dvec3 texel{0.0};
 
+    // What the textures replace.
+    static void be_in_the_mean(Material& material) {
+        material.roughness = 0.9f;
+        material.metallic = 0.0f;
+    }
+
     Scene scene() const {
         Scene out = test::plain_scene();
         out.materials.clear();
@@ -150,8 +156,7 @@ struct Plates {
             material.base_color = glm::vec4(glm::vec3(base[k]), 1.0f);
             material.emission = glm::vec3(emission[k]);
             if (k == 1 && textured) {
-                material.roughness = 0.9f;  // the textures say otherwise
-                material.metallic = 0.0f;
+                be_in_the_mean(material);
                 material.metallic_roughness_factor = {1.0f, 1.0f};
                 material.metallic_roughness_texture.texture = 0;
                 material.normal_texture.texture = 1;
@@ -162,7 +167,8 @@ struct Plates {
         add_square(out, {0, 1, 0}, {50, 0, 0}, {0, 0, 50}, 1);
         if (textured) {
             out.textures.resize(2);
-            const glm::dvec3 texels[] = {{0.0, 0.1, finish[1].metallic}, 0.5 * texel + 0.5};
+            const glm::dvec3 texels[] = {{0.0, finish[1].roughness, finish[1].metallic},
+                                         0.5 * texel + 0.5};
             for (std::size_t t = 0; t < 2; ++t) {
                 Texture& texture = out.textures[t];
                 texture.width = texture.height = 1;
@@ -184,9 +190,10 @@ struct Plates {
         for (int hop = 0, k = 1; hop < 4; ++hop, k = 1 - k) {
             Material material = finish[k];
             material.base_color = glm::vec4(1.0f);
-            const Reflectance means = reflectance(material);
             const double alpha = std::max(std::pow(double{material.roughness}, 2), 0.01);
             const bool on = hop < 3 && alpha <= followed;
+            if (k == 1 && textured && !on) be_in_the_mean(material);
+            const Reflectance means = reflectance(material);
             glm::dvec3 share = double{means.diffuse} * base[k];
             if (!on) share += double{means.coat} + double{means.lobe} * base[k];
             out += factor * (emission[k] / exposure + share / std::numbers::pi * irradiance[k]);
@@ -207,14 +214,15 @@ struct Plates {
 // From mirror to mirror, the last as if it were diffuse; a coat over what is diffuse; what is too
 // rough to go on from; and where textures say how smooth, how metallic and how tilted it is.
 TEST(Reflect, GoesOnFromWhatIsSmooth) {
-    for (const int kind : {0, 1, 2, 3, 4}) {
+    for (const int kind : {0, 1, 2, 3, 4, 5}) {
         Plates plates;
         plates.finish[0] = test::finished(1.0f, 0.1f, 1.0f);
         plates.finish[1] =
             test::finished(kind == 1 || kind == 4 ? 0.0f : 1.0f, kind == 2 ? 0.5f : 0.1f, 1.0f);
+        if (kind == 5) plates.finish[1].roughness = 153.0f / 255.0f;
         plates.textured = kind > 2;
         if (plates.textured) {
-            const glm::dvec3 wanted(kind == 3 ? 0.0 : 0.2, kind == 3 ? 0.0 : -0.1, 0.95);
+            const glm::dvec3 wanted(kind == 4 ? 0.2 : 0.0, kind == 4 ? -0.1 : 0.0, 0.95);
             for (int c = 0; c < 3; ++c)  // as the texture rounds it
                 plates.texel[c] = std::lround(127.5 * (wanted[c] + 1.0)) / 127.5 - 1.0;
         }
@@ -232,6 +240,31 @@ TEST(Reflect, GoesOnFromWhatIsSmooth) {
             plates.sent(glm::reflect(-eye, up), lit.scene.frame().exposure, 0.2);
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(found[c], wanted[c], (kind == 4 ? 0.02 : 0.01) * wanted[c]) << kind << c;
+    }
+}
+
+// Of neighbouring pixels each sees what it sees alone: a mirror, what is too rough to go on from,
+// what does not shine, and nothing.
+TEST(Reflect, KeepsPixelsApart) {
+    Scene scene = test::plain_scene();
+    scene.materials = {test::finished(1.0f, 0.1f, 1.0f), test::finished(1.0f, 0.2f, 1.0f),
+                       test::finished(1.0f, 0.6f, 1.0f), test::finished(0.0f, 1.0f, 0.0f)};
+    for (std::size_t k = 0; k < 4; ++k)
+        scene.materials[k].emission = glm::vec3(1.0f + k, 5.0f - k, 2.0f * k);
+    add_square(scene, {0, 0, 0}, {0, 0, 50}, {50, 0, 0}, 0);
+    for (std::uint32_t k = 1; k < 4; ++k)
+        add_square(scene, {2.0 * k, 1, 0}, {1, 0, 0}, {0, 0, 1}, k);
+    Mirrors lit(scene);
+    lit.set_light(2, {5, 9, 2});
+    lit.set_light(3, {4, 3, 8});
+    std::vector<Point> points;
+    for (const int k : {3, 1, 2, 0, 2, 1, 3, 3, 0, 1, 2})
+        points.push_back({{2.0 * k + 0.1, 0, 0.2}, {0, 1, 0}, {0.9, 0.6, 0.3}, 0, -1});
+    const std::vector<glm::dvec3> together = lit.reflected(points);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const glm::dvec3 alone = lit.reflected({points[p]})[0];
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(together[p][c], alone[c], 0.05 * alone[c]) << p << " " << c;
     }
 }
 
