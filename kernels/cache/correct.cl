@@ -11,7 +11,7 @@
 
 kernel void cache_correct(
     const CacheCorrectParams  params,
-    global const float*       restrict sums,        // [4][stride] (gauge.cl)
+    global const float*       restrict sums,        // [5][stride] (gauge.cl)
     global const float*       restrict shares,      // [blocks down][blocks across]
     global float*             restrict irradiance)  // [IRRADIANCE_PLANES][stride] exposed lux
 {

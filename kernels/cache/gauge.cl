@@ -7,6 +7,7 @@
 //   share = 1 - V (1 + 4 / n) / B, 0 for one correction and where it were less
 //
 // d: luminance, M = sum m, Q = sum m^2, n = M^2 / Q: how many corrections of one size are worth as much.
+// Of samples that have the same directions m d is summed first: their noise is one.
 // The linear estimate of least mean square error has B / (B + V), which trusts too much while n is
 // small (docs/results/irradiance-cache.md).
 //                              [derived: the linear estimate of least mean square error; 4: measured]
@@ -26,7 +27,8 @@ kernel void cache_gauge(
     const CacheCorrectParams  params,
     global const float*       restrict planes,  // [>= POINT_PLANES][stride]
     global const float*       restrict found,   // [3][stride] d of this sample, exposed lux
-    global float*             restrict sums,    // [4][stride] of m d, and of its luminance squared
+    global float*             restrict sums,    // [5][stride] of m d, of its luminance squared,
+                                               // and its luminance, of these directions
     global float*             restrict shares)  // [blocks down][blocks across]
 {
     uint item = (uint)get_global_id(0), stride = params.stride;
@@ -44,12 +46,14 @@ kernel void cache_gauge(
             if (any(point < params.low.xyz || point > params.high.xyz)) d = (float3)(0.0f);
             d *= params.scale;
             float3 sum = d + (float3)(sums[at], sums[stride + at], sums[2 * stride + at]);
-            float one = luminance(d.x, d.y, d.z), all = luminance(sum.x, sum.y, sum.z);
-            float square = fma(one, one, sums[3 * stride + at]);
+            float before = params.again ? sums[4 * stride + at] : 0.0f;
+            float one = before + luminance(d.x, d.y, d.z), all = luminance(sum.x, sum.y, sum.z);
+            float square = fma(one, one, sums[3 * stride + at] - before * before);
             sums[at] = sum.x;
             sums[stride + at] = sum.y;
             sums[2 * stride + at] = sum.z;
             sums[3 * stride + at] = square;
+            sums[4 * stride + at] = one;
             together = fma(all, all, together);
             apart += square;
         }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <clgi/irradiance_cache.hpp>
 #include <clgi/procedural.hpp>
 #include <clgi/reference.hpp>
@@ -143,6 +144,39 @@ TEST(SkyLights, LeaveAloneWhatRecordsKnow) {
     const auto without = found(0), with = found(16);
     for (std::size_t i = 0; i < with.size(); ++i)
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(with[i][c], without[i][c], 0.003f * without[i][c]);
+}
+
+// Later samples of a scene of many triangles have their directions in common, four at a time, and
+// are as right.
+TEST(SkyLights, AreTheSameForSamplesOfFineScenes) {
+    Scene scene = posts();
+    const test::Twice twice = truth_of(scene);
+    constexpr int fine = 72;  // below the ground, 10,368 triangles
+    for (int k = 0; k < fine * fine; ++k) {
+        const double x = -3.0 + 6.0 * (k % fine) / fine, z = -3.0 + 6.0 * (k / fine) / fine,
+                     side = 6.0 / fine;
+        test::add_quad(
+            scene,
+            {glm::dvec3(x, -2, z + side), {x + side, -2, z + side}, {x + side, -2, z}, {x, -2, z}});
+    }
+    IrradianceCacheOptions options = cache_options(12, 100);
+    options.refined = 0;
+    options.sky_lights = 16;
+    const auto settled = [](const std::vector<PassEvent>& events) {
+        return std::any_of(events.begin(), events.end(),
+                           [](const PassEvent& pass) { return pass.name == "cache.settle"; });
+    };
+    for (const bool many : {false, true}) {
+        const DeviceScene device = test::on_device(many ? scene : posts());
+        IrradianceCache cache(test::programs(), test::device().queue, device, options);
+        cache.render(scene.cameras[0]).wait();
+        for (std::uint32_t sample = 1; sample < 26; ++sample) {
+            cache.sample(sample);
+            cache.render_again(scene.cameras[0]).wait();
+            EXPECT_EQ(settled(cache.events()), !many || sample <= 16 || sample % 4 == 0) << sample;
+        }
+        EXPECT_LT(test::apart(sampled(cache, scene.cameras[0], 60), twice).error, 0.03) << many;
+    }
 }
 
 // A picture from elsewhere, or under a sky that has turned, has none of the corrections before it.

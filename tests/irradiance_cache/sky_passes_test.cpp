@@ -124,16 +124,22 @@ struct Blocks {
         return out;
     }
 
-    std::vector<double> sums = std::vector<double>(4 * stride, 0.0);
+    std::vector<double> sums = std::vector<double>(5 * stride, 0.0);
     std::vector<double> shares = std::vector<double>(across * down, 0.0);
 
-    double total = 0.0, squares = 0.0;
+    double total = 0.0, squares = 0.0, before = 0.0;
 
-    // One correction more, of so many directions. points: x, y and z of what pixels show.
+    // One correction more, of so many directions; again: those of the last one. points: x, y and z
+    // of what pixels show.
     void add(const std::vector<float>& points, const std::vector<float>& found, double scale,
-             double weight) {
+             double weight, bool again) {
         total += weight;
-        squares += weight * weight;
+        if (again)
+            squares -= before * before;
+        else
+            before = 0.0;
+        before += weight;
+        squares += before * before;
         std::vector<double> together(shares.size(), 0.0), apart(shares.size(), 0.0);
         for (std::uint32_t p = 0; p < pixels; ++p) {
             double d = 0.0, sum = 0.0;
@@ -148,7 +154,13 @@ struct Blocks {
                 d += good ? weights[c] * scale * value : 0.0;
                 sum += weights[c] * sums[c * stride + p];
             }
-            sums[3 * stride + p] += d * d;
+            double& of_these = sums[4 * stride + p];
+            if (again)
+                sums[3 * stride + p] -= of_these * of_these;
+            else
+                of_these = 0.0;
+            of_these += d;
+            sums[3 * stride + p] += of_these * of_these;
             const std::size_t block = p / width / 8 * across + p % width / 8;
             together[block] += sum * sum;
             apart[block] += sums[3 * stride + p];
@@ -170,7 +182,7 @@ TEST_P(SkyPasses, TrustWhatSamplesAgreeAbout) {
     const cl::CommandQueue& queue = test::device().queue;
     Blocks wanted;
     using B = Blocks;
-    const cl::Buffer sums = test::upload(std::vector<float>(4 * B::stride, 0.0f)),
+    const cl::Buffer sums = test::upload(std::vector<float>(5 * B::stride, 0.0f)),
                      shares = test::upload(std::vector<float>(B::across * B::down + 1, -3.0f));
     test::Random random(3);
     for (std::uint32_t sample = 1; sample <= 12; ++sample) {
@@ -192,9 +204,11 @@ TEST_P(SkyPasses, TrustWhatSamplesAgreeAbout) {
             points[axis * B::stride + p] = (p % 2 == 0 ? side : -side) * beyond;
         }
         const float weight = sample < 5 ? 2.0f : sample % 2 == 0 ? 8.0f : 3.0f;
-        wanted.add(points, found, 6.0, double{weight});
+        const bool again = sample == 7 || sample == 11 || sample == 12;
+        wanted.add(points, found, 6.0, double{weight}, again);
         CacheCorrectParams of = Blocks::params(6.0f, static_cast<float>(wanted.total));
         of.squares = static_cast<float>(wanted.squares);
+        of.again = again ? 1 : 0;
         of.low = {-1, -2, -3, 9};
         of.high = {1, 2, 3, 9};
         passes.gauge(queue, of, points_of(points, B::stride), test::upload(found), sums, shares);
@@ -211,10 +225,12 @@ TEST_P(SkyPasses, TrustWhatSamplesAgreeAbout) {
     const auto [least, most] = std::minmax_element(wanted.shares.begin(), wanted.shares.end());
     EXPECT_LT(*least, 0.3);
     EXPECT_GT(*most, 0.9);
-    const auto got = test::download<float>(sums, 4 * B::stride);
-    for (std::size_t plane = 0; plane < 4; ++plane)
-        for (std::size_t p = 0; p < B::stride; ++p)
-            EXPECT_NEAR(got[plane * B::stride + p], wanted.sums[plane * B::stride + p], 1e-4);
+    const auto got = test::download<float>(sums, 5 * B::stride);
+    for (std::size_t plane = 0; plane < 5; ++plane)
+        for (std::size_t p = 0; p < B::stride; ++p) {
+            const double value = wanted.sums[plane * B::stride + p];
+            EXPECT_NEAR(got[plane * B::stride + p], value, 1e-4 + 1e-6 * std::abs(value));
+        }
 }
 
 // Shares are linear between the middles of blocks, and constant beyond the outermost.
@@ -222,7 +238,7 @@ TEST_P(SkyPasses, CorrectByTheSharesAround) {
     const CachePasses passes(test::programs(), test::usual_build());
     using B = Blocks;
     test::Random random(4);
-    std::vector<float> sums(4 * B::stride), light(3 * B::stride);
+    std::vector<float> sums(5 * B::stride), light(3 * B::stride);
     for (float& one : sums) one = static_cast<float>(random(-1.0, 1.0));
     for (float& one : light) one = static_cast<float>(random(0.0, 5.0));
     const std::vector<float> shares = {0.1f, 0.9f, 0.4f, 0.6f, 0.0f, 1.0f};
@@ -286,7 +302,7 @@ TEST(SkyPassChecks, RefuseBuffersThatAreTooSmall) {
     const CachePasses passes(test::programs(), test::usual_build());
     const cl::CommandQueue& queue = test::device().queue;
     using B = Blocks;
-    const cl::Buffer planes = test::empty<float>(4 * B::stride), few = test::empty<float>(4);
+    const cl::Buffer planes = test::empty<float>(5 * B::stride), few = test::empty<float>(4);
     const CacheCorrectParams of = B::params(1, 1);
     const GBuffer points{test::empty<float>(GBUFFER_PLANES * B::stride), {}};
     EXPECT_NO_THROW(passes.gauge(queue, of, points, planes, planes, planes));

@@ -101,7 +101,7 @@ Estimate estimate(const cl::Device& device, const DeviceScene& scene,
     if (o.sky_lights > 0 && scene.environment()) {
         const double side = sky_options(o, 0).shadow_size;
         sky = o.sky_lights * side * side * sizeof(std::uint32_t) +
-              7.0 * sizeof(float) * o.picture.width * o.picture.height;
+              8.0 * sizeof(float) * o.picture.width * o.picture.height;
     }
     constexpr double pairs = 32.0, drawn = 4e-9;  // a pixel; a triangle in a hemicube, seconds
     const double milliseconds = 1e3 * records *
@@ -194,7 +194,7 @@ void IrradianceCache::State::add_to(BufferTable& table) {
     table.add(sight, "the sky", "the environment",
               static_cast<std::size_t>(sky.width * sky.height) * word);
     table.add(found_light, "corrections", "width or height", 3 * of_picture);
-    table.add(corrections, "corrections", "width or height", 4 * of_picture);
+    table.add(corrections, "corrections", "width or height", 5 * of_picture);
     for (cl::Buffer* light : {&settled, &sharp_sky}) table.add(*light, "light", lower, 3 * plane);
     table.add(settled_sums, "light", lower, 4 * plane);
     table.add(shares, "corrections", "width or height",

@@ -23,7 +23,7 @@ std::size_t need_pixels(const PassKernel& pass, const CacheCorrectParams& params
     need_sum(pass, params.scale, params.total);
     need_stride(pass, "stride", params.stride, std::size_t{params.width} * params.height);
     const std::size_t count = std::size_t{cache_blocks(params.width)} * cache_blocks(params.height);
-    need(pass, "sums", sums, 4 * word * params.stride);
+    need(pass, "sums", sums, 5 * word * params.stride);
     need(pass, "shares", shares, word * count);
     return count;
 }

@@ -130,9 +130,9 @@ typedef struct {
     uint stride;    // of the planes of pixels
     float scale;    // from what was found to the sum over the correction's directions, above 0
     float total;    // directions of all corrections so far, with this one, above 0
-    float squares;  // sum of the squares of how many each has
-    uint pad0_;
-    uint pad1_;
+    float squares;  // sum of the squares of how many each has; with `again`: of those together
+    uint again;     // 1: one more of the directions that the last one had
+    uint pad_;
     float4 low;  // xyz: what the directions' shadow maps cover, local frame
     float4 high;
 } CacheCorrectParams;
