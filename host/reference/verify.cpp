@@ -116,10 +116,17 @@ private:
         return drawn(std::vector<int>(strata, 2), pass);
     }
 
-    // Calls add(samples) for `fewest`, and with a time limit until `end` of it, at most eight times
-    // more. Returns the samples of a pixel.
+    // What first passes are measured by: of the time limit, unless it may end long before that.
+    double horizon() const {
+        constexpr double soon = 1.5, share = 0.25;  // seconds, of the limit
+        const double limit = options_.seconds;
+        return options_.decide > 0.0 ? std::max(share * limit, std::min(soon, limit)) : limit;
+    }
+
+    // Calls add(samples) for `fewest`, and with a time limit until `end` of the horizon, at most
+    // eight times more. Returns the samples of a pixel.
     int take(int fewest, double end, const std::function<void(int samples)>& add) const {
-        const double begin = seconds_since(start_), limit = end * options_.seconds;
+        const double begin = seconds_since(start_), limit = end * horizon();
         int taken = fewest;
         add(fewest);
         for (int k = 0; k < 8 && seconds_since(start_) < limit; ++k) {
@@ -174,7 +181,8 @@ private:
 
     // With a time limit, more pixels leave fewer paths for each. Differences between n pixels have
     // a variance of about D^2 / n, D the mean squared error; the noise of N paths with a variance S
-    // each has one of about S^2 n / N^2. Their sum is least at n = N D / S.
+    // each has one of about S^2 n / N^2. Their sum is least at n = N D / S. Of an error that is
+    // much smaller than the one to decide about, the first pass knows little more than that.
     int pixel_count(const std::vector<Traced>& first, double first_seconds) const {
         if (!timed()) return options_.pixels;
         double square = 0.0, variance = 0.0;
@@ -184,6 +192,8 @@ private:
         }
         const auto count = static_cast<double>(first.size());
         square -= variance * std::sqrt(2.0 / count) / first_samples_;  // which noise may have made
+        const double half = 0.5 * options_.decide * draws_.mean();
+        square = std::max(square, count * half * half);
         const double paths =
             (options_.seconds - seconds_since(start_)) * count * first_samples_ / first_seconds;
         const double best =

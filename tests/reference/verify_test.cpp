@@ -109,6 +109,19 @@ TEST(Verify, EndsWhereItIsDecided) {
     }
 }
 
+// What little a first pass knows of an error near 0 does not leave it with few pixels.
+TEST(Verify, DecidesByManyPixels) {
+    const Furnace box;
+    const Radiance picture(Furnace::width * Furnace::height, box.radiance);
+    VerifyOptions options;
+    options.seconds = 4.0;
+    options.decide = 0.1;
+    const Verification found = PathTracer(box.scene).verify(box.camera, Furnace::width,
+                                                            Furnace::height, picture, options);
+    EXPECT_LT(found.error.high, 0.1);
+    EXPECT_GT(found.pixels, 800);
+}
+
 TEST(Verify, FindsNoErrorInTheTruth) {
     const Furnace box;
     const Radiance picture(Furnace::width * Furnace::height, box.radiance);
