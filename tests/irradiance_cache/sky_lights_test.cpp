@@ -10,6 +10,7 @@
 
 #include "apart.hpp"
 #include "cache_pictures.hpp"
+#include "methods/irradiance_cache/correction_totals.hpp"
 #include "scenes.hpp"
 #include "skies.hpp"
 #include "sky_pictures.hpp"
@@ -177,6 +178,20 @@ TEST(SkyLights, AreTheSameForSamplesOfFineScenes) {
         }
         EXPECT_LT(test::apart(sampled(cache, scene.cameras[0], 60), twice).error, 0.03) << many;
     }
+}
+
+// 3, 3 again, 5, 4, 4 twice more: of sets of 6, 5 and 12.
+TEST(SkyLights, CountDirectionsThatComeAgainAsOneSet) {
+    CorrectionTotals totals;
+    for (const auto& [directions, again] : {std::pair(3.0f, false),
+                                            {3.0f, true},
+                                            {5.0f, false},
+                                            {4.0f, false},
+                                            {4.0f, true},
+                                            {4.0f, true}})
+        totals.add(directions, again);
+    EXPECT_EQ(totals.total, 23.0f);
+    EXPECT_EQ(totals.squares, 36.0f + 25.0f + 144.0f);
 }
 
 // A picture from elsewhere, or under a sky that has turned, has none of the corrections before it.

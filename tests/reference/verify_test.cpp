@@ -111,8 +111,9 @@ TEST(Verify, EndsWhereItIsDecided) {
 
 // What little a first pass knows of an error near 0 does not leave it with few pixels.
 TEST(Verify, DecidesByManyPixels) {
-    const Furnace box;
-    const Radiance picture(Furnace::width * Furnace::height, box.radiance);
+    Furnace box;
+    box.scene.materials.back().emission *= 300.0f;
+    const Radiance picture(Furnace::width * Furnace::height, 300.0f * box.radiance);
     VerifyOptions options;
     options.seconds = 4.0;
     options.decide = 0.1;

@@ -136,7 +136,7 @@ void IrradianceCache::State::forget_corrections() {
     sky_weights.reset();
     weighed = false;
     gauged = {};
-    by_sets = {};
+    of_pixels = of_records = {};
 }
 
 void IrradianceCache::State::light_by_sky(const Part& part, const cl::Buffer& planes,
@@ -180,7 +180,6 @@ bool IrradianceCache::State::draw_sky() {
     gauged.again = !first && set == sky_set ? 1 : 0;
     if (gauged.again) return true;
     sky_set = set;
-    of_set = 0.0f;
     EmitterOptions wanted = sky_options(options, set);
     wanted.sky_weights = sky_weights;
     wanted.receivers = receivers;
@@ -192,22 +191,20 @@ bool IrradianceCache::State::draw_sky() {
 void IrradianceCache::State::correct(const Part& part) {
     Recorder& record = picture.record();
     const auto directions = static_cast<float>(part.count);
-    const float before = gauged.again ? of_set : 0.0f;
-    of_set = before + directions;
+    of_pixels.add(directions, gauged.again != 0);
     const glm::vec3 &low = receivers.low, &high = receivers.high;
     gauged.width = static_cast<std::uint32_t>(options.picture.width);
     gauged.height = static_cast<std::uint32_t>(options.picture.height);
     gauged.stride = picture.stride();
     gauged.scale = static_cast<float>(sky_lights.set().emitters.size());
-    gauged.total += directions;
-    gauged.squares += of_set * of_set - before * before;
+    gauged.total = of_pixels.total;
+    gauged.squares = of_pixels.squares;
     gauged.low = {low.x, low.y, low.z, 0.0f};
     gauged.high = {high.x, high.y, high.z, 0.0f};
     if (!gauged.again) {  // else it is in b.next, and records have been settled by it
         record.fill(b.next, 0);
         light_by_sky(part, b.planes, records.size(), stride, b.next, DIRECT_TAKE);
-        by_sets.total += directions;
-        by_sets.squares += directions * directions;
+        of_records.add(directions, false);
         settle();
     }
     show(true);
@@ -229,8 +226,8 @@ void IrradianceCache::State::settle() {
     const CacheSettleParams of{static_cast<std::uint32_t>(records.size()),
                                stride,
                                gauged.scale,
-                               by_sets.total,
-                               by_sets.squares,
+                               of_records.total,
+                               of_records.squares,
                                0,
                                0,
                                0};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "methods/irradiance_cache/coarse_sky.hpp"
+#include "methods/irradiance_cache/correction_totals.hpp"
 #include "methods/irradiance_cache/records.hpp"
 
 namespace clgi {
@@ -151,14 +152,11 @@ struct IrradianceCache::State {
     LocalBox receivers{};                           // of light of the sky
     std::size_t grown = 0;                          // bytes, of shadow maps, trees and lists
     std::uint32_t sample = 0;
-    CacheCorrectParams gauged{};      // the last of them
-    std::uint32_t sky_set = 0;        // which directions are drawn
-    float of_set = 0.0f;              // how many corrections by these had, together
-    struct {
-        float total = 0.0f, squares = 0.0f;
-    } by_sets;  // as gauged has them, each set once
-    cl::Buffer all_nodes, all_lists;  // of all_tree
-    CachePasses::Crowds crowds;       // of planted
+    CacheCorrectParams gauged{};             // the last of them
+    std::uint32_t sky_set = 0;               // which directions are drawn
+    CorrectionTotals of_pixels, of_records;  // which see the same directions once
+    cl::Buffer all_nodes, all_lists;         // of all_tree
+    CachePasses::Crowds crowds;              // of planted
     cl::Buffer chosen, places, worth, nearest, doubt;
     std::vector<CacheRecord> records;
     std::vector<CacheRecord> shown;  // what each pixel shows
