@@ -118,15 +118,19 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error, st
     constexpr double unknown = 0.25;  // of the picture, before the first
     std::uint32_t looked = 2;         // at the error
     while (renderer_.samples() < most && !interrupted()) {
-        const double next = spent > 0.0 ? std::max(last_refine_ms_, before_refine_ms_)
-                                        : 1e3 * unknown * this->seconds();
+        const auto back = [&](std::size_t samples) {
+            return refine_ms_[(turn_ + 4 - samples) % 4];
+        };
+        const double next =
+            spent > 0.0 ? std::max({back(1), back(2), back(4)}) : 1e3 * unknown * this->seconds();
         if (renderer_.samples() >= least && spent + next >= limit) break;
         if (renderer_.samples() >= std::max(least, 2 * looked)) {
             looked = renderer_.samples();
             if (renderer_.sampling_error() <= error) break;
         }
         const double taken = time_apart([&] { renderer_.refine(); });
-        before_refine_ms_ = std::exchange(last_refine_ms_, taken);
+        refine_ms_[turn_] = taken;
+        turn_ = (turn_ + 1) % 4;
         if (!(spent > 0.0)) first_refine_ms_ = taken;
         spent += taken;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <clgi/renderer.hpp>
 #include <functional>
 #include <memory>
@@ -79,8 +80,11 @@ private:
     bool moves_;          // vertices do, between frames
     AntiradianceFrames exchanges_;
     RenderRecord record_;
-    // Of samples: the first ones take longer than others, and some draw shadow maps.
-    double first_refine_ms_ = 0.0, before_refine_ms_ = 0.0, last_refine_ms_ = 0.0;
+    double first_refine_ms_ = 0.0;
+    // Of the last four samples, in turns: the first ones take longer, and every second or fourth
+    // may draw shadow maps.
+    std::array<double, 4> refine_ms_{};
+    std::size_t turn_ = 0;         // of the next one
     std::optional<double> doubt_;  // of the first sample, by the irradiance cache
     io::Image picture_;            // of the last frame
 };

@@ -87,7 +87,8 @@ public:
     // Another picture by the records of the last one, which are nearly the same for a camera that
     // looks from the same place through other points of its pixels. Throws Error before render().
     cl::Event render_again(const Camera& camera, const WaitList& wait = {});
-    // Picture::sample(): of direct light, the sky and lobes; records keep what they have.
+    // Picture::sample(): of direct light, the sky and lobes; records keep what they have. Indices
+    // rise from 0 on.
     void sample(std::uint32_t index);
 
     IrradianceCacheStatus status() const;  // of the last picture; waits

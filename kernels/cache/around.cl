@@ -34,7 +34,8 @@ kernel void cache_around(
     int stands = link_stands(&params, planes, record);
     View view = views[5 * record + face];
     uint across = view.width / params.every, down = view.height / params.every;
-    uint to = around_face(of.size, slot, face), pixels = across * down;
+    uint before = face == 0 ? 0 : face + 1, to = around_face(of.size, slot, before);
+    uint pixels = across * down;
     for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
         LinkPacket packet;
         float found[3][CLGI_WIDTH];
@@ -52,7 +53,7 @@ kernel void cache_around(
     }
     for (uint level = 1; level < AROUND_LEVELS; ++level) {
         uint from = to, width = across >> level, count = width * (down >> level);
-        to = around_first(of.slots, of.size, level) + around_face(of.size >> level, slot, face);
+        to = around_first(of.slots, of.size, level) + around_face(of.size >> level, slot, before);
         for (uint pixel = 0; pixel < count; pixel += CLGI_WIDTH) {
             int at[CLGI_WIDTH];
             for (uint k = 0; k < CLGI_WIDTH; ++k) {

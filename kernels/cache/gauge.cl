@@ -7,7 +7,8 @@
 //   share = 1 - V (1 + 4 / n) / B, 0 for one correction and where it were less
 //
 // d: luminance, M = sum m, Q = sum m^2, n = M^2 / Q: how many corrections of one size are worth as much.
-// Of samples that have the same directions m d is summed first: their noise is one.
+// Samples that have the same directions are one correction, of their sums of m d and of m: their noise
+// is one.
 // The linear estimate of least mean square error has B / (B + V), which trusts too much while n is
 // small (docs/results/irradiance-cache.md).
 //                              [derived: the linear estimate of least mean square error; 4: measured]

@@ -46,9 +46,9 @@ static CacheVector gloss_around(const CacheAround* of, global const View* views,
     floatp side = packet_select(b, a, across), other = packet_select(-a, b, across);
     floatp larger = fabs(side), half_size = packet_splat(0.5f * (float)of->size);
     intp none = (intp)(0), ahead = c >= larger;
-    intp face = packet_select((intp)(2), (intp)(1), across) +
-                packet_select(none, (intp)(2), side < 0.0f);
-    face = packet_select(face, none, ahead);
+    intp before = packet_select((intp)(3), (intp)(2), across) +
+                  packet_select(none, (intp)(2), side < 0.0f);
+    before = packet_select(before, none, ahead);  // half faces
     floatp x = packet_select(other / side, a / c, ahead);
     floatp y = packet_select(c / larger, b / c, ahead);
     floatp square = fma(x, x, fma(y, y, packet_splat(1.0f)));
@@ -58,14 +58,14 @@ static CacheVector gloss_around(const CacheAround* of, global const View* views,
     intp width = (intp)((int)of->size), height = packet_select(width / 2, width, ahead);
     x = packet_max(fma(x, half_size, half_size), packet_zero);
     y = packet_max(fma(-y, half_size, half_size), packet_zero);
-    intp column = min(packet_int(x), width - 1) >> level;
-    intp row = min(packet_int(y), height - 1) >> level;
+    intp column = clamp(packet_int(x), none, width - 1) >> level;
+    intp row = clamp(packet_int(y), none, height - 1) >> level;
     intp slot = record - packet_select((intp)((int)of->met), none, record < (int)of->seen);
-    uintp place = min(as_uintp(slot), of->slots - 1);
+    uintp place = min(as_uintp(slot), (uintp)(of->slots - 1));
     intp at = none;
     for (uint k = 0; k < AROUND_LEVELS; ++k) {
         uint size = of->size >> k;
-        uintp begins = around_face(size, place, as_uintp(face));
+        uintp begins = around_face(size, place, as_uintp(before));
         begins += around_first(of->slots, of->size, k);
         at = packet_select(at, as_intp(begins) + row * (int)size + column, level == (int)k);
     }

@@ -7,7 +7,7 @@
 //                                          [derived: as gauge.cl; from two standard errors on]
 //
 // b: what m directions bring to the record by their maps; S: what its hemicube sees of the sky;
-// M, Q, n as gauge.cl has them, squares of luminances. The variance of what comes through a small
+// M, Q, n as gauge.cl has them, but of each set of directions once; squares of luminances. The variance of what comes through a small
 // window grows with its mean. By its own mean a record that few directions happen to light would be
 // surer than one that many do, and all together would be too dark: so V is that of the middle between
 // mean and S. While n is below SETTLE_LEAST, or no direction lights the record, V is not known well

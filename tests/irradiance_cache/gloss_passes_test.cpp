@@ -325,6 +325,18 @@ TEST_P(GlossPasses, CountWhatIsNotFinite) {
     EXPECT_EQ(under.in.non_finite, 9u);
 }
 
+// A pixel whose place is no number leaves its neighbours as they are.
+TEST_P(GlossPasses, KeepToTheirPixels) {
+    Glossy in(finishes, {{{0, 0, 0}, {0, 1, 0}}}, 8);
+    in.fill(0, {1.0, 2.0, 4.0});
+    in.params.eye = {0.3f, 1.0f, 0.2f, 0.0f};
+    std::vector<Point> points(5, Point{});
+    const std::vector<glm::dvec3> right = in.reflected(points);
+    points[2].place = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    const std::vector<glm::dvec3> found = in.reflected(points);
+    for (const std::size_t p : {0, 1, 3, 4}) EXPECT_EQ(found[p], right[p]) << p;
+}
+
 TEST(GlossPasses, RefuseWhatDoesNotFit) {
     Glossy in(finishes, {{{0, 0, 0}, {0, 1, 0}}, {{1, 0, 0}, {0, 1, 0}}}, 8);
     const std::vector<Point> one(1, Point{});

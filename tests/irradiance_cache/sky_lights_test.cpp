@@ -177,6 +177,11 @@ TEST(SkyLights, AreTheSameForSamplesOfFineScenes) {
             EXPECT_EQ(settled(cache.events()), !many || sample <= 16 || sample % 4 == 0) << sample;
         }
         EXPECT_LT(test::apart(sampled(cache, scene.cameras[0], 60), twice).error, 0.03) << many;
+        cache.sample(2);  // twice, each time in parts
+        for (int k = 0; k < 2; ++k) {
+            cache.render_again(scene.cameras[0]).wait();
+            EXPECT_TRUE(settled(cache.events()));
+        }
     }
 }
 

@@ -243,6 +243,7 @@ IrradianceCache::~IrradianceCache() = default;
 
 void IrradianceCache::lights_changed() {
     state_->picture.weigh_sky(nullptr);  // until records see the sky anew
+    state_->sky_set = 0;
     state_->picture.lights_changed();
     state_->read_sky();
 }

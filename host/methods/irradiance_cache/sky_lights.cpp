@@ -177,7 +177,7 @@ bool IrradianceCache::State::draw_sky() {
     }
     const bool shared = scene.info().triangle_count > many_triangles && sample > own;
     const std::uint32_t set = shared ? own + (sample - own) / together : sample;
-    gauged.again = !first && set == sky_set ? 1 : 0;
+    gauged.again = shared && !first && set == sky_set ? 1 : 0;
     if (gauged.again) return true;
     sky_set = set;
     EmitterOptions wanted = sky_options(options, set);

@@ -80,7 +80,8 @@ struct IrradianceCache::State {
     // sky: light_by_sky() has been called.
     void show(bool sky = false);
     // Where the scene has a sky and options ask for its directions: light of the sky between the
-    // records, by shadow maps of `sample`, other ones than those of samples before it.
+    // records, by shadow maps of `sample`, other ones than those of samples before it but for some
+    // in fine scenes.
     // show_by_sky() shows the light of the records and corrects it, unless none of them sees the
     // sky: draw_sky() draws directions, and false says so. correct() finds what a part of them
     // brings to the records, interpolates that, and finds what it brings to the pixels.
@@ -154,7 +155,7 @@ struct IrradianceCache::State {
     std::uint32_t sample = 0;
     CacheCorrectParams gauged{};             // the last of them
     std::uint32_t sky_set = 0;               // which directions are drawn
-    CorrectionTotals of_pixels, of_records;  // which see the same directions once
+    CorrectionTotals of_pixels, of_records;  // records take each set of directions once
     cl::Buffer all_nodes, all_lists;         // of all_tree
     CachePasses::Crowds crowds;              // of planted
     cl::Buffer chosen, places, worth, nearest, doubt;

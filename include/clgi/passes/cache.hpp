@@ -136,9 +136,9 @@ public:
                     const CacheBuffers& buffers, const cl::Buffer& sight,
                     const WaitList& wait = {}) const;
 
-    // Adds corrections, found [IRRADIANCE_PLANES][stride] float, to sums [4][stride],
-    // and finds the share of each block of CACHE_BLOCK x CACHE_BLOCK pixels, row by row. points:
-    // what the sample's pixels show.
+    // Adds corrections, found [IRRADIANCE_PLANES][stride] float, to sums [5][stride] float, which
+    // are 0 before the first, and finds the share of each block of CACHE_BLOCK x CACHE_BLOCK
+    // pixels, row by row. points: what the sample's pixels show.
     cl::Event gauge(const cl::CommandQueue& queue, const CacheCorrectParams& params,
                     const GBuffer& points, const cl::Buffer& found, const cl::Buffer& sums,
                     const cl::Buffer& shares, const WaitList& wait = {}) const;

@@ -140,7 +140,7 @@ typedef struct {
 typedef struct {
     uint count;     // records
     uint stride;    // of their planes
-    float scale;    // as CacheCorrectParams has them
+    float scale;    // these as CacheCorrectParams has them, but of each set of directions once
     float total;
     float squares;
     uint pad0_;
