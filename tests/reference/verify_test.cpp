@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "furnace.hpp"
 #include "rooms.hpp"
 #include "scene/luminance.hpp"
 
@@ -22,22 +23,6 @@ using reference::Verification;
 using reference::VerifyOptions;
 
 using Radiance = std::vector<glm::vec3>;
-
-// A closed box whose walls emit and reflect, each channel in its own way: radiance L / (1 - rho)
-// everywhere.
-struct Furnace {
-    Furnace() {
-        Material material;
-        material.base_color = glm::vec4(0.5f, 0.2f, 0.8f, 1.0f);
-        material.emission = {3.0f, 1.0f, 2.0f};
-        test::add_box(scene, {-1, -1, -1}, {1, 1, 1}, -1, test::add_material(scene, material));
-    }
-    Scene scene = test::plain_scene();
-    Camera camera = test::camera_at({0.2, 0.1, 0.3}, {1, 0.4, -0.2});
-    glm::vec3 radiance{6.0f, 1.25f, 10.0f};
-    double luminance = 0.2126 * 6.0 + 0.7152 * 1.25 + 0.0722 * 10.0;
-    static constexpr int width = 40, height = 30;
-};
 
 // One in twenty intervals misses the truth; half as wide again, one in three hundred.
 void expect_in(const Estimate& found, double wanted, double slack) {
@@ -92,35 +77,6 @@ TEST(Verify, FindsABlockThatIsWrong) {
     const double share = 48.0 / 1200.0;
     expect_in(found.error, 2.0 * std::sqrt(share), 0.04);
     expect_in(found.energy, 1.0 + 2.0 * share, 0.02);
-}
-
-// An error above or below the one that is asked for: two looks of eight, where all samples would
-// say the same.
-TEST(Verify, EndsWhereItIsDecided) {
-    const Furnace box;
-    const Radiance picture(Furnace::width * Furnace::height, 1.1f * box.radiance);
-    for (const double decide : {0.05, 0.2}) {
-        VerifyOptions options;
-        options.decide = decide;
-        const Verification found = PathTracer(box.scene).verify(box.camera, Furnace::width,
-                                                                Furnace::height, picture, options);
-        EXPECT_NEAR(found.error.value, 0.1, 0.02);
-        EXPECT_NEAR(found.samples, 1000.0 * 16 + 3 * 128 * 8, 0.1 * 1000 * 16) << decide;
-    }
-}
-
-// What little a first pass knows of an error near 0 does not leave it with few pixels.
-TEST(Verify, DecidesByManyPixels) {
-    Furnace box;
-    box.scene.materials.back().emission *= 300.0f;
-    const Radiance picture(Furnace::width * Furnace::height, 300.0f * box.radiance);
-    VerifyOptions options;
-    options.seconds = 4.0;
-    options.decide = 0.1;
-    const Verification found = PathTracer(box.scene).verify(box.camera, Furnace::width,
-                                                            Furnace::height, picture, options);
-    EXPECT_LT(found.error.high, 0.1);
-    EXPECT_GT(found.pixels, 800);
 }
 
 TEST(Verify, FindsNoErrorInTheTruth) {
