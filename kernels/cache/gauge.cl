@@ -1,6 +1,6 @@
 // How far to trust what the directions of the sky say about the pixels of a block, against what the
 // records between them say. Corrections d of m directions each have the right mean, but are noisy
-// while there are few.
+// while there are few.    [derived: the linear estimate of least mean square error; 4: measured]
 //
 //   B = sum over pixels ((sum m d)^2 - sum (m d)^2) / (M^2 - Q)     the mean's square, without noise
 //   V = sum over pixels (sum (m d)^2 - Q B) / M^2                   the noise of the mean
@@ -11,7 +11,6 @@
 // is one.
 // The linear estimate of least mean square error has B / (B + V), which trusts too much while n is
 // small (docs/results/irradiance-cache.md).
-//                              [derived: the linear estimate of least mean square error; 4: measured]
 //
 // What lies outside the directions' shadow maps has no correction.
 //
