@@ -172,7 +172,6 @@ kernel void cache_reflect(
                                       whole_sky);
             }
             if (!some) break;
-            rays.goes = packet_load(packet.at.seen) >= 0;
             ViewRays sight = {rays.from.x,   rays.from.y,   rays.from.z,
                               rays.toward.x, rays.toward.y, rays.toward.z,
                               rays.toward.x, rays.toward.y, rays.toward.z};
