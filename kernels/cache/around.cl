@@ -40,7 +40,7 @@ kernel void cache_around(
         LinkPacket packet;
         float found[3][CLGI_WIDTH];
         if (stands) {
-            link_packet(&world, &view, visibility, face, pixel, link_block(record, face, pixel),
+            link_packet(&world, &view, visibility, record, face, pixel, link_block(record, face, pixel),
                         &packet);
             CacheVector there = cache_light(&packet.share, light, tree.stride);
             packet_store(there.x, found[0]);

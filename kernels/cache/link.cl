@@ -37,7 +37,7 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
         for (uint pixel = 0; pixel < pixels; pixel += CLGI_WIDTH) {
             if (!link_counts(&params, link_block(record, face, pixel), pixel)) continue;
             LinkPixels at;
-            link_pixels(&world, &view, visibility, face, pixel, &at);
+            link_pixels(&world, &view, visibility, record, face, pixel, &at);
             for (int k = 0; k < CLGI_WIDTH; ++k) {
                 all += at.factor[k];
                 surfaces += at.seen[k] >= 0 ? at.factor[k] : 0.0f;
@@ -54,7 +54,7 @@ kernel void cache_link(RECORD_LINK_ARGUMENTS) {
             uint block = link_block(record, face, pixel);
             if (!link_counts(&params, block, pixel)) continue;
             LinkPacket packet;
-            link_packet(&world, &view, visibility, face, pixel, block, &packet);
+            link_packet(&world, &view, visibility, record, face, pixel, block, &packet);
             for (int k = 0; k < CLGI_WIDTH; ++k) {
                 if (!skies) all += packet.at.factor[k];
                 looked += packet.at.seen[k] >= 0 ? packet.at.factor[k] : 0.0f;

@@ -41,7 +41,7 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
             int counts = pixel < pixels && link_counts(&params, block, pixel);
             if (counts && !part) {
                 LinkPixels at;
-                link_pixels(&world, &view, visibility, face, pixel, &at);
+                link_pixels(&world, &view, visibility, record, face, pixel, &at);
                 float3 above = link_above(&world, &view, &at, 0, 0), beyond = (float3)(0.0f);
                 if (params.bright) beyond = link_above(&world, &view, &at, 1, 0);
                 brings[0][lane] = at.factor[0];
@@ -54,7 +54,7 @@ kernel void cache_link_group(RECORD_LINK_ARGUMENTS) {
                 brings[13][lane] = at.seen[0] >= 0 ? at.factor[0] : 0.0f;
             } else if (counts) {
                 LinkPacket packet;
-                link_packet(&world, &view, visibility, face, pixel, block, &packet);
+                link_packet(&world, &view, visibility, record, face, pixel, block, &packet);
                 if (!skies) brings[0][lane] = packet.at.factor[0];
                 brings[14][lane] = packet.at.seen[0] >= 0 ? packet.at.factor[0] : 0.0f;
                 float3 sends, rho;
