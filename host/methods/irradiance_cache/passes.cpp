@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/advanced/planes.hpp>
 #include <clgi/passes/cache.hpp>
 
@@ -89,35 +90,39 @@ void need_spots(const PassKernel& pass, const SpotParams& params, std::uint32_t 
 
 CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) {
     const BuildOptions whole = full(options);
-    const std::vector<std::string> records = {"pick", "list", "link", "bounce", "weigh", "sharpen"},
-                                   spots = {"mark", "tally", "spots", "shine"},
-                                   sky = {"sight", "gauge", "correct", "settle"},
-                                   gloss = {"around", "gloss", "reflect"};
-    const auto few = [&](const char* pass, const std::vector<std::string>& together) {
-        return in_small_groups(programs.kernel("cache", pass, whole, "", together),
-                               programs.device(), options);
+    const auto kernel = [&](const char* pass) {
+        const std::vector<std::string> lobes = {"around", "gloss", "reflect"},
+                                       light = {"pick",  "list",    "link",  "bounce",  "weigh",
+                                                "show",  "sharpen", "mark",  "tally",   "spots",
+                                                "shine", "sight",   "gauge", "correct", "settle"};
+        const bool of_lobes = std::find(lobes.begin(), lobes.end(), pass) != lobes.end();
+        return programs.kernel("cache", pass, pass == std::string("show") ? options : whole, "",
+                               of_lobes ? lobes : light);
     };
-    pick_ = few("pick", records);
-    list_ = few("list", records);
+    const auto few = [&](const char* pass) {
+        return in_small_groups(kernel(pass), programs.device(), options);
+    };
+    pick_ = few("pick");
+    list_ = few("list");
     groups_ = in_groups(programs.device(), options);
     // A lane a pixel.
-    link_ = groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32, 64)
-                    : few("link", records);
-    bounce_ = few("bounce", records);
-    weigh_ = few("weigh", records);
-    sharpen_ = few("sharpen", records);
-    show_ = programs.kernel("cache", "show", options);
-    mark_ = few("mark", spots);
-    tally_ = few("tally", spots);
-    spots_ = few("spots", spots);
-    shine_ = few("shine", spots);
-    sight_ = few("sight", sky);
-    gauge_ = few("gauge", sky);
-    correct_ = programs.kernel("cache", "correct", whole, "", sky);
-    settle_ = few("settle", sky);
-    around_ = few("around", gloss);
-    gloss_ = programs.kernel("cache", "gloss", whole, "", gloss);
-    reflect_ = few("reflect", gloss);
+    link_ =
+        groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32, 64) : few("link");
+    bounce_ = few("bounce");
+    weigh_ = few("weigh");
+    sharpen_ = few("sharpen");
+    show_ = kernel("show");
+    mark_ = few("mark");
+    tally_ = few("tally");
+    spots_ = few("spots");
+    shine_ = few("shine");
+    sight_ = few("sight");
+    gauge_ = few("gauge");
+    correct_ = kernel("correct");
+    settle_ = few("settle");
+    around_ = few("around");
+    gloss_ = kernel("gloss");
+    reflect_ = few("reflect");
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {

@@ -91,12 +91,14 @@ GBufferPasses::GBufferPasses(const Programs& programs, const BuildOptions& optio
       groups_(in_groups(programs.device(), options)),
       cores_(programs.device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()) {
     const auto kernel = [&](const char* pass, const char* defines = "") {
-        static const std::vector<std::string> picture = {"clear", "put_view", "raster",
-                                                         "raster_large", "resolve"};
-        const bool in_pictures =
-            *defines == '\0' && std::find(picture.begin(), picture.end(), pass) != picture.end();
+        const std::vector<std::string> maps = {"clear", "raster", "raster_large", "raster_views"},
+                                       pictures = {"clear",        "put_view",     "raster",
+                                                   "raster_large", "raster_views", "cubes",
+                                                   "resolve"};
+        const std::vector<std::string>& together = *defines == '\0' ? pictures : maps;
+        const bool in_it = std::find(together.begin(), together.end(), pass) != together.end();
         return programs.kernel("gbuffer", pass, options, defines,
-                               in_pictures ? picture : std::vector<std::string>{});
+                               in_it ? together : std::vector<std::string>{});
     };
     for (Drawing* kind : {&visibility_, &depth_}) {
         const char* defines = kind == &depth_ ? "-DCLGI_DEPTH_ONLY" : "";

@@ -35,6 +35,9 @@ std::size_t plane_bytes(std::size_t planes, std::size_t stride) {
 
 ImagePasses::ImagePasses(const Programs& programs, const BuildOptions& options) {
     const auto kernel = [&](const char* pass) { return programs.kernel("image", pass, options); };
+    const auto showing = [&](const char* pass) {
+        return programs.kernel("image", pass, options, "", {"combine", "environment"});
+    };
     const auto refining = [&](const char* pass) {
         return programs.kernel("image", pass, options, "",
                                {"gather", "count", "compact", "upsample", "place"});
@@ -47,10 +50,10 @@ ImagePasses::ImagePasses(const Programs& programs, const BuildOptions& options) 
     compact_ = few("compact");
     upsample_ = refining("upsample");
     place_ = refining("place");
-    combine_ = kernel("combine");
+    combine_ = showing("combine");
     accumulate_ = kernel("accumulate");
     tonemap_ = kernel("tonemap");
-    environment_ = kernel("environment");
+    environment_ = showing("environment");
 }
 
 void ImagePasses::build(std::initializer_list<const char*> passes) const {

@@ -15,14 +15,17 @@ LightPasses::LightPasses(const Programs& programs, const BuildOptions& options)
     // A work-item is a light here, not a packet: one lane serves, and compiles in half the time.
     BuildOptions scalar = options;
     scalar.packet_width = 1;
-    const auto few = [&](const char* pass, const std::vector<std::string>& together = {}) {
-        return in_small_groups(programs.kernel("lights", pass, scalar, "", together),
-                               programs.device(), options);
+    const auto placing = [&](const char* pass) {
+        return programs.kernel("lights", pass, scalar, "",
+                               {"accept_mask", "accept_list", "fetch", "negative"});
+    };
+    const auto few = [&](const char* pass) {
+        return in_small_groups(placing(pass), programs.device(), options);
     };
     accept_mask_ = few("accept_mask");
-    accept_list_ = programs.kernel("lights", "accept_list", scalar);
-    fetch_ = few("fetch", {"fetch", "negative"});
-    negative_ = few("negative", {"fetch", "negative"});
+    accept_list_ = placing("accept_list");
+    fetch_ = few("fetch");
+    negative_ = few("negative");
     direct_ = programs.kernel("lights", "direct", options);
 }
 
