@@ -3,10 +3,12 @@
 // dark on crests. At the records themselves the difference is known:
 //
 //   E_i' = E_i + f (E_i - M E_i),   M E_i = sum_j W_j(x_i) E_j
-//   f = min(1, SHARPEN_MOST |E_i| / |E_i - M E_i|)                [Tukey77: twicing; derived: f]
+//   f = 1 / (1 + r^2) where E_i is above M E_i, else min(1, 1 / r),
+//   r = |E_i - M E_i| / (SHARPEN_MOST |E_i|)                      [Tukey77: twicing; derived: f]
 //
 // f: of each channel. Beside an edge that is sharper than the records' spacing, all of the difference
-// would leave less than no light. Where no record stands in for another one, not even itself, it stays
+// would leave less than no light; a record far above those around it stands where they do not resolve
+// the light, and more of it would be carried to where it is not. Where no record stands in for another one, not even itself, it stays
 // as it is. A second light is sharpened by the first one's f: both go through one linear map, so that
 // the mean of what corrects the one by the other stays right.
 //
@@ -43,8 +45,9 @@ kernel void cache_sharpen(
     for (uint c = 0; c < 3; ++c) {
         uint row = c * stride;
         floatp own = packet_load(light + row + at), off = own - cache_mean(&share, light + row);
-        floatp most = SHARPEN_MOST * fabs(own), size = fabs(off);
+        floatp most = SHARPEN_MOST * fabs(own), ratio = off / (most + FLT_MIN), size = fabs(off);
         floatp part = packet_select(packet_splat(1.0f), most / size, size > most);
+        part = packet_select(part, 1.0f / fma(ratio, ratio, packet_splat(1.0f)), off > 0.0f);
         part = packet_select(packet_zero, part, all > 0.0f);
         packet_store(fma(part, off, own), sharpened + row + at);
         if (!params.more) continue;
