@@ -1,8 +1,9 @@
 // What records have around them, once the light between them is known: the radiance in each pixel of
 // their hemicubes, and its means over blocks of pixels.
 //
-//   L = L_sky, or L_e + D + rho/pi E        E: of records (lookup.clh), D: direct light that the surface
-//                                           reflects towards the record (link.clh)
+//   L = L_sky, or L_e + D + rho/pi E, or 0 beneath the record's surface
+//                                           E: of records (lookup.clh), D: direct light that the
+//                                           surface reflects towards the record (link.clh)
 //                                      [Krivanek05: radiance that is cached; derived: in hemicubes]
 //
 // Work size    1D, one work-item a face, five a slot; any local size; tail guarded
@@ -40,8 +41,8 @@ kernel void cache_around(
         LinkPacket packet;
         float found[3][CLGI_WIDTH];
         if (stands) {
-            link_packet(&world, &view, visibility, record, face, pixel, link_block(record, face, pixel),
-                        &packet);
+            link_packet(&world, &view, visibility, record, face, pixel,
+                        link_block(record, face, pixel), &packet);
             CacheVector there = cache_light(&packet.share, light, tree.stride);
             packet_store(there.x, found[0]);
             packet_store(there.y, found[1]);

@@ -8,9 +8,10 @@
 // w: form factor of a pixel, rho: albedo of the surface in it, lobes taken for diffuse, W_j: share of
 // record j in it (lookup.clh), E': light that is sharpened for that (sharpen.cl), D: radiance that it
 // reflects of direct light towards the record, by shadow maps (lights/direct.clh) and lobes
-// (microfacet.clh). E has no direct light but that of the sky. Of bright parts of the sky that pixels
-// are lit by directions of, `bright` says what they bring. Sample points of emissive surfaces, of
-// which there may be hundreds, take turns from one block of 16 pixels to the next.
+// (microfacet.clh). Pixels whose rays go beneath the surface that the record stands on bring nothing,
+// but count in the sum of form factors. E has no direct light but that of the sky. Of bright parts of
+// the sky that pixels are lit by directions of, `bright` says what they bring. Sample points of emissive
+// surfaces, of which there may be hundreds, take turns from one block of 16 pixels to the next.
 //
 // Work size    1D, one work-item a record; any local size; tail guarded
 // Writes       its own row and its own base light

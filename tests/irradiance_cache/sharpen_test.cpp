@@ -65,7 +65,8 @@ CLGI_IN_BOTH_MATHS(Sharpen);
 
 // By the shares of each record's own list, of hemicubes and of pixels, with and without a second
 // light, which is less than 0 in places. Some records are so dark beside others that they change
-// by half of what they have; bright ones change the less the further they are above the others.
+// by half of what they have; of what bright ones lie above the others the less is added the more
+// that is.
 TEST_P(Sharpen, IsThatOfTheDefinition) {
     std::mt19937 random(81);
     constexpr std::size_t count = 211;
