@@ -9,8 +9,9 @@
 // f: of each channel. On the dark side of an edge that is sharper than the records' spacing, all of the
 // difference would leave less than no light; a record far above those around it stands where they do
 // not resolve the light, and more of it would be carried to where it is not. Where no record stands in
-// for another one, not even itself, it stays as it is. A second light is sharpened by the first one's f: both go through one linear map, so that
-// the mean of what corrects the one by the other stays right.
+// for another one, not even itself, it stays as it is. A second light is sharpened by the first one's
+// f: both go through one linear map, so that the mean of what corrects the one by the other stays
+// right.
 //
 // Work size    1D, one work-item for every CLGI_WIDTH records (rounded up); any local size
 // Writes       light of its own packet of records

@@ -117,8 +117,8 @@ TEST_P(Sharpen, IsThatOfTheDefinition) {
             }
         }
     }
-    EXPECT_GT(within, 150);
-    EXPECT_GT(limited, 100);
+    EXPECT_GT(within, 250);
+    EXPECT_GT(limited, 200);
     EXPECT_GT(above, 150);
 }
 

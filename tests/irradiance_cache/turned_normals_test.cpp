@@ -47,18 +47,20 @@ TEST_P(TurnedNormals, HaveTheSkyAboveTheirSurface) {
     glow.emission = sky_radiance;
     test::add_quad(scene, {glm::dvec3(-1, 1, -1), {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}},
                    test::add_material(scene, glow));
-    for (const int face : {24, 32}) {  // surfaces in some pixels, and in all
-        IrradianceCacheOptions options = cache_options();
-        options.emission = true;
-        options.face = face;
-        const CachePicture found = pictured(scene, options);
-        for (int c = 0; c < 3; ++c) {
-            const double wanted =
-                scene.materials[0].base_color[c] * sky_radiance[c] * (1.0 + std::cos(turned)) / 2.0;
-            EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.02 * wanted)
-                << face << " " << c;
+    for (const Form form : {Form::packets, Form::groups})
+        for (const int face : {24, 32}) {  // surfaces in some pixels, and in all
+            IrradianceCacheOptions options = cache_options();
+            options.picture.build.form = form;
+            options.emission = true;
+            options.face = face;
+            const CachePicture found = pictured(scene, options);
+            for (int c = 0; c < 3; ++c) {
+                const double wanted = scene.materials[0].base_color[c] * sky_radiance[c] *
+                                      (1.0 + std::cos(turned)) / 2.0;
+                EXPECT_NEAR(mean_radiance(found.radiance)[c], wanted, 0.02 * wanted)
+                    << face << " " << c;
+            }
         }
-    }
 }
 
 // A floor that the sun lights sends nothing to itself, diffuse or by lobes.

@@ -90,39 +90,40 @@ void need_spots(const PassKernel& pass, const SpotParams& params, std::uint32_t 
 
 CachePasses::CachePasses(const Programs& programs, const BuildOptions& options) {
     const BuildOptions whole = full(options);
-    const auto kernel = [&](const char* pass) {
-        const std::vector<std::string> lobes = {"around", "gloss", "reflect"},
-                                       light = {"pick",  "list",    "link",  "bounce",  "weigh",
-                                                "show",  "sharpen", "mark",  "tally",   "spots",
-                                                "shine", "sight",   "gauge", "correct", "settle"};
-        const bool of_lobes = std::find(lobes.begin(), lobes.end(), pass) != lobes.end();
-        return programs.kernel("cache", pass, pass == std::string("show") ? options : whole, "",
-                               of_lobes ? lobes : light);
+    const auto light = [&](const char* pass) {
+        return programs.kernel(
+            "cache", pass, whole, "",
+            {"pick", "list", "link", "bounce", "weigh", "show", "sharpen", "mark", "tally", "spots",
+             "shine", "sight", "gauge", "correct", "settle"});
     };
-    const auto few = [&](const char* pass) {
-        return in_small_groups(kernel(pass), programs.device(), options);
+    const auto lobes = [&](const char* pass) {
+        return programs.kernel("cache", pass, whole, "", {"around", "gloss", "reflect"});
     };
-    pick_ = few("pick");
-    list_ = few("list");
+    const auto few = [&](const PassKernel& kernel) {
+        return in_small_groups(kernel, programs.device(), options);
+    };
+    pick_ = few(light("pick"));
+    list_ = few(light("list"));
     groups_ = in_groups(programs.device(), options);
     // A lane a pixel.
-    link_ =
-        groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32, 64) : few("link");
-    bounce_ = few("bounce");
-    weigh_ = few("weigh");
-    sharpen_ = few("sharpen");
-    show_ = kernel("show");
-    mark_ = few("mark");
-    tally_ = few("tally");
-    spots_ = few("spots");
-    shine_ = few("shine");
-    sight_ = few("sight");
-    gauge_ = few("gauge");
-    correct_ = kernel("correct");
-    settle_ = few("settle");
-    around_ = few("around");
-    gloss_ = kernel("gloss");
-    reflect_ = few("reflect");
+    link_ = groups_ ? group_form(programs, "cache", "link", scalar(whole), "", 32, 64)
+                    : few(light("link"));
+    bounce_ = few(light("bounce"));
+    weigh_ = few(light("weigh"));
+    sharpen_ = few(light("sharpen"));
+    show_ = options.storage == Storage::full ? light("show")
+                                             : programs.kernel("cache", "show", options);
+    mark_ = few(light("mark"));
+    tally_ = few(light("tally"));
+    spots_ = few(light("spots"));
+    shine_ = few(light("shine"));
+    sight_ = few(light("sight"));
+    gauge_ = few(light("gauge"));
+    correct_ = light("correct");
+    settle_ = few(light("settle"));
+    around_ = few(lobes("around"));
+    gloss_ = lobes("gloss");
+    reflect_ = few(lobes("reflect"));
 }
 
 void CachePasses::build(std::initializer_list<const char*> passes) const {
