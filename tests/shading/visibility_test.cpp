@@ -1,4 +1,4 @@
-// What is drawn before any attribute is looked up: projected corners, closeness, masks, and which
+// What is drawn before any attribute is looked up: projected corners, masks, and which
 // words and planes are written at all.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "depth_words.hpp"
 #include "patchwork.hpp"
 #include "surface_reference.hpp"
 
@@ -23,20 +24,6 @@ INSTANTIATE_TEST_SUITE_P(Views, Visibility,
                          testing::Values(Looking::perspective, Looking::orthographic,
                                          Looking::aside, Looking::orthographic_aside),
                          test::looking_name);
-
-// As clgi/shared/gbuffer.h defines it.
-double closeness(const View& view, double depth) {
-    if (view.eye.w == 0.0f) return 1.0 / depth;
-    const double near = view.forward.w, far = view.window.z;
-    return (far - depth) / (far - near);
-}
-
-float seen_closeness(const Drawing& drawing, std::size_t pixel) {
-    const auto bits = ~static_cast<std::uint32_t>(drawing.visibility[pixel] >> 32);
-    float out = 0.0f;
-    std::memcpy(&out, &bits, sizeof out);
-    return out;
-}
 
 double depth_of(const View& view, const glm::dvec3& position) {
     return glm::dot(position - glm::dvec3(view.eye), glm::dvec3(view.forward));
@@ -63,88 +50,9 @@ TEST_P(Visibility, ProjectsCornersToTheNearest256thOfAPixel) {
             // Half a step, and some roundings of a few hundred pixels.
             EXPECT_NEAR(found.x / 256.0, (0.5 + 0.5 * x) * 211, 0.5 / 256 + 2e-4);
             EXPECT_NEAR(found.y / 256.0, (0.5 - 0.5 * y) * 157, 0.5 / 256 + 2e-4);
-            EXPECT_NEAR(found.closeness, closeness(view, depth),
-                        8 * 0x1p-24 * closeness(view, depth) + 4e-7);
+            EXPECT_NEAR(found.closeness, test::closeness(view, depth),
+                        8 * 0x1p-24 * test::closeness(view, depth) + 4e-7);
         }
-}
-
-// A plane's closeness at the centre, off by what corners moved by half a 256th of a pixel each way
-// change of it, and never beyond its corners'.
-TEST_P(Visibility, HoldsTheClosenessOfPixelCentres) {
-    Scene scene = test::patchwork(90, 82, false);
-    Random random(86);
-    for (int t = 0; t < 4000; ++t) {  // a few pixels each: these are drawn at once
-        const glm::dvec3 at(test::random_vec3(random, -0.8, 0.8));
-        glm::dvec3 corner[3];
-        for (glm::dvec3& c : corner) c = at + glm::dvec3(test::random_vec3(random, -0.03, 0.03));
-        test::add_triangle(scene, corner[0], corner[1], corner[2], random.integer(0, 11));
-    }
-    scene.colors.clear();
-    const DeviceScene placed = test::on_device(scene);
-    const Drawing drawing = test::draw(placed, looking(GetParam(), placed, 211, 157));
-    const View& view = drawing.view;
-    const test::SurfaceReference reference(scene, placed);
-    std::size_t checked = 0;
-    double worst = 0.0;
-    for (std::size_t p = 0; p < drawing.pixels(); ++p) {
-        const int triangle = drawing.triangle(p);
-        if (triangle < 0) continue;
-        const double x = static_cast<double>(p % 211) + 0.5, y = static_cast<double>(p / 211) + 0.5;
-        const auto at = [&](double column, double row) {
-            return reference.at(view, triangle, column, row);
-        };
-        const test::SurfaceTruth truth = at(x, y);
-        if (glm::min(glm::min(truth.weights.x, truth.weights.y), truth.weights.z) < 1e-3 ||
-            truth.slant < 0.05)
-            continue;
-        const double wanted = closeness(view, truth.depth);
-        const double across = closeness(view, at(x + 0.01, y).depth) - wanted;
-        const double down = closeness(view, at(x, y + 0.01).depth) - wanted;
-        const double bound =
-            (std::abs(across) + std::abs(down)) * 100 / 512 * 1.05 + 64 * 0x1p-24 * wanted;
-        worst = std::max(worst, std::abs(seen_closeness(drawing, p) - wanted) / bound);
-        ++checked;
-    }
-    EXPECT_GT(checked, 5000u);
-    EXPECT_LT(worst, 1.0);
-}
-
-// Rounding puts nothing in front of a triangle's closest corner or behind its farthest, not even on
-// an edge between two of these that runs through pixel centres.
-TEST(Visibility, LiesBetweenItsCorners) {
-    Random random(87);
-    std::size_t checked = 0, before = 0, behind = 0;
-    for (int frame = 0; frame < 30; ++frame) {  // of few triangles: what is behind is seen as well
-        Scene scene = test::plain_scene();
-        scene.materials[0].double_sided = true;
-        for (int t = 0; t < 30; ++t) {
-            const glm::dvec3 from(random.integer(0, 130) + 0.5, random.integer(0, 130) + 0.5,
-                                  random(0, 40));
-            const double steps = random.integer(5, 20);
-            const glm::dvec3 to =
-                from + steps * glm::dvec3(random.integer(-6, 6), random.integer(-6, 6), 0);
-            glm::dvec3 corner[3] = {from, to, {random(0, 131), random(0, 131), random(0, 40)}};
-            std::swap(corner[2], corner[random.integer(0, 2)]);
-            test::add_triangle(scene, corner[0], corner[1], corner[2]);
-        }
-        const Drawing drawing = test::draw(scene, test::pixel_camera(131, 131), 131, 131);
-        for (std::size_t p = 0; p < drawing.pixels(); ++p) {
-            if (drawing.triangle(p) < 0) continue;
-            const glm::uvec4& corners = drawing.triangles[drawing.visibility[p] & 0xffffffffu];
-            const float found = seen_closeness(drawing, p);
-            float farthest = drawing.vertices[corners[0]].closeness, closest = farthest;
-            for (int k = 1; k < 3; ++k) {
-                farthest = std::min(farthest, drawing.vertices[corners[k]].closeness);
-                closest = std::max(closest, drawing.vertices[corners[k]].closeness);
-            }
-            ++checked;
-            before += !(found <= closest);
-            behind += !(found >= farthest);
-        }
-    }
-    EXPECT_GT(checked, 100000u);
-    EXPECT_EQ(before, 0u);
-    EXPECT_EQ(behind, 0u);
 }
 
 // Before the near plane there is nothing, though it lies in front of the eye; what crosses the

@@ -3,11 +3,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstring>
+
 #include "drawing.hpp"
 
 namespace clgi::test {
 
 constexpr std::uint64_t no_triangle = ~std::uint64_t{0};
+
+// As clgi/shared/gbuffer.h defines it.
+inline double closeness(const View& view, double depth) {
+    if (view.eye.w == 0.0f) return 1.0 / depth;
+    const double near = view.forward.w, far = view.window.z;
+    return (far - depth) / (far - near);
+}
+
+inline float seen_closeness(const Drawing& drawing, std::size_t pixel) {
+    const auto bits = ~static_cast<std::uint32_t>(drawing.visibility[pixel] >> 32);
+    float out = 0.0f;
+    std::memcpy(&out, &bits, sizeof out);
+    return out;
+}
 
 // All but the lowest bit.
 inline void expect_closeness(const std::vector<std::uint32_t>& depth,
