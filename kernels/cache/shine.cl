@@ -81,12 +81,14 @@ kernel void cache_shine(
     float3 point = (float3)(at[0], at[stride], at[2 * stride]);
     at += RECORD_NORMAL * stride;
     float3 normal = (float3)(at[0], at[stride], at[2 * stride]), sum = (float3)(0.0f);
+    at += (RECORD_GEOMETRIC - RECORD_NORMAL) * stride;
+    float3 ground = (float3)(at[0], at[stride], at[2 * stride]);
     float stands_for = shine_area(&tree, nodes, lists, planes, record, point, normal);
     for (uint k = 0; k < of.sample_count; ++k) {
         Vpl spot = spots[k];
         float3 to = spot.position.xyz - point;
         float arriving = dot(to, normal), leaving = -dot(to, spot.normal.xyz);
-        if (!(arriving > 0.0f && leaving > 0.0f)) continue;
+        if (!(arriving > 0.0f && leaving > 0.0f && dot(to, ground) > 0.0f)) continue;
         if (!shine_sees(views + 5 * k, visibility, point, triangles, positions)) continue;
         float lifted = sqrt(fma(arriving, arriving, stands_for));
         to += (lifted - arriving) * normal;
