@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/samples.hpp"
 
-#include <clgi/shared/halton.h>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -17,13 +16,43 @@ std::uint32_t plane_before(std::uint32_t count) {
     return MEAN_BEFORE + static_cast<std::uint32_t>(std::countr_zero(count)) % 2;
 }
 
+// Of n points, a power of two, one lies in each of n rectangles of any equal shape [Sobol67].
+std::uint32_t sobol(std::uint32_t index, int axis) {
+    std::uint32_t out = 0;
+    for (std::uint32_t column = 0x80000000u; index != 0; index >>= 1) {
+        if (index & 1u) out ^= column;
+        column = axis == 0 ? column >> 1 : column ^ (column >> 1);
+    }
+    return out;
+}
+
+std::uint32_t reversed(std::uint32_t bits) {
+    bits = (bits & 0x55555555u) << 1 | (bits >> 1 & 0x55555555u);
+    bits = (bits & 0x33333333u) << 2 | (bits >> 2 & 0x33333333u);
+    bits = (bits & 0x0f0f0f0fu) << 4 | (bits >> 4 & 0x0f0f0f0fu);
+    bits = (bits & 0x00ff00ffu) << 8 | (bits >> 8 & 0x00ff00ffu);
+    return bits << 16 | bits >> 16;
+}
+
+// Turns every bit or not by those above it, at random [Owen95, by the hash of Laine11].
+std::uint32_t scrambled(std::uint32_t bits, std::uint32_t seed) {
+    bits = reversed(bits) + seed;
+    for (const std::uint32_t factor : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u})
+        bits ^= bits * factor;
+    return reversed(bits);
+}
+
 }  // namespace
 
 Camera sampled(const Camera& camera, std::uint32_t index) {
+    // Chosen of 1500 pairs by their error at edges of all directions, with 2 to 64 samples.
+    constexpr std::uint32_t seeds[] = {0x0196deabu, 0xb262f0ccu};
     Camera out = camera;
     for (int axis = 0; axis < 2; ++axis) {
-        const float at = radical_inverse(index, axis == 0 ? 2 : 3);
-        out.offset[axis] += at < 0.5f ? at : at - 1.0f;
+        // What brings the first to the centre turns the same bits of all, which keeps the strata.
+        const std::uint32_t at =
+            scrambled(sobol(index, axis), seeds[axis]) ^ scrambled(0, seeds[axis]);
+        out.offset[axis] += static_cast<float>(static_cast<std::int32_t>(at)) * 0x1p-32f;
     }
     // The first picture stands alone. The mean of many has what each of them looks up: it is
     // blurred by no more than a quarter of a pixel.

@@ -11,8 +11,8 @@
 namespace clgi::renderer {
 
 // The camera that looks through the point of sample `index` in every pixel: the centre for 0, then
-// shifted by the Halton sequence of bases 2 and 3, modulo the pixel. Their mean is a picture
-// through the box filter of one pixel.
+// the other points of a scrambled Sobol sequence. Their mean is a picture through the box filter of
+// one pixel.
 Camera sampled(const Camera& camera, std::uint32_t index);
 
 class Samples {

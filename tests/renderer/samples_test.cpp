@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <clgi/shared/halton.h>
 #include <clgi/clgi.hpp>
 #include <cmath>
 #include <utility>
 
 #include "apart.hpp"
 #include "device.hpp"
+#include "renderer/samples.hpp"
 #include "scenes.hpp"
 #include "skies.hpp"
 
@@ -218,10 +218,7 @@ TEST(Samples, AreTheMeanOfShiftedViews) {
         constexpr int samples = 5;
         for (std::uint32_t k = 0; k < samples; ++k) {
             Camera camera = viewpoint();
-            for (int axis = 0; axis < 2; ++axis) {
-                const float at = radical_inverse(k, axis == 0 ? 2 : 3);
-                camera.offset[axis] = at - std::floor(at + 0.5f);
-            }
+            camera.offset = renderer::sampled(camera, k).offset;  // sample_points_test.cpp
             const Radiance view = draw(one, camera);
             for (std::size_t i = 0; i < view.size(); ++i)
                 mean[i] += glm::dvec3(view[i]) / double{samples};
