@@ -98,5 +98,49 @@ TEST(Samples, SmoothEdgesToTheirArea) {
     EXPECT_TRUE(std::isinf(renderer.sampling_error()));
 }
 
+// The edge of a shadow that a point light casts along the columns of its cube map lies where it
+// should, as the mean of eight maps. In one map it lies anywhere within half a texel.
+TEST(Samples, PlaceShadowsOfPointLights) {
+    constexpr int width = 48, height = 32;
+    constexpr double texel = 2.0 * 30.0 / 32.0;  // pixels, on the wall
+    Scene wall = test::plain_scene(glm::vec3(0.8f));
+    test::add_quad(wall, {{{0, 0, 0}, {width, 0, 0}, {width, height, 0}, {0, height, 0}}});
+    wall.lights = {test::point_light({16, 16, 30}, 1e4f)};
+    RendererOptions options = Edges::options();
+    options.picture.width = width;
+    options.picture.height = height;
+    options.picture.emitters.face_size = 32;
+    const auto drawn = [&](const Scene& scene, std::uint32_t samples) {
+        options.samples = samples;
+        Renderer renderer(test::programs(), test::device().queue, scene, options);
+        renderer.render(test::pixel_camera(width, height));
+        return renderer.read_radiance()[1];
+    };
+    const std::vector<float> open = drawn(wall, 128);
+    Material black;
+    black.base_color = {0.0f, 0.0f, 0.0f, 1.0f};
+    double one = 0.0, many = 0.0;
+    constexpr int places = 12;
+    for (int k = 0; k < places; ++k) {
+        const double past = 3.0 + 0.49 * k, edge = 16.0 + 3.0 * past;
+        Scene scene = wall;
+        const double x = 16.0 + past;  // the sheet's own edge, before the wall
+        test::add_quad(scene, {{{-40, -40, 20}, {x, -40, 20}, {x, 80, 20}, {-40, 80, 20}}},
+                       test::add_material(scene, black));
+        const auto off = [&](std::uint32_t samples) {
+            const std::vector<float> lit = drawn(scene, samples);
+            double sum = 0.0;  // lit columns
+            for (int row = 0; row < height; ++row)
+                for (int column = static_cast<int>(x) + 2; column < width; ++column)
+                    sum += double{lit[row * width + column]} / open[row * width + column] / height;
+            return (width - sum - edge) / texel;
+        };
+        one += std::pow(off(1), 2) / places;
+        many += std::pow(off(128), 2) / places;
+    }
+    EXPECT_GT(std::sqrt(one), 0.2);
+    EXPECT_LT(std::sqrt(many), 0.08);
+}
+
 }  // namespace
 }  // namespace clgi

@@ -164,13 +164,15 @@ TEST(Emitters, GoAlongOneSequenceWithinTheirGroup) {
 TEST(Emitters, ShiftMapsWithinTheirTexels) {
     const DeviceScene scene = test::on_device(scene_of_all());
     for (const int size : {8, 64}) {
-        const EmitterSet usual = make_emitters(scene, {.shadow_size = size});
+        EmitterOptions options{.shadow_size = size, .face_size = size};
+        const EmitterSet usual = make_emitters(scene, options);
         double sum = 0.0, squares = 0.0, both = 0.0;
-        constexpr std::uint32_t samples = 100;
+        constexpr std::uint32_t samples = 100, views = 8;  // spot, sun, cube of the point light
         for (std::uint32_t sample = 1; sample <= samples; ++sample) {
-            const EmitterSet moved = make_emitters(scene, {.shadow_size = size, .sample = sample});
+            options.sample = sample;
+            const EmitterSet moved = make_emitters(scene, options);
             EXPECT_EQ(moved.emitters.size(), usual.emitters.size() - 12u);  // points: 4 of 16
-            for (std::size_t i = 0; i < 2; ++i) {                           // the spot and the sun
+            for (std::size_t i = 0; i < views; ++i) {
                 const View &was = usual.views[i], &is = moved.views[i];
                 ASSERT_EQ(static_cast<int>(is.width), size);
                 both += (is.window.x - was.window.x) * (is.window.y - was.window.y) /
@@ -188,9 +190,9 @@ TEST(Emitters, ShiftMapsWithinTheirTexels) {
             }
         }
         // Even over the texel: mean 0, variance 1/12, and nearer to it than independent shifts.
-        EXPECT_NEAR(sum / (4 * samples), 0.0, 0.008);
-        EXPECT_NEAR(squares / (4 * samples), 1.0 / 12.0, 0.004);
-        EXPECT_NEAR(both / (2 * samples), 0.0, 0.02);
+        EXPECT_NEAR(sum / (2 * views * samples), 0.0, 0.008);
+        EXPECT_NEAR(squares / (2 * views * samples), 1.0 / 12.0, 0.004);
+        EXPECT_NEAR(both / (views * samples), 0.0, 0.02);
     }
 }
 

@@ -48,13 +48,15 @@ void shift_texels(View& view, const EmitterOptions& options) {
     view.window.y += shift(1) * texel * view.up.w;
 }
 
-std::vector<View> cube(const glm::vec3& eye, float near, int size) {
+std::vector<View> cube(const glm::vec3& eye, float near, const EmitterOptions& options) {
     const glm::vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const int size = options.face_size;
     std::vector<View> views;
     for (int face = 0; face < 6; ++face) {
         const glm::vec3 forward = face % 2 == 0 ? axes[face / 2] : -axes[face / 2];
         const glm::vec3 up = axes[(face / 2 + 1) % 3];
         views.push_back(window(eye, glm::cross(forward, up), up, forward, 1, 1, near, size, size));
+        shift_texels(views.back(), options);
     }
     return views;
 }

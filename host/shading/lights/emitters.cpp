@@ -71,7 +71,7 @@ Source spot_or_point(const Light& light, const SceneFrame& frame, const EmitterO
                             options.shadow_size, options.shadow_size)};
         shift_texels(out.views.front(), options);
     } else {
-        out.views = cube(eye, near, options.face_size);
+        out.views = cube(eye, near, options);
     }
     return out;
 }
