@@ -16,7 +16,8 @@ std::uint32_t plane_before(std::uint32_t count) {
     return MEAN_BEFORE + static_cast<std::uint32_t>(std::countr_zero(count)) % 2;
 }
 
-// Of n points, a power of two, one lies in each of n rectangles of any equal shape [Sobol67].
+// Of the first n points, n a power of two, one lies in each of n equal rectangles, whatever their
+// shape [Sobol67].
 std::uint32_t sobol(std::uint32_t index, int axis) {
     std::uint32_t out = 0;
     for (std::uint32_t column = 0x80000000u; index != 0; index >>= 1) {
@@ -34,7 +35,7 @@ std::uint32_t reversed(std::uint32_t bits) {
     return bits << 16 | bits >> 16;
 }
 
-// Turns every bit or not by those above it, at random [Owen95, by the hash of Laine11].
+// Flips each bit or not, at random, depending on the bits above it [Owen95], by a hash [Laine11].
 std::uint32_t scrambled(std::uint32_t bits, std::uint32_t seed) {
     bits = reversed(bits) + seed;
     for (const std::uint32_t factor : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u})
@@ -45,11 +46,12 @@ std::uint32_t scrambled(std::uint32_t bits, std::uint32_t seed) {
 }  // namespace
 
 Camera sampled(const Camera& camera, std::uint32_t index) {
-    // Chosen of 1500 pairs by their error at edges of all directions, with 2 to 64 samples.
+    // Among the best of 1500 pairs, by the error at edges of all directions, with 2 to 64 samples.
     constexpr std::uint32_t seeds[] = {0x0196deabu, 0xb262f0ccu};
     Camera out = camera;
     for (int axis = 0; axis < 2; ++axis) {
-        // What brings the first to the centre turns the same bits of all, which keeps the strata.
+        // The same bits are flipped in all points, so that the first is the centre. That keeps the
+        // rectangles.
         const std::uint32_t at =
             scrambled(sobol(index, axis), seeds[axis]) ^ scrambled(0, seeds[axis]);
         out.offset[axis] += static_cast<float>(static_cast<std::int32_t>(at)) * 0x1p-32f;

@@ -2,7 +2,8 @@
 // inside a hole its opening is wide; from a record it would fall between the pixels.
 //
 //   R_i += sum over VPLs Phi cos cos' k V      k: the kernel of a disc (lights/disc.clh)
-//   V: 1 where the plane of what the VPL's hemicube shows there is not nearer than the record
+//   V: 1 where the VPL lies above the record's surface, and the plane of what its hemicube shows there
+//      is not nearer than the record
 //
 // VPLs are lifted off the plane of the record, from h to sqrt(h^2 + d^2 / n): n others lie within d of it,
 // so it stands for a disc of that radius, over which light a centimetre from a lit place, such as within a

@@ -1,6 +1,7 @@
 // The closeness that the words of visibility hold, against planes in double precision.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "depth_words.hpp"

@@ -194,6 +194,13 @@ TEST(Emitters, ShiftMapsWithinTheirTexels) {
         EXPECT_NEAR(squares / (2 * views * samples), 1.0 / 12.0, 0.004);
         EXPECT_NEAR(both / (views * samples), 0.0, 0.02);
     }
+    // A map of one texel stays where it is.
+    const EmitterSet one = make_emitters(scene, {.shadow_size = 1, .face_size = 1, .sample = 3});
+    const EmitterSet first = make_emitters(scene, {.shadow_size = 1, .face_size = 1});
+    for (std::size_t i = 0; i < 8; ++i) {
+        EXPECT_EQ(one.views[i].window, first.views[i].window);
+        EXPECT_EQ(one.views[i].right, first.views[i].right);
+    }
 }
 
 // Two panels, tilted, of other colours, and functions over them: the mean over the points of 64

@@ -33,7 +33,7 @@ std::uint32_t seed_of(const EmitterOptions& options) {
 }
 
 void shift_texels(View& view, const EmitterOptions& options) {
-    if (options.sample == 0) return;
+    if (options.sample == 0 || view.width < 2) return;  // a single texel has nothing beside it
     // Larger by a texel around, so that none of what is lit leaves it.
     const float texel = 2.0f / static_cast<float>(view.width);
     view.right.w *= 1.0f + texel;

@@ -21,7 +21,7 @@ View window(const glm::vec3& eye, const glm::vec3& right, const glm::vec3& up,
 // The map of every EmitterOptions::sample lies differently within its texels.
 void shift_texels(View& view, const EmitterOptions& options);
 
-// Of a point light.
+// Of point lights and wide spots.
 std::vector<View> cube(const glm::vec3& eye, float near, const EmitterOptions& options);
 
 // The face along the normal and the outer halves of the four around it.

@@ -32,8 +32,8 @@ struct EmitterOptions {
     // Patterson). The differences between replicates estimate the error of one.
     std::uint32_t replicate = 0;
     // 0: as `replicate` says. Other values: later samples of a picture, with other shifts, a
-    // quarter of the points of emissive surfaces, as there are many samples, and shadow maps of
-    // spot and directional lights that lie differently within their texels.
+    // quarter of the points of emissive surfaces, as there are many samples, and shadow maps of all
+    // other lights that lie differently within their texels.
     std::uint32_t sample = 0;
     // Shifts VPLs alone: of samples that share the rest.
     std::uint32_t vpl_sample = 0;
