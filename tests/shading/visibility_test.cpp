@@ -1,5 +1,5 @@
-// What is drawn before any attribute is looked up: projected corners, masks, and which
-// words and planes are written at all.
+// What is drawn before any attribute is looked up: projected corners, masks, and which words and
+// planes are written at all.
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
