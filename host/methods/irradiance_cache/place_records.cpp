@@ -13,13 +13,7 @@ constexpr int refinements = 2, weighings = 3;
 constexpr std::uint32_t thin = 8;
 constexpr int first_steps = 8;
 constexpr float lift_share = 4e-6f;  // of the focus's radius
-constexpr float off_edges = 1e-5f;   // of the way to what sees a record
-
-// Towards what sees it: from the very edge of a ceiling, half of what is around is what lies behind
-// the wall.
-void move_off_edges(CacheRecord& record, const glm::vec3& way) {
-    record.position += off_edges * way;
-}
+constexpr float off_edges = 1e-5f;   // of the way from a record to the eye
 
 }  // namespace
 
@@ -102,8 +96,6 @@ void IrradianceCache::State::meet(std::size_t first, std::size_t count) {
     for (std::size_t k = 0; k < picks_per_record; ++k)
         for (std::size_t v = 0; v < viewers; ++v) {
             candidates.push_back(seen[v * picks_per_record + k]);
-            move_off_edges(candidates.back(),
-                           records[first + v].position - candidates.back().position);
             by.push_back(first + v);
         }
     const std::size_t before = records.size();
@@ -130,9 +122,6 @@ void IrradianceCache::State::weigh(std::size_t count) {
     WeighedPicks seen;
     seen.by_each = picks_per_record;
     seen.places = read_records(places, pick_stride, picks);
-    for (std::size_t i = 0; i < picks; ++i)
-        move_off_edges(seen.places[i],
-                       records[i / picks_per_record].position - seen.places[i].position);
     seen.reflectance.resize(picks);
     seen.worth.resize(picks);
     seen.nearest.resize(picks);
@@ -154,10 +143,13 @@ void IrradianceCache::State::choose(const View& view) {
     Recorder& record = picture.record();
     record.wait();
     shown = read_records(picture.gbuffer().planes, picture.stride(), picture.pixels());
+    // Edges often run through the centres of pixels, and from the very edge of a ceiling half of
+    // what is around is what lies behind the wall. Hemicubes of records are turned and seldom meet
+    // one.
     const glm::vec3 eye(view.eye), forward(view.forward);
     for (CacheRecord& one : shown) {
         const glm::vec3 to = eye - one.position;
-        move_off_edges(one, view.eye.w == 0.0f ? to : glm::dot(to, forward) * forward);
+        one.position += off_edges * (view.eye.w == 0.0f ? to : glm::dot(to, forward) * forward);
     }
     records = seen_records(shown, static_cast<int>(view.width), static_cast<int>(view.height),
                            options.seen);
