@@ -43,7 +43,7 @@ ordered_json attempts_json(const RenderRecord& record) {
         attempts.push_back(
             {{"settings", one.settings}, {"seconds", one.seconds}, {"refine_ms", one.refine_ms}});
         if (one.expected) attempts.back()["expected"] = *one.expected;
-        if (one.verified) attempts.back()["measured_error"] = verify_json(*one.verified);
+        if (one.verified) attempts.back()["measured_error"] = picture_json(*one.verified);
     }
     return attempts;
 }
@@ -123,7 +123,7 @@ void save_stats(const RenderRecord& record, const std::filesystem::path& path) {
                          {"attempts", attempts_json(record)}};
     if (record.ask) out["ask"] = ask_json(*record.ask, frame.median);
     if (record.expected_error) out["expected_error"] = *record.expected_error;
-    if (record.verified) out["measured_error"] = verify_json(*record.verified);
+    if (record.verified) out["measured_error"] = picture_json(*record.verified);
     io::AtomicFile file(path);
     const std::string text = out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
     file.write(text.data(), text.size());

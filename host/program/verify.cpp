@@ -17,6 +17,7 @@ namespace clgi::program {
 namespace {
 
 using nlohmann::ordered_json;
+using reference::CheckedPixel;
 using reference::Estimate;
 using reference::Verification;
 
@@ -108,6 +109,29 @@ ordered_json verify_json(const Verification& found) {
     out["samples"] = found.samples;
     out["non_finite"] = found.non_finite;
     out["seconds"] = found.seconds;
+    return out;
+}
+
+std::string largest_lines(const Verification& found) {
+    std::string out;
+    for (const CheckedPixel& one : found.largest)
+        if (one.share >= 0.1)
+            out += fmt::format(
+                "  {} % of the squared error at {},{}: {:.3g}, traced {:.3g} +- "
+                "{:.2g} cd/m^2\n",
+                percent(one.share), one.column, one.row, one.picture, one.truth, one.deviation);
+    return out;
+}
+
+ordered_json picture_json(const Verification& found) {
+    ordered_json out = verify_json(found);
+    out["largest"] = ordered_json::array();
+    for (const CheckedPixel& one : found.largest)
+        out["largest"].push_back({{"pixel", {one.column, one.row}},
+                                  {"share", one.share},
+                                  {"picture", one.picture},
+                                  {"truth", one.truth},
+                                  {"deviation", one.deviation}});
     return out;
 }
 

@@ -60,9 +60,9 @@ void run_verify(const VerifyPictureFlags& flags) {
                       lab::radiance_of(picture), options, progress_bar("verify", flags.quiet));
     if (found.cancelled) throw Interrupted();
     if (flags.json)
-        fmt::print("{}\n", verify_json(found).dump(2));
+        fmt::print("{}\n", picture_json(found).dump(2));
     else
-        fmt::print("{}: {}\n", flags.picture, verify_line(found));
+        fmt::print("{}: {}\n{}", flags.picture, verify_line(found), largest_lines(found));
 }
 
 }  // namespace

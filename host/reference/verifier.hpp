@@ -16,6 +16,7 @@
 
 #include "reference/guide.hpp"
 #include "reference/interval.hpp"
+#include "reference/largest.hpp"
 #include "reference/path.hpp"
 #include "reference/pixel_draws.hpp"
 #include "reference/random.hpp"
@@ -68,6 +69,7 @@ public:
             const ErrorAndEnergy found = estimate_of(pixels);
             out_.error = found.error;
             out_.energy = found.energy;
+            out_.largest = largest_of(pixels, brightness_.width, 8);
         } else {
             out_.cancelled = true;
         }

@@ -110,15 +110,26 @@ struct VerifyOptions {
     int threads = 0;         // 0: all
 };
 
+// A pixel that was path-traced, by luminance.
+struct CheckedPixel {
+    std::size_t column = 0;  // of places their number
+    std::size_t row = 0;
+    double share = 0.0;  // of the squared error that was found, in which it stands for others
+    double picture = 0.0;
+    double truth = 0.0;      // the mean of its paths
+    double deviation = 0.0;  // standard error of that mean
+};
+
 // How far a picture is from the truth, by a few path-traced pixels (docs/reference.md).
 struct Verification {
     // Root of the mean squared difference of luminance over the mean luminance of the truth; the
     // noise of the path tracer is not part of it.
     Estimate error;
-    Estimate energy;             // mean luminance of the picture over that of the truth
-    int pixels = 0;              // that were path-traced, those of the first pass included
-    std::uint64_t samples = 0;   // paths, of all of them
-    std::size_t non_finite = 0;  // samples left out
+    Estimate energy;                    // mean luminance of the picture over that of the truth
+    std::vector<CheckedPixel> largest;  // at most 8, by falling share; none if none is above 0
+    int pixels = 0;                     // that were path-traced, those of the first pass included
+    std::uint64_t samples = 0;          // paths, of all of them
+    std::size_t non_finite = 0;         // samples left out
     double seconds = 0.0;
     bool cancelled = false;  // error and energy are not set
 };

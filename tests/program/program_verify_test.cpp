@@ -1,10 +1,12 @@
 // render --verify and bake --verify: the error that they measure is the one that clgi compare
 // finds.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <clgi/io/image.hpp>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
+#include "scene/luminance.hpp"
 
 namespace {
 
@@ -52,8 +54,19 @@ TEST_F(VerifyProgram, MeasuresTheErrorOfAPicture) {
     EXPECT_GT(found.at("samples"), 328 * 2);
     EXPECT_EQ(found.at("non_finite"), 0);
     EXPECT_GT(found.at("seconds"), 0.1);
-
     const clgi::io::Image image = clgi::io::load_image(exr);
+    ASSERT_FALSE(found.at("largest").empty());
+    for (const json& one : found.at("largest")) {
+        const std::size_t at = one.at("pixel").at(1).get<std::size_t>() * 64 +
+                               one.at("pixel").at(0).get<std::size_t>();
+        double luminance = 0.0;
+        for (std::size_t c = 0; c < 3; ++c)
+            luminance += double{clgi::luminance_weights[c]} *
+                         double{image.find(std::string(1, "RGB"[c]))->values.at(at)};
+        EXPECT_NEAR(one.at("picture").get<double>(), luminance, 1e-3 * luminance) << one;
+        EXPECT_GT(one.at("share"), 0.0);
+        EXPECT_GT(one.at("deviation"), 0.0);
+    }
     for (const auto& [name, value] : {std::pair{"clgi:measured_error", found.at("value")},
                                       {"clgi:measured_error_low", found.at("low")},
                                       {"clgi:measured_error_high", found.at("high")},
@@ -155,6 +168,15 @@ TEST_F(VerifyProgram, JudgesAPictureOfAnyOrigin) {
     const Outcome direct = run("verify " + exr + " " + scene +
                                " --limit 0.2s --effects emission,direct --json --quiet");
     EXPECT_GT(json::parse(direct.out).at("energy").at("low"), 1.02) << direct.out;
+
+    // One pixel that is far too bright has nearly all of the error.
+    clgi::io::Image wrong = clgi::io::load_image(exr);
+    for (auto& channel : wrong.channels) channel.values[30 * 64 + 17] = 100.0f;
+    clgi::io::save_exr(wrong, exr, clgi::io::PixelType::full);
+    const Outcome where = run("verify " + exr + " " + scene + " --limit 0.1s --quiet");
+    const std::string lines = where.out.substr(where.out.find('\n') + 1);
+    EXPECT_NE(lines.find(" % of the squared error at 17,30: 1"), std::string::npos) << where.out;
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1) << where.out;
 
     expect_one_error_line(run("verify " + file("none.exr").string() + " " + scene), 2);
     expect_one_error_line(run("verify " + scene + " " + scene), 2);
