@@ -21,6 +21,7 @@ constexpr double default_frame_seconds = 0.1;  // of one of an animation
 constexpr double patience = 10.0;     // seconds, for an error that nothing reaches, or before an
                                       // animation begins
 constexpr double near_enough = 1.05;  // errors that are as good as the least
+constexpr double coarse_pays = 0.85;  // of a picture's time, with coarser maps
 
 struct Candidate {
     Plan plan;
@@ -51,6 +52,9 @@ void drop_checked(std::vector<Candidate>& candidates) {
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), checked),
                      candidates.end());
 }
+
+// Whether the time is better spent on samples than on large shadow maps, which they share.
+bool may_be_coarse(const PlanRequest& request) { return request.refined && request.seconds; }
 
 // Records that were not measured in scenes of the kind.
 bool is_not_measured(const Candidate& one) {
@@ -110,12 +114,16 @@ bool choose_method(const cl::Device& device, Plan& plan) {
         if (std::find(choice.methods.begin(), choice.methods.end(), preset.method) ==
             choice.methods.end())
             continue;
-        for (const int fineness : {1, 2, 4, 8, 16}) {
+        double usual_ms = 0.0;
+        for (const double fineness : {1.0, 0.5, 2.0, 4.0, 8.0, 16.0}) {
+            if (fineness < 1.0 && !may_be_coarse(plan.request)) continue;
             Candidate one{plan, std::nullopt};
             set(one.plan, preset, fineness);
             one.of_kind = preset.error[static_cast<std::size_t>(kind_of(one.plan))];
             if (is_not_measured(one)) continue;
             one.plan.cost = paced_cost(device, one.plan);
+            if (fineness == 1.0) usual_ms = one.plan.cost.total_ms();
+            if (fineness < 1.0 && one.plan.cost.total_ms() > coarse_pays * usual_ms) continue;
             one.error = expected_error(one.plan, one.of_kind);
             if (one.error) *one.error *= error_factor(one.plan);
             candidates.push_back(std::move(one));

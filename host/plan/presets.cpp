@@ -94,7 +94,7 @@ const std::vector<Preset>& presets() {
         {Method::light_atlas, 512, 1600, {0.00548, 0.0362, 0.161, 0.3, 0.0369}},
         {Method::light_atlas, 512, 6400, {0.00379, 0.0153, 0.134, 0.253, 0.0242}},
         {Method::dynamic_transfer, 0, 0, {0, 0, 0.05, 0.05, 0}},
-        {Method::irradiance_cache, 8, 66, {0, 0, 0, 0, 0, 0, 0.38}},
+        {Method::irradiance_cache, 8, 66, {0, 0, 0.165, 0, 0, 0, 0.38}},
         {Method::irradiance_cache, 8, 100, {0, 0, 0.153, 0, 0, 0, 0.33}},
         {Method::irradiance_cache, 8, 150, {0, 0, 0.139, 0, 0, 0, 0.285}},
         {Method::irradiance_cache, 8, 200, {0, 0, 0.111, 0, 0, 0, 0.25}},

@@ -73,14 +73,18 @@ bool lamps_are_hidden(const Plan& plan) {
     return plan.on(Effect::area_light) && plan.reach && plan.reach->hidden > few;
 }
 
+int as_fine(double fineness, int usual) {
+    return static_cast<int>(std::max(fineness, 1.0) * usual);
+}
+
 // Side of shadow maps. Of few suns and spots, a texel is a third of what a pixel covers: edges are
 // two texels wide.
-int map_side(const Plan& plan, int fineness) {
+int map_side(const Plan& plan, double fineness) {
     constexpr int step = 256;
     constexpr double texels = 3.0;           // a pixel
     constexpr double most_pixels = 1 << 25;  // of all maps
     constexpr std::size_t few = 4;
-    const int usual = fineness * EmitterOptions().shadow_size;
+    const int usual = as_fine(fineness, EmitterOptions().shadow_size);
     const Reach reach = plan.reach.value_or(Reach());
     const LightAnalysis& lights = plan.analysis.lights;
     const bool suns = plan.on(Effect::directional_light) && lights.directional > 0;
@@ -94,7 +98,8 @@ int map_side(const Plan& plan, int fineness) {
     const double most = std::min(4096.0, step * std::floor(std::sqrt(most_pixels / maps) / step));
     const double across = std::max(suns ? 2.0 * suns_have.radius : 0.0, spots ? reach.cone : 0.0);
     const double wanted = texels * across / reach.pixel;
-    return std::max(usual, step * static_cast<int>(std::ceil(std::min(wanted, most) / step)));
+    const double side = std::min(wanted, most) * std::min(fineness, 1.0);
+    return std::max(usual, step * static_cast<int>(std::ceil(side / step)));
 }
 
 // What suns and spots light in finely modelled scenes is seen by records, unless it lies behind a
@@ -148,16 +153,17 @@ bool points_are_large(const Plan& plan) {
     return point > small * plan.reach->sphere.radius;
 }
 
-void set(Plan& plan, const Preset& preset, int fineness) {
+void set(Plan& plan, const Preset& preset, double fineness) {
     const PlanRequest& request = plan.request;
     plan.method = preset.method;
     plan.animated = request.animated;
     plan.picture = PictureOptions();
     change_emitters(plan, [&](EmitterOptions& options) {
         options.shadow_size = request.shadow_size.value_or(map_side(plan, fineness));
-        options.face_size = request.face_size.value_or(fineness * EmitterOptions().face_size);
+        options.face_size =
+            request.face_size.value_or(as_fine(fineness, EmitterOptions().face_size));
         options.area_samples =
-            request.area_samples.value_or(fineness * EmitterOptions().area_samples);
+            request.area_samples.value_or(as_fine(fineness, EmitterOptions().area_samples));
     });
     use_preset(plan, preset);
     apply_effects(plan);

@@ -215,7 +215,7 @@ TEST(Plan, HasShadowMapsAsFineAsThePicture) {
     reach.sphere.radius = 5.0;
     reach.size = 0.25;
     reach.pixel = 0.05;
-    const auto side = [&](Method method = Method::irradiance_cache, int fineness = 1) {
+    const auto side = [&](Method method = Method::irradiance_cache, double fineness = 1.0) {
         plan.reach = reach;
         set(plan, {method, 32, 300, {}}, fineness);
         EXPECT_EQ(plan.picture.emitters.shadow_size, plan.light_atlas.emitters.shadow_size);
@@ -223,6 +223,9 @@ TEST(Plan, HasShadowMapsAsFineAsThePicture) {
     };
     const int usual = EmitterOptions().shadow_size;
     EXPECT_EQ(side(), 2560);  // 2400 in steps of 256
+    EXPECT_EQ(side(Method::irradiance_cache, 0.5), 1280);
+    EXPECT_EQ(plan.picture.emitters.face_size, EmitterOptions().face_size);
+    EXPECT_EQ(plan.picture.emitters.area_samples, EmitterOptions().area_samples);
     reach.size = 0.1;
     EXPECT_EQ(side(), 1280);  // of the focus, 20 m
     reach.pixel = 1e-4;
@@ -238,8 +241,10 @@ TEST(Plan, HasShadowMapsAsFineAsThePicture) {
     EXPECT_EQ(side(Method::irradiance_cache, 8), 8 * usual);
     reach.pixel = 0.01;
     EXPECT_EQ(side(), 4096);
+    EXPECT_EQ(side(Method::irradiance_cache, 0.5), 2048);
     reach.pixel = 1.0;
     EXPECT_EQ(side(), usual);
+    EXPECT_EQ(side(Method::irradiance_cache, 0.5), usual);
     reach.pixel = 0.0;
     EXPECT_EQ(side(), usual);
     reach.pixel = 0.05;
@@ -269,6 +274,32 @@ TEST(Plan, HasShadowMapsAsFineAsThePicture) {
     plan.request = {};
     plan.request.shadow_size = 300;
     EXPECT_EQ(side(), 300);
+}
+
+// Samples make up for coarse maps of a sun: in a short time they are worth more than those.
+TEST(Plan, HasCoarserShadowMapsWhereTimeIsShortAndSamplesFollow) {
+    SceneAnalysis analysis = scene_analysis(test::furnished_room(3));
+    analysis.lights.points = analysis.lights.spots = 0;
+    analysis.lights.directional = 1;
+    analysis.surfaces.triangles = 300000;
+    PlanRequest request;
+    request.refined = true;
+    const cl::Device& device = test::device().device;
+    Plan plan = make_plan(device, analysis, request);
+    Reach reach;
+    reach.points = 200;
+    reach.sphere.radius = 5.0;
+    reach.size = 0.25;
+    reach.pixel = 0.01;
+    plan.reach = reach;
+    plan.method = Method::irradiance_cache;
+    const auto side = [&](double seconds) {
+        return trial_plan(device, plan, seconds).picture.emitters.shadow_size;
+    };
+    EXPECT_EQ(side(1e-6), 2048);
+    EXPECT_GE(side(100.0), 4096);
+    plan.request.refined = false;
+    EXPECT_EQ(side(1e-6), 4096);
 }
 
 // In scenes whose hemicubes take long; elsewhere nobody has measured so few. There surfaces differ
