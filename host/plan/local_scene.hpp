@@ -7,7 +7,7 @@
 
 #include "core/opencl/timing.hpp"
 #include "plan/parts.hpp"
-#include "plan/rays.hpp"
+#include "scene/rays.hpp"
 
 namespace clgi {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "plan/local_triangles.hpp"
-#include "plan/rays.hpp"
+#include "scene/local_triangles.hpp"
+#include "scene/rays.hpp"
 
 namespace clgi {
 

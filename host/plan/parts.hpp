@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plan/local_triangles.hpp"
+#include "scene/local_triangles.hpp"
 
 namespace clgi {
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "plan/local_triangles.hpp"
+#include "scene/local_triangles.hpp"
 
 namespace clgi {
 

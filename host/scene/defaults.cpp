@@ -7,6 +7,9 @@
 #include <numbers>
 #include <vector>
 
+#include "scene/local_frame.hpp"
+#include "scene/rays.hpp"
+
 namespace clgi {
 
 namespace {
@@ -18,34 +21,34 @@ struct Hit {
     bool front = false;
 };
 
-// First hits of many rays from one point. Every ray meets every triangle: a few dozen rays, once
-// per file, are no reason for a hierarchy.
-std::vector<Hit> first_hits(const Scene& scene, const glm::dvec3& origin,
-                            const std::vector<glm::dvec3>& directions) {
-    std::vector<Hit> hits(directions.size());
-    for (const SceneTriangle& triangle : scene.triangles) {
-        const glm::dvec3 a = scene.positions[triangle.vertex[0]] - origin;
-        const glm::dvec3 b = scene.positions[triangle.vertex[1]] - origin;
-        const glm::dvec3 c = scene.positions[triangle.vertex[2]] - origin;
-        const glm::dvec3 bc = glm::cross(b, c);
-        const glm::dvec3 ca = glm::cross(c, a);
-        const glm::dvec3 ab = glm::cross(a, b);
-        const double volume = glm::dot(a, bc);
-        for (std::size_t i = 0; i < directions.size(); ++i) {
-            // Weights of the corners where the ray pierces the plane; of one sign inside.
-            const double u = glm::dot(directions[i], bc);
-            const double v = glm::dot(directions[i], ca);
-            const double w = glm::dot(directions[i], ab);
-            const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-            const double sum = u + v + w;  // 0: in the plane of the ray, which then sees nothing
-            if (!inside || sum == 0.0) continue;
-            const double distance = volume / sum;
-            if (!(distance > 0.0) || distance >= hits[i].distance) continue;
-            hits[i] = {distance, volume < 0.0};  // front: the origin is where the normal points
-        }
+// What rays from inside a scene meet.
+class Obstacles {
+public:
+    explicit Obstacles(const Scene& scene)
+        : frame_(local_frame(bounds(scene))),
+          triangles_(local_triangles(scene, frame_)),
+          blockers_(triangles_) {}
+
+    std::vector<Hit> first_hits(const glm::dvec3& origin,
+                                const std::vector<glm::dvec3>& directions) const {
+        Rays rays;
+        for (const glm::dvec3& direction : directions)
+            rays.add(frame_.to_local(origin), glm::normalize(direction),
+                     std::numeric_limits<double>::infinity());
+        rays.trace(blockers_);
+        std::vector<Hit> hits(directions.size());
+        for (std::size_t i = 0; i < hits.size(); ++i)
+            if (rays.met(i))
+                hits[i] = {rays.distance(i) / frame_.scale,
+                           glm::dot(directions[i], triangles_[rays.triangle(i)].normal) < 0.0};
+        return hits;
     }
-    return hits;
-}
+
+private:
+    SceneFrame frame_;
+    std::vector<LocalTriangle> triangles_;
+    Blockers blockers_;
+};
 
 // Even on the sphere: a spiral whose turns are the golden angle apart.
 std::vector<glm::dvec3> even_directions(int count) {
@@ -73,7 +76,7 @@ struct Stand {  // where a camera inside a room could be
 };
 
 // The mean distance that a picture would show; 0 when much of it looks out of an open side.
-double view_length(const Scene& scene, const Stand& stand) {
+double view_length(const Obstacles& obstacles, const Stand& stand) {
     constexpr double seen = 0.8;
     const glm::dvec3 right = glm::cross(stand.forward, glm::dvec3(0.0, 1.0, 0.0));
     std::vector<glm::dvec3> rays;
@@ -84,7 +87,7 @@ double view_length(const Scene& scene, const Stand& stand) {
     }
     double sum = 0.0;
     double ended = 0.0;
-    for (const Hit& hit : first_hits(scene, stand.position, rays)) {
+    for (const Hit& hit : obstacles.first_hits(stand.position, rays)) {
         if (!std::isfinite(hit.distance)) continue;
         sum += hit.distance;
         ended += 1.0;
@@ -102,6 +105,7 @@ Stand find_stand(const Scene& scene) {
     const int axis = size.x > size.z ? 0 : 2;
     if (!(std::min(std::min(size.x, size.y), size.z) > 0.0)) return {};
 
+    const Obstacles obstacles(scene);
     const double work = 4e6 / static_cast<double>(scene.triangles.size() + 1);
     const std::vector<glm::dvec3> around =
         even_directions(static_cast<int>(std::clamp(work, 16.0, 96.0)));
@@ -116,13 +120,13 @@ Stand find_stand(const Scene& scene) {
             stand.forward = glm::dvec3(0.0);
             stand.forward[axis] = -side;
 
-            const std::vector<Hit> hits = first_hits(scene, stand.position, around);
+            const std::vector<Hit> hits = obstacles.first_hits(stand.position, around);
             if (front_share(hits) < enclosed) continue;
-            const double view = view_length(scene, stand);
+            const double view = view_length(obstacles, stand);
             if (view <= longest_view) continue;
             longest_view = view;
             stand.found = true;
-            const Hit above = first_hits(scene, stand.position, {glm::dvec3(0.0, 1.0, 0.0)})[0];
+            const Hit above = obstacles.first_hits(stand.position, {glm::dvec3(0.0, 1.0, 0.0)})[0];
             stand.open_above = !std::isfinite(above.distance);
             best = stand;
         }

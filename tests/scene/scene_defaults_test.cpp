@@ -147,6 +147,14 @@ TEST(DefaultCamera, StandsInARoomAndLooksAlongIt) {
     }
 }
 
+TEST(DefaultCamera, StandsOutsideOfWhatIsOpenAboveAndAhead) {
+    Scene stage = box_scene({8, 3, 4}, true);
+    stage.triangles.erase(stage.triangles.begin() + 6, stage.triangles.begin() + 8);  // y = 3
+    stage.triangles.erase(stage.triangles.begin() + 2, stage.triangles.begin() + 4);  // x = 8
+    const Camera camera = default_camera(stage);
+    for (const glm::dvec3& p : stage.positions) EXPECT_TRUE(is_in_view(camera, p));
+}
+
 TEST(DefaultCamera, StandsFirmForEmptyAndFlatScenes) {
     for (Scene scene : {Scene(), box_scene({1, 0, 1}, false), box_scene({0, 0, 0}, true)}) {
         scene.cameras.push_back(default_camera(scene));

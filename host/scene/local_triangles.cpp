@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plan/local_triangles.hpp"
+#include "scene/local_triangles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plan/rays.hpp"
+#include "scene/rays.hpp"
 
 #include <algorithm>
 #include <limits>
