@@ -111,10 +111,12 @@ bool is_better(const reference::Verification& found,
 // it takes, within limits, and what costs next to nothing.
 void refine(RenderAttempt& attempt, std::optional<double> left, std::optional<double> target) {
     constexpr double fine = 2e-3, share = 0.4;  // relative errors; of the target
-    constexpr double little = 0.1;              // of the picture's time, all samples together
+    // Of the picture's time, all samples together. What samples with the same shadow maps have in
+    // common is in no error that they know of.
+    constexpr double little = 0.15;
     if (target) {
         attempt.refine(std::max(2.0, 2.0 * attempt.seconds()), 4, share * *target);
-        attempt.refine(little * attempt.seconds(), 4, fine);
+        attempt.refine(little * attempt.seconds(), 4, 0.0);
     } else if (left)
         attempt.refine(*left, 1, fine);
     else

@@ -94,25 +94,33 @@ PassEvent Samples::add(const Radiance& sample, std::size_t pixels, const cl::Eve
 }
 
 // Of n samples with an error e, independent of each other, the mean differs from that of the first
-// h by e sqrt(n / h - 1); where errors fall as 1 / n, by e (n / h - 1).
+// h by e sqrt(n / h - 1); where errors fall as 1 / n, by e (n / h - 1). Halves of a Sobol sequence
+// may agree by chance about the few pixels with most of an error: both earlier means count.
 double Samples::error(std::size_t pixels, const cl::Event& last) const {
-    const std::uint32_t before = std::bit_floor(count_ / 2);
+    const std::uint32_t half = std::bit_floor(count_ / 2),
+                        other = std::has_single_bit(count_) ? half / 2 : 2 * half;
     const std::size_t stride = bytes_ / (MEAN_PLANES * sizeof(float));
-    const std::size_t earlier = plane_before(before) * stride;
     std::vector<float> planes(MEAN_PLANES * stride);
     const WaitList wait{last};
     queue_.enqueueReadBuffer(mean_, CL_TRUE, 0, bytes_, planes.data(), &wait);
-    double square = 0.0, sum = 0.0;
+    std::vector<double> means(pixels);
+    double sum = 0.0;
     for (std::size_t i = 0; i < pixels; ++i) {
-        const double mean =
-            luminance(glm::dvec3(planes[i], planes[stride + i], planes[2 * stride + i]));
-        square += (mean - planes[earlier + i]) * (mean - planes[earlier + i]);
-        sum += mean;
+        means[i] = luminance(glm::dvec3(planes[i], planes[stride + i], planes[2 * stride + i]));
+        sum += means[i];
     }
     if (!(sum > 0.0)) return 0.0;
+    const auto square_from = [&](std::uint32_t before) {
+        const float* earlier = &planes[plane_before(before) * stride];
+        double square = 0.0;
+        for (std::size_t i = 0; i < pixels; ++i)
+            square += (means[i] - earlier[i]) * (means[i] - earlier[i]);
+        return square / (static_cast<double>(count_) / before - 1.0);
+    };
+    double square = square_from(half);
+    if (other > 0) square = 0.5 * (square + square_from(other));
     const auto count = static_cast<double>(pixels);
-    const double more = static_cast<double>(count_) / before - 1.0;
-    return std::sqrt(square / (count * more)) / (sum / count);
+    return std::sqrt(square / count) / (sum / count);
 }
 
 }  // namespace clgi::renderer

@@ -40,8 +40,8 @@ struct Edges {
     Renderer renderer{test::programs(), test::device().queue, scene, options()};
 };
 
-// Against the difference of the means themselves, for each number of samples; where the error is
-// known it is the larger one, within a factor.
+// Against the differences of the means themselves, for each number of samples: from those of the
+// two last powers of two before it. Where the error is known it is the larger one, within a factor.
 TEST(Samples, KnowHowFarTheyAre) {
     Edges edges;
     Renderer& renderer = edges.renderer;
@@ -49,9 +49,11 @@ TEST(Samples, KnowHowFarTheyAre) {
     std::vector<std::vector<double>> means(1);  // luminance by the number of samples
     for (int samples = 1; samples <= 17; ++samples) {
         if (samples > 1) renderer.refine();
-        double sum = 0.0, wrong = 0.0, apart = 0.0;
-        int earlier = 1;
-        while (4 * earlier <= samples) earlier *= 2;
+        double sum = 0.0, wrong = 0.0;
+        std::vector<int> earlier;
+        for (int power = 1; power < samples; power *= 2) earlier.push_back(power);
+        if (earlier.size() > 2) earlier.erase(earlier.begin(), earlier.end() - 2);
+        std::vector<double> apart(earlier.size());
         means.emplace_back();
         const std::vector<glm::vec3> found = edges.read();
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -59,13 +61,17 @@ TEST(Samples, KnowHowFarTheyAre) {
             sum += means.back()[i];
             wrong += std::pow(
                 means.back()[i] - luminance(glm::dvec3(1.0, 2.0, 4.0)) * edges.exact[i], 2);
-            apart += std::pow(means.back()[i] - means[earlier][i], 2);
+            for (std::size_t k = 0; k < earlier.size(); ++k)
+                apart[k] += std::pow(means.back()[i] - means[earlier[k]][i], 2);
         }
         if (samples == 1) continue;
         const auto count = static_cast<double>(found.size());
         const double error = renderer.sampling_error();
-        const double more = static_cast<double>(samples) / earlier - 1.0;
-        EXPECT_NEAR(error, std::sqrt(apart / count / more) / (sum / count), 1e-5) << samples;
+        double square = 0.0;
+        for (std::size_t k = 0; k < earlier.size(); ++k)
+            square += apart[k] / (static_cast<double>(samples) / earlier[k] - 1.0) /
+                      static_cast<double>(earlier.size());
+        EXPECT_NEAR(error, std::sqrt(square / count) / (sum / count), 1e-5) << samples;
         EXPECT_GT(error, 0.8 * std::sqrt(wrong / count) / (sum / count)) << samples;
         EXPECT_LT(error, 4.0 * std::sqrt(wrong / count) / (sum / count)) << samples;
     }
