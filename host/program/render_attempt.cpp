@@ -206,17 +206,30 @@ double RenderAttempt::seconds() const {
     return 1e-3 * (record_.prepare_ms + lab::spread(record_.frame_ms).median);
 }
 
-void RenderAttempt::check(const Scene& truth, double decide) {
-    constexpr double least = 4.0, share = 2.0;  // seconds, and of the picture's, to decide
-    const double spent = 1e-3 * record_.build_ms + seconds();
+double RenderAttempt::check_limit() const {
+    constexpr double least = 4.0, share = 2.0;  // seconds, and of the picture's
+    return std::max(least, share * seconds());
+}
+
+void RenderAttempt::check_fully(const Scene& truth) {
+    constexpr double nearly = 0.7;
+    if (!flags_.verify.time.empty()) return;
+    const auto before = record_.verified;
+    if (!before || before->seconds > nearly * check_limit()) return;
+    check(truth, 0.0, check_limit());
+    if (!record_.verified) record_.verified = before;
+}
+
+void RenderAttempt::check(const Scene& truth, double decide, std::optional<double> seconds) {
+    const double spent = 1e-3 * record_.build_ms + this->seconds();
+    if (decide > 0.0 && flags_.verify.time.empty()) seconds = check_limit();
     record_.verified =
         verify(truth, flags_.verify, spent,
                [&](const reference::PathTracer& tracer, reference::VerifyOptions options) {
                    options.decide = decide;
                    options.filter =
                        renderer_.samples() > 1 ? reference::Filter::box : reference::Filter::center;
-                   if (decide > 0.0 && flags_.verify.time.empty())
-                       options.seconds = std::max(least, share * seconds());
+                   if (seconds) options.seconds = *seconds;
                    return tracer.verify(last_camera_, picture_.width, picture_.height,
                                         lab::radiance_of(picture_), options,
                                         progress_bar("verify", flags_.device.quiet));

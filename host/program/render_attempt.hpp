@@ -39,7 +39,9 @@ public:
     // take, and at most `most`. None where their number was given.
     void refine(double seconds, std::uint32_t least, double error, std::uint32_t most = 1024);
     // Measures the error against all light of a scene. decide: as in VerifyOptions.
-    void check(const Scene& truth, double decide);
+    void check(const Scene& truth, double decide) { check(truth, decide, std::nullopt); }
+    // The same in all of its time, where a check has ended early because it was decided.
+    void check_fully(const Scene& truth);
     // Saves the picture of the last frame; warnings, a line of the result and --stats. attempts:
     // all for an error or a time that was asked for; used: seconds of that time.
     void finish(const std::vector<RenderedAttempt>& attempts = {}, bool meets_target = true,
@@ -54,6 +56,8 @@ public:
     std::optional<Sampling> sampling() const;
 
 private:
+    void check(const Scene& truth, double decide, std::optional<double> seconds);
+    double check_limit() const;  // seconds
     void warm_up();
     bool gave_up() const { return renderer_.status().given_up; }
     void prepare(const Progress& progress);

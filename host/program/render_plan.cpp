@@ -230,6 +230,12 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         if (!best || budget || (verified && is_better(*verified, best->record().verified)))
             best = std::move(attempt);
     }
+    // What is known to miss the target is told as exactly as what meets it.
+    if (target && !found && !interrupted()) {
+        best->check_fully(scene);
+        const auto& verified = best->record().verified;
+        found = verified && verified->error.high <= *target;
+    }
     if (!target && !budget) attempts.clear();
     if (target && !found) notice(false, "warning: " + missed(*target, best->record().verified));
     if (budget && spent > *budget)
