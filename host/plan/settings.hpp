@@ -10,7 +10,8 @@ namespace clgi {
 
 // The plan's method and all settings. fineness: 1, or how many times as fine direct light is as
 // EmitterOptions has it, where the request does not say: pixels of shadow maps along a side, and
-// points on emissive surfaces. Below 1: what maps of few suns and spots have of their texels.
+// points on emissive surfaces. Below 1: maps of few suns and spots have that part of their side, and
+// all else is as with 1.
 void set(Plan& plan, const Preset& preset, double fineness);
 
 // Whether points on emissive surfaces are not enough, as each stands for more than a small part of

@@ -13,6 +13,7 @@
 #include "lab/preview.hpp"
 #include "lab/replicates.hpp"
 #include "lab/timing.hpp"
+#include "program/duration.hpp"
 #include "program/percent.hpp"
 
 namespace clgi::program {
@@ -124,7 +125,7 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error, st
         const double next =
             spent > 0.0 ? std::max({back(1), back(2), back(4)}) : 1e3 * unknown * this->seconds();
         if (renderer_.samples() >= least && spent + next >= limit) break;
-        if (renderer_.samples() >= std::max(least, 2 * looked)) {
+        if (error > 0.0 && renderer_.samples() >= std::max(least, 2 * looked)) {
             looked = renderer_.samples();
             if (renderer_.sampling_error() <= error) break;
         }
@@ -208,15 +209,16 @@ double RenderAttempt::seconds() const {
 
 double RenderAttempt::check_limit() const {
     constexpr double least = 4.0, share = 2.0;  // seconds, and of the picture's
-    return std::max(least, share * seconds());
+    return flags_.verify.time.empty()
+               ? std::max(least, share * seconds())
+               : 1e-3 * parse_milliseconds("render", "--verify", flags_.verify.time);
 }
 
 void RenderAttempt::check_fully(const Scene& truth) {
     constexpr double nearly = 0.7;
-    if (!flags_.verify.time.empty()) return;
     const auto before = record_.verified;
-    if (!before || before->seconds > nearly * check_limit()) return;
-    check(truth, 0.0, check_limit());
+    if (!before || traced_ > nearly * check_limit()) return;
+    check(truth, 0.0, flags_.verify.time.empty() ? std::optional(check_limit()) : std::nullopt);
     if (!record_.verified) record_.verified = before;
 }
 
@@ -230,9 +232,11 @@ void RenderAttempt::check(const Scene& truth, double decide, std::optional<doubl
                    options.filter =
                        renderer_.samples() > 1 ? reference::Filter::box : reference::Filter::center;
                    if (seconds) options.seconds = *seconds;
-                   return tracer.verify(last_camera_, picture_.width, picture_.height,
-                                        lab::radiance_of(picture_), options,
-                                        progress_bar("verify", flags_.device.quiet));
+                   const reference::Verification found = tracer.verify(
+                       last_camera_, picture_.width, picture_.height, lab::radiance_of(picture_),
+                       options, progress_bar("verify", flags_.device.quiet));
+                   traced_ = found.seconds;
+                   return found;
                });
 }
 

@@ -57,7 +57,7 @@ public:
 
 private:
     void check(const Scene& truth, double decide, std::optional<double> seconds);
-    double check_limit() const;  // seconds
+    double check_limit() const;  // seconds of tracing
     void warm_up();
     bool gave_up() const { return renderer_.status().given_up; }
     void prepare(const Progress& progress);
@@ -90,6 +90,7 @@ private:
     std::array<double, 4> refine_ms_{};
     std::size_t turn_ = 0;         // of the next one
     std::optional<double> doubt_;  // of the first sample, by the irradiance cache
+    double traced_ = 0.0;          // seconds of the last check's paths
     io::Image picture_;            // of the last frame
 };
 

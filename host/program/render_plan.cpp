@@ -108,15 +108,18 @@ bool is_better(const reference::Verification& found,
 }
 
 // The rest of a budget, or half as much as what came before; for an error that is asked for, what
-// it takes, within limits, and what costs next to nothing.
+// it takes, within limits, and what costs next to nothing. left: of the time that was asked for.
 void refine(RenderAttempt& attempt, std::optional<double> left, std::optional<double> target) {
     constexpr double fine = 2e-3, share = 0.4;  // relative errors; of the target
     // Of the picture's time, all samples together. What samples with the same shadow maps have in
     // common is in no error that they know of.
     constexpr double little = 0.15;
     if (target) {
-        attempt.refine(std::max(2.0, 2.0 * attempt.seconds()), 4, share * *target);
-        attempt.refine(little * attempt.seconds(), 4, 0.0);
+        const auto within = [&](double seconds) {
+            return std::min(seconds, left.value_or(seconds));
+        };
+        attempt.refine(within(std::max(2.0, 2.0 * attempt.seconds())), 4, share * *target);
+        attempt.refine(within(little * attempt.seconds()), 4, 0.0);
     } else if (left)
         attempt.refine(*left, 1, fine);
     else
@@ -215,7 +218,10 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
             if (next) spent += attempt->refining();
         }
         if (!next) {
-            refine(*attempt, budget ? std::optional<double>(*budget - spent) : std::nullopt,
+            refine(*attempt,
+                   budget || (target && request.seconds)
+                       ? std::optional<double>(*request.seconds - spent)
+                       : std::nullopt,
                    target);
             spent += attempt->refining();
         }
@@ -227,7 +233,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         if (target && verified && !found && !interrupted())
             next = go_on(session.device, *planned, verified->error, *target, attempt->seconds(),
                          spent);
-        if (!best || budget || (verified && is_better(*verified, best->record().verified)))
+        if (!best || budget || found || (verified && is_better(*verified, best->record().verified)))
             best = std::move(attempt);
     }
     // What is known to miss the target is told as exactly as what meets it.

@@ -114,6 +114,7 @@ ordered_json verify_json(const Verification& found) {
 
 std::string largest_lines(const Verification& found) {
     std::string out;
+    if (!(found.error.low > 0.0)) return out;  // noise
     for (const CheckedPixel& one : found.largest)
         if (one.share >= 0.1)
             out += fmt::format(

@@ -44,7 +44,7 @@ std::string expected_less(std::optional<double> expected, const reference::Verif
 nlohmann::ordered_json verify_json(const reference::Verification& found);
 
 // Which pixels of a picture have most of the squared error: a line for each that has a tenth of it,
-// and the same for programs.
+// none where the error may be 0; and the same for programs.
 std::string largest_lines(const reference::Verification& found);
 nlohmann::ordered_json picture_json(const reference::Verification& found);
 

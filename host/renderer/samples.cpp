@@ -95,7 +95,10 @@ PassEvent Samples::add(const Radiance& sample, std::size_t pixels, const cl::Eve
 
 // Of n samples with an error e, independent of each other, the mean differs from that of the first
 // h by e sqrt(n / h - 1); where errors fall as 1 / n, by e (n / h - 1). Halves of a Sobol sequence
-// may agree by chance about the few pixels with most of an error: both earlier means count.
+// may agree by chance about the few pixels with most of an error, so both earlier means count:
+// those of h = n / 2 and n / 4, or of the last two powers of two. It is on the safe side where
+// errors fall as 1 / n, and rises for a moment after a power of two, where one sample alone is
+// compared.
 double Samples::error(std::size_t pixels, const cl::Event& last) const {
     const std::uint32_t half = std::bit_floor(count_ / 2),
                         other = std::has_single_bit(count_) ? half / 2 : 2 * half;

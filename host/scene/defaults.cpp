@@ -28,6 +28,8 @@ public:
         : frame_(local_frame(bounds(scene))),
           triangles_(local_triangles(scene, frame_)),
           blockers_(triangles_) {}
+    Obstacles(const Obstacles&) = delete;
+    Obstacles& operator=(const Obstacles&) = delete;
 
     std::vector<Hit> first_hits(const glm::dvec3& origin,
                                 const std::vector<glm::dvec3>& directions) const {

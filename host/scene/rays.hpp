@@ -1,5 +1,5 @@
 // Many rays against all triangles of a scene, on the host and with boxes but no tree: for the few
-// thousand rays of an analysis.
+// thousand rays of an analysis or of a default camera.
 // SPDX-License-Identifier: MIT
 #pragma once
 

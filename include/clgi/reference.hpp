@@ -114,7 +114,9 @@ struct VerifyOptions {
 struct CheckedPixel {
     std::size_t column = 0;  // of places their number
     std::size_t row = 0;
-    double share = 0.0;  // of the squared error that was found, in which it stands for others
+    // Of the squared error that was found, in which it stands for others; above 1 where noise makes
+    // others negative.
+    double share = 0.0;
     double picture = 0.0;
     double truth = 0.0;      // the mean of its paths
     double deviation = 0.0;  // standard error of that mean
@@ -126,7 +128,7 @@ struct Verification {
     // noise of the path tracer is not part of it.
     Estimate error;
     Estimate energy;                    // mean luminance of the picture over that of the truth
-    std::vector<CheckedPixel> largest;  // at most 8, by falling share; none if none is above 0
+    std::vector<CheckedPixel> largest;  // at most 8, by falling share; none if the error found is 0
     int pixels = 0;                     // that were path-traced, those of the first pass included
     std::uint64_t samples = 0;          // paths, of all of them
     std::size_t non_finite = 0;         // samples left out

@@ -149,9 +149,10 @@ public:
     std::uint32_t stride() const;        // floats between planes
     std::uint32_t samples() const;       // in the last picture
     // Waits for the last picture: how far its luminance may be from the mean of all samples, root
-    // of the mean square over the mean. Taken from how far it is from the means of the first ones,
-    // of two powers of two; up to half of it at borders of shadows, as four or more samples share
-    // their lights, and what all of them share is in none of it. Infinite for one sample.
+    // of the mean square over the mean. Taken from how far it is from the means of its first samples,
+    // as many as the last two powers of two below their number; up to half of it at borders of
+    // shadows, as four or more samples share their lights, and what all of them share is in none of
+    // it. Infinite for one sample.
     double sampling_error() const;
     // Waits for the last picture: R, G and B, cd/m^2, [height * width] each.
     std::array<std::vector<float>, 3> read_radiance() const;

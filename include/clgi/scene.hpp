@@ -179,7 +179,7 @@ CLGI_API Bounds bounds(const Scene& scene);
 // environment and animation in their ranges.
 CLGI_API void validate(const Scene& scene);
 
-// A camera for files that have none, in front of an object or inside a room.
+// A camera for files that have none, in front of an object or inside a room. For a valid scene.
 CLGI_API Camera default_camera(const Scene& scene);
 
 // The camera moved to `eye`, its axis through `target` and +Y upwards in the picture; what else it
@@ -187,7 +187,8 @@ CLGI_API Camera default_camera(const Scene& scene);
 // near as may be to what it was.
 CLGI_API Camera look_at(const Camera& camera, const glm::dvec3& eye, const glm::dvec3& target);
 
-// A light for scenes without light, emissive surface and environment: directional, pi lux.
+// A light for scenes without light, emissive surface and environment: directional, pi lux. For a
+// valid scene.
 CLGI_API Light default_light(const Scene& scene);
 
 CLGI_API bool has_emission(const Scene& scene);

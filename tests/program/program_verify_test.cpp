@@ -65,7 +65,7 @@ TEST_F(VerifyProgram, MeasuresTheErrorOfAPicture) {
                          double{image.find(std::string(1, "RGB"[c]))->values.at(at)};
         EXPECT_NEAR(one.at("picture").get<double>(), luminance, 1e-3 * luminance) << one;
         EXPECT_GT(one.at("share"), 0.0);
-        EXPECT_GT(one.at("deviation"), 0.0);
+        EXPECT_GE(one.at("deviation"), 0.0);
     }
     for (const auto& [name, value] : {std::pair{"clgi:measured_error", found.at("value")},
                                       {"clgi:measured_error_low", found.at("low")},
@@ -215,14 +215,14 @@ TEST_F(VerifyProgram, GoesOnUntilTheErrorIsReached) {
     const json& attempts = hard.at("target").at("attempts");
     ASSERT_GE(attempts.size(), 1u);
     const json& last = hard.at("measured_error");
-    EXPECT_GT(last.at("seconds"), 0.7 * 4.0);
+    EXPECT_GT(last.at("seconds"), 0.7 * 4.0);  // of which the first check took less, or all
     EXPECT_GT(last.at("low"), 0.01) << "there is more than one reflection";
     json best;
     for (const json& one : attempts) {
         const json& found = one.at("measured_error");
         if (best.is_null() || found.at("value") < best.at("value")) best = found;
     }
-    EXPECT_LT(best.at("seconds"), last.at("seconds"));
+    EXPECT_LE(best.at("seconds"), last.at("seconds"));
     EXPECT_LE(best.at("low"), last.at("high"));
     EXPECT_GE(best.at("high"), last.at("low"));
 }
