@@ -122,8 +122,9 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error, st
         const auto back = [&](std::size_t samples) {
             return refine_ms_[(turn_ + 4 - samples) % 4];
         };
-        const double next =
-            spent > 0.0 ? std::max({back(1), back(2), back(4)}) : 1e3 * unknown * this->seconds();
+        const double next = spent > 0.0
+                                ? next_sample({back(1), back(2), back(4)}, refined_, 1e3 * known_)
+                                : 1e3 * unknown * this->seconds();
         if (renderer_.samples() >= least && spent + next >= limit) break;
         if (error > 0.0 && renderer_.samples() >= std::max(least, 2 * looked)) {
             looked = renderer_.samples();
@@ -132,7 +133,7 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error, st
         const double taken = time_apart([&] { renderer_.refine(); });
         refine_ms_[turn_] = taken;
         turn_ = (turn_ + 1) % 4;
-        if (!(spent > 0.0)) first_refine_ms_ = taken;
+        if (refined_++ == 0) first_refine_ms_ = taken;
         spent += taken;
     }
     picture_ = lab::radiance_picture(renderer_);

@@ -38,6 +38,8 @@ public:
     // or as many as take so many seconds; at least `least` together with its own, whatever they
     // take, and at most `most`. None where their number was given.
     void refine(double seconds, std::uint32_t least, double error, std::uint32_t most = 1024);
+    // each: seconds that samples of another picture of this scene take but the first.
+    void expect_samples(double each) { known_ = each; }
     // Measures the error against all light of a scene. decide: as in VerifyOptions.
     void check(const Scene& truth, double decide) { check(truth, decide, std::nullopt); }
     // The same in all of its time, where a check has ended early because it was decided.
@@ -89,6 +91,8 @@ private:
     // may draw shadow maps.
     std::array<double, 4> refine_ms_{};
     std::size_t turn_ = 0;         // of the next one
+    std::size_t refined_ = 0;      // samples but the first
+    double known_ = 0.0;           // seconds of one of another picture; 0: unknown
     std::optional<double> doubt_;  // of the first sample, by the irradiance cache
     double traced_ = 0.0;          // seconds of the last check's paths
     io::Image picture_;            // of the last frame

@@ -74,7 +74,7 @@ Plan begun(const cl::Device& device, const Plan& plan, double budget, double lef
 std::optional<Planned> use_rest(const cl::Device& device, const Planned& planned,
                                 const PlanOutcome& found, double left,
                                 const std::optional<Sampling>& sampling) {
-    constexpr double margin = 0.9;  // predictions from one picture to the next
+    constexpr double margin = 0.9, slower = 1.25;  // predictions from one picture to the next
     const Plan& plan = planned.plan;
     const auto next_within = [&](double share) {
         return next_plan(device, plan, found, std::max(0.0, margin * share * left));
@@ -92,8 +92,8 @@ std::optional<Planned> use_rest(const cl::Device& device, const Planned& planned
         for (const double share : {0.2, 0.35, 0.5, 0.75, 1.0}) {
             const std::optional<Plan> next = next_within(share);
             if (!next || !next->error) continue;
-            const double expected =
-                error_with_samples(*next->error, *sampling, left - 1e-3 * next->cost.total_ms());
+            const double expected = error_with_samples(
+                *next->error, *sampling, left - slower * 1e-3 * next->cost.total_ms());
             least = std::min(least, expected);
             if (expected <= about * least) best = next;
         }
@@ -184,6 +184,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
     std::unique_ptr<RenderAttempt> best;
     std::optional<Planned> next = first;
     bool found = false;
+    double each = 0.0;  // seconds of a sample, where one is known
     while (next) {
         const auto planned = std::make_shared<const Planned>(*next);
         const Plan& plan = planned->plan;
@@ -198,6 +199,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         try {
             attempt = std::make_unique<RenderAttempt>(flags, session, programs, nullptr,
                                                       planned_scene(scene, plan), options, planned);
+            attempt->expect_samples(each);
             attempt->draw();
         } catch (const Interrupted&) {
             if (!best) throw;
@@ -216,6 +218,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
             next = use_rest(session.device, *planned, attempt->outcome(),
                             *budget - spent - attempt->refining(), attempt->sampling());
             if (next) spent += attempt->refining();
+            if (const auto sampling = attempt->sampling()) each = sampling->seconds;
         }
         if (!next) {
             refine(*attempt,

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace clgi::program {
 
@@ -17,6 +19,15 @@ struct Sampling {
 // one makes what those after it have: it counts where there is no other.
 inline double seconds_each(double count, double next, double all) {
     return count > 2.0 ? (all - next) / (count - 2.0) : all;
+}
+
+// How long the next sample takes, at most, by those before it: the last one, the one before and
+// the one four before. The first makes what those after it have, and is no measure of them where
+// one of another picture is known (each).
+inline double next_sample(const std::array<double, 3>& before, std::size_t count, double each) {
+    constexpr double slower = 1.5;
+    if (count == 1 && each > 0.0) return std::min(before[0], slower * each);
+    return *std::max_element(before.begin(), before.end());
 }
 
 // The error of a picture whose settings err by so much, with as many samples as the seconds allow

@@ -35,5 +35,16 @@ TEST(Sampling, DecidesBetweenCoarseAndFineSettings) {
     EXPECT_FALSE(fine_is_better(0.5));
 }
 
+// By those before it; the first of a picture has work that later ones share.
+TEST(Sampling, ExpectsSamplesToTakeAsLongAsThoseBefore) {
+    EXPECT_EQ(next_sample({20.0, 30.0, 25.0}, 5, 10.0), 30.0);
+    EXPECT_EQ(next_sample({30.0, 20.0, 25.0}, 5, 0.0), 30.0);
+    EXPECT_EQ(next_sample({20.0, 30.0, 45.0}, 5, 10.0), 45.0);
+    EXPECT_EQ(next_sample({160.0, 0.0, 0.0}, 1, 0.0), 160.0);  // none is known
+    EXPECT_EQ(next_sample({160.0, 0.0, 0.0}, 1, 20.0), 30.0);  // half as much again
+    EXPECT_EQ(next_sample({160.0, 0.0, 0.0}, 1, 200.0), 160.0);
+    EXPECT_EQ(next_sample({20.0, 160.0, 0.0}, 2, 20.0), 160.0);  // it may come again
+}
+
 }  // namespace
 }  // namespace clgi::program
