@@ -184,7 +184,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
     std::unique_ptr<RenderAttempt> best;
     std::optional<Planned> next = first;
     bool found = false;
-    double each = 0.0;  // seconds of a sample, where one is known
+    double each = 0.0;  // seconds of a sample of the same method, where one is known
     while (next) {
         const auto planned = std::make_shared<const Planned>(*next);
         const Plan& plan = planned->plan;
@@ -218,7 +218,9 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
             next = use_rest(session.device, *planned, attempt->outcome(),
                             *budget - spent - attempt->refining(), attempt->sampling());
             if (next) spent += attempt->refining();
-            if (const auto sampling = attempt->sampling()) each = sampling->seconds;
+            const auto sampling = attempt->sampling();
+            const bool alike = next && sampling && next->plan.method == plan.method;
+            each = alike ? sampling->seconds : 0.0;
         }
         if (!next) {
             refine(*attempt,
