@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "drawing.hpp"
 #include "planted.hpp"
 #include "shares_by_hand.hpp"
 #include "two_records.hpp"
