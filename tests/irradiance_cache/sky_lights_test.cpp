@@ -38,9 +38,19 @@ TEST(SkyLights, FindShadowsBetweenRecords) {
     EXPECT_LT(with.error, 0.25 * without.error);
     EXPECT_NEAR(with.energy, 1.0, 0.02);
     EXPECT_LT(found(16, false).error, 0.25 * without.error);
-    // The first sample has no correction; those after it have four each.
-    EXPECT_LT(found(16, true, 2).error, 0.072);
-    EXPECT_LT(found(16, true, 3).error, 0.062);
+    // The first sample has no correction; those after it have four each. With one each the mean of
+    // six replicates is 0.093 and 0.073, with four 0.075 and 0.062.
+    const auto mean_of_replicates = [&](std::uint32_t samples) {
+        constexpr std::uint32_t replicates = 6;
+        double sum = 0.0;
+        for (std::uint32_t k = 0; k < replicates; ++k) {
+            options.picture.emitters.replicate = k;
+            sum += found(16, true, samples).error;
+        }
+        return sum / replicates;
+    };
+    EXPECT_LT(mean_of_replicates(2), 0.079);
+    EXPECT_LT(mean_of_replicates(3), 0.066);
 }
 
 // Maps cover what the picture shows, however large the scene is, and its focus where the picture

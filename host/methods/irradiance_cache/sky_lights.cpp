@@ -16,7 +16,7 @@
 namespace clgi {
 namespace {
 
-constexpr int most_map = 256;  // pixels a side: a direction is one of many
+constexpr int most_map = 128;  // pixels a side: a direction is one of many
 // Texels: light passes so far beneath walls that have no thickness, and brightens their corners.
 // Texels past a receiver's edge count for nothing (DirectParams::edges), so that little is enough.
 constexpr float bias = 0.06f;
