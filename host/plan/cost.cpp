@@ -62,7 +62,10 @@ Lamps lamps_of(const Plan& plan, const EmitterOptions& options, bool environment
     if (plan.on(Effect::directional_light))
         add(static_cast<double>(lights.directional), views, map);
     // A whole face and four halves. What has no area here may have some on the device, rounded.
-    if (plan.on(Effect::area_light)) add(options.area_samples, 3.0, options.face_size);
+    const int face = plan.method == Method::irradiance_cache
+                         ? IrradianceCacheOptions::area_face(options.face_size)
+                         : options.face_size;
+    if (plan.on(Effect::area_light)) add(options.area_samples, 3.0, face);
     if (environment) add(options.environment_lights, views, map);
     return out;
 }
@@ -187,11 +190,12 @@ PlanCost irradiance_cache(const Plan& plan) {
                  above = has_sky(plan) ? 8e-6 * drawn : 0.0;
     // A pixel of a hemicube is lit by all lamps, but by few of the samples of emissive surfaces.
     // Some pixels are looked up again while records are weighed.
-    constexpr double samples_at_once = 4.0, weighed = 1.3;
+    constexpr double weighed = 1.3;
     const Lamps lamps = lamps_of(plan, plan.picture.emitters, false);
     const double samples =
         plan.on(Effect::area_light) ? static_cast<double>(plan.picture.emitters.area_samples) : 0.0;
-    const double looked = lamps.emitters - samples + std::min(samples, samples_at_once);
+    const double looked = lamps.emitters - samples +
+                          std::min(samples, static_cast<double>(options.samples_at_once()));
     const double look = (4e-5 + 1e-5 * looked) * pixels;
     // Small places that lights light: records are drawn again to find them, lights' views of them
     // too, and VPLs on them have hemicubes of their own.

@@ -7,6 +7,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <clgi/advanced/export.hpp>
 #include <clgi/advanced/kit/picture.hpp>
 #include <clgi/advanced/solver_status.hpp>
@@ -45,6 +46,12 @@ struct IrradianceCacheOptions {
     int drawn_face(bool sky, double triangles) const {
         return sky && face <= 24 && triangles <= 65536.0 ? 2 * face : face;
     }
+    // Side of the faces of shadow maps of points on emissive surfaces, pixels, where point lights
+    // have so many. Each point has a part of a lamp's light, so its shadows need not be as sharp.
+    static int area_face(int face_size) { return (face_size + 1) / 2; }
+    // How many points on emissive surfaces light a pixel of a hemicube, in turns: in finer ones
+    // there are more pixels for each point.
+    int samples_at_once() const { return std::clamp(64 / face, 1, 4); }
     // Of what records bring each other, the largest buffer, at most: blocks of pixels have up to
     // four records, and refined ones bring others nothing.
     double transport_bytes() const {

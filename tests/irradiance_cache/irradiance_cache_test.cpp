@@ -343,6 +343,22 @@ TEST(IrradianceCache, LeavesOutDirectLightAlone) {
                         1e-3 * all.radiance[i][c] + 1e-5);
 }
 
+// Points of lamps, of which there are many, have smaller shadow maps than lamps that are points,
+// and hemicubes of more pixels look at fewer of them in each.
+TEST(IrradianceCache, LooksAtPointsOfLampsCoarselyAndInTurns) {
+    const DeviceScene scene = test::on_device(cornell());
+    IrradianceCacheOptions options = cache_options(12, 100);
+    options.picture.emitters.face_size = 33;
+    const IrradianceCache cache(test::programs(), test::device().queue, scene, options);
+    EXPECT_EQ(cache.options().picture.emitters.area_size, 17);
+    EXPECT_EQ(cache.options().picture.emitters.face_size, 33);
+    for (const auto& [face, at_once] :
+         {std::pair(8, 4), {16, 4}, {24, 2}, {32, 2}, {64, 1}, {256, 1}}) {
+        options.face = face;
+        EXPECT_EQ(options.samples_at_once(), at_once) << face;
+    }
+}
+
 TEST(IrradianceCache, ShowsNothingWhereNothingIs) {
     Scene scene;
     scene.cameras = {test::camera_at({0, 0, 1}, {0, 0, 0}, 1.0f)};

@@ -13,8 +13,8 @@
 namespace clgi {
 namespace {
 
-// Lamps come first, then directions of what is asked for of the environment, with maps of their own
-// size, then points of surfaces.
+// Lamps come first, then directions of what is asked for of the environment, then points of
+// surfaces, both with maps of their own size.
 TEST(Emitters, StandForAPartOfTheSky) {
     Scene world = scene_of_all();
     world.environment = test::picture_sky(
@@ -23,6 +23,7 @@ TEST(Emitters, StandForAPartOfTheSky) {
     const DeviceScene scene = test::on_device(world);
     EmitterOptions options{.shadow_size = 64, .area_samples = 4, .environment_lights = 3};
     options.environment_size = 16;
+    options.area_size = 8;
     const test::SkyBlock block = test::block_of(*world.environment, 5, 1, 9, 1);
     const glm::dvec3 toward = glm::normalize(test::vector_of(block));
     const BrightSky bright = scene.bright_sky();
@@ -38,9 +39,10 @@ TEST(Emitters, StandForAPartOfTheSky) {
                 const Emitter& one = set.emitters[i];
                 const bool direction = i >= 3 && i < 3 + set.directions;
                 EXPECT_EQ((one.kind & EMITTER_KIND) == EMITTER_AREA, i >= 3 && !direction) << i;
-                if (!direction) continue;
+                if (i < 3) continue;
                 for (std::uint32_t v = 0; v < one.view_count; ++v)
-                    EXPECT_EQ(set.views[one.first_view + v].width, 16u);
+                    EXPECT_EQ(set.views[one.first_view + v].width, direction ? 16u : 8u);
+                if (!direction) continue;
                 const glm::dvec3 from(-one.axis.x, -one.axis.y, -one.axis.z);
                 near += glm::dot(from, toward) > std::cos(0.08);
                 lux += scene.frame().exposure * double{one.intensity.y};

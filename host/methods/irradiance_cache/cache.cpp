@@ -14,7 +14,6 @@ namespace clgi {
 namespace {
 
 constexpr const char* cache_owner = "irradiance-cache";
-constexpr std::uint32_t area_samples_at_once = 4;
 constexpr std::size_t most_chosen = 8192;  // places of other hemicubes than those of records
 
 // The sky's small bright parts light pixels as lamps do: hemicubes would see them from one record
@@ -52,6 +51,8 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     options.picture.build.textures = options.picture.build.textures && scene.needs_textures();
     if (options.emission) options.picture.emitters.area_samples = 0;
     options.picture.emitters.focused = true;
+    EmitterOptions& lights = options.picture.emitters;
+    lights.area_size = IrradianceCacheOptions::area_face(lights.face_size);
     return options;
 }
 
@@ -230,8 +231,8 @@ CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count)
     out.whole_emitters = static_cast<std::uint32_t>(set.lamps) + directions - out.skipped;
     out.spots = has_tiles ? 1 : 0;
     out.lobes = scene.has_lobes() ? 1 : 0;
-    out.emitter_step =
-        std::max(1u, (out.emitter_count - out.whole_emitters - out.skipped) / area_samples_at_once);
+    out.emitter_step = std::max(1u, (out.emitter_count - out.whole_emitters - out.skipped) /
+                                        static_cast<std::uint32_t>(options.samples_at_once()));
     return out;
 }
 

@@ -207,7 +207,8 @@ std::vector<Source> area_samples(const DeviceScene& scene, const EmitterOptions&
         e.kind = EMITTER_AREA;
         source.power = power;
         source.group = surfaces;
-        source.views = hemicube(glm::vec3(e.position), t.normal, 0.5f * lift, options.face_size);
+        source.views = hemicube(glm::vec3(e.position), t.normal, 0.5f * lift,
+                                options.area_size > 0 ? options.area_size : options.face_size);
         out.push_back(source);
     }
     return out;
@@ -314,6 +315,7 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     need_range("emitters", "vpls", options.vpls, 0, 1 << 20);
     need_range("emitters", "shadow_size", options.shadow_size, 1, 8192);
     need_range("emitters", "face_size", options.face_size, 1, 4096);
+    need_range("emitters", "area_size", options.area_size, 0, 4096);
     need_range("emitters", "area_samples", options.area_samples, 0, 4096);
     need_range("emitters", "environment_lights", options.environment_lights, 0, 4096);
     need_range("emitters", "environment_size", options.environment_size, 0, 8192);
