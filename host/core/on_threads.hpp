@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <future>
 #include <thread>
@@ -22,6 +23,21 @@ inline void on_threads(int threads, const std::function<void(int)>& work) {
     for (int t = 1; t < threads; ++t) others.push_back(std::async(std::launch::async, work, t));
     work(0);
     for (std::future<void>& other : others) other.get();
+}
+
+// Calls work(i) for i in 0 to count - 1, on all cores, of which each takes so many at once.
+template <typename Work>
+void for_each_of(std::size_t count, std::size_t at_once, const Work& work) {
+    const std::size_t shares = (count + at_once - 1) / at_once;
+    std::atomic<std::size_t> next{0};
+    on_threads(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(thread_count(0)),
+                                                      std::max<std::size_t>(shares, 1))),
+               [&](int) {
+                   for (std::size_t share = next++; share < shares; share = next++)
+                       for (std::size_t i = share * at_once;
+                            i < std::min((share + 1) * at_once, count); ++i)
+                           work(i);
+               });
 }
 
 }  // namespace clgi

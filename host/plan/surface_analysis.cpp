@@ -4,6 +4,7 @@
 #include <clgi/device_scene.hpp>
 #include <cmath>
 
+#include "core/on_threads.hpp"
 #include "plan/one_colour.hpp"
 #include "plan/parts.hpp"
 #include "scene/base_color.hpp"
@@ -108,8 +109,9 @@ std::vector<glm::dvec3> brightest_texels(const Scene& scene) {
         if (material.base_texture.texture >= 0)
             read[static_cast<std::size_t>(material.base_texture.texture)] = true;
     std::vector<glm::dvec3> out(scene.textures.size(), glm::dvec3(1.0));
-    for (std::size_t index = 0; index < out.size(); ++index)
+    for_each_of(out.size(), 1, [&](std::size_t index) {
         if (read[index]) out[index] = brightest_texel(scene.textures[index], srgb);
+    });
     return out;
 }
 
@@ -143,7 +145,9 @@ public:
           brightest_(brightest_texels(scene)),
           reflectances_(reflectances_of(scene)) {
         if (scene.triangles.size() <= few_triangles) return;
-        for (const Texture& texture : scene.textures) means_.push_back(mean_of_some(texture));
+        means_.resize(scene.textures.size());
+        for_each_of(means_.size(), 1,
+                    [&](std::size_t k) { means_[k] = mean_of_some(scene.textures[k]); });
     }
 
     TriangleAlbedo operator()(const SceneTriangle& triangle) const {

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/on_threads.hpp"
+
 namespace clgi {
 
 std::vector<LocalTriangle> local_triangles(const Scene& scene, const SceneFrame& frame) {
-    std::vector<LocalTriangle> out;
-    out.reserve(scene.triangles.size());
-    for (const SceneTriangle& triangle : scene.triangles) {
-        LocalTriangle& local = out.emplace_back();
+    constexpr std::size_t at_once = 4096;
+    std::vector<LocalTriangle> out(scene.triangles.size());
+    for_each_of(out.size(), at_once, [&](std::size_t i) {
+        const SceneTriangle& triangle = scene.triangles[i];
+        LocalTriangle& local = out[i];
         for (std::size_t k = 0; k < 3; ++k)
             local.corners[k] = glm::dvec3(frame.to_local(scene.positions[triangle.vertex[k]]));
         local.double_sided = scene.materials[triangle.material].double_sided;
@@ -22,7 +25,7 @@ std::vector<LocalTriangle> local_triangles(const Scene& scene, const SceneFrame&
         local.area = 0.5 * twice_area;
         local.height = longest > 0.0 ? twice_area / longest : 0.0;
         if (!local.is_line()) local.normal = across / twice_area;
-    }
+    });
     return out;
 }
 

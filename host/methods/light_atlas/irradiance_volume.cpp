@@ -62,19 +62,10 @@ glm::dvec3 position(const IrradianceVolume& volume, const glm::vec4& place) {
     return volume.first + volume.spacing * glm::dvec3(place);
 }
 
-// Calls work(i) for i in 0 to count - 1, on all cores.
-template <typename Work>
-void for_each_of(std::size_t count, const Work& work) {
-    const auto threads = static_cast<std::size_t>(thread_count(0));
-    on_threads(static_cast<int>(threads), [&](int thread) {
-        for (auto i = static_cast<std::size_t>(thread); i < count; i += threads) work(i);
-    });
-}
-
 // The same, with points moved out of solid matter and those in the open numbered.
 IrradianceVolume open_cubes(const Bounds& box, int most, const Surroundings& around) {
     IrradianceVolume out = cubes_over(box, most);
-    for_each_of(out.places.size(), [&](std::size_t i) {
+    for_each_of(out.places.size(), 1, [&](std::size_t i) {
         glm::dvec3 at = position(out, out.places[i]);
         if (!around.in_the_open(at, 0.5 * out.spacing)) return;
         out.places[i] = glm::vec4((at - out.first) / out.spacing, 0.0f);
@@ -109,7 +100,7 @@ IrradianceVolume make_irradiance_volume(const Bounds& box, int most, const Scene
         if (step == 0) break;
     }
     out.distances.resize(std::size_t{out.open_count} * VOLUME_TEXELS);
-    for_each_of(out.places.size(), [&](std::size_t i) {
+    for_each_of(out.places.size(), 1, [&](std::size_t i) {
         const glm::vec4& place = out.places[i];
         if (place.w >= 0.0f)
             around.distances(position(out, place), out.spacing,
