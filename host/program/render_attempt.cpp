@@ -133,7 +133,7 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error, st
         const double taken = time_apart([&] { renderer_.refine(); });
         refine_ms_[turn_] = taken;
         turn_ = (turn_ + 1) % 4;
-        if (refined_++ == 0) first_refine_ms_ = taken;
+        ++refined_;
         spent += taken;
     }
     picture_ = lab::radiance_picture(renderer_);
@@ -168,9 +168,8 @@ std::optional<double> RenderAttempt::expected_error() const {
 
 std::optional<Sampling> RenderAttempt::sampling() const {
     if (!(record_.refine_ms > 0.0)) return std::nullopt;
-    const double count = renderer_.samples();
-    return Sampling{renderer_.sampling_error(), count,
-                    seconds_each(count, 1e-3 * first_refine_ms_, refining())};
+    return Sampling{renderer_.sampling_error(), static_cast<double>(renderer_.samples()),
+                    1e-3 * time_each(refine_ms_, refined_)};
 }
 
 // A frame's time has all in it that follows from the lights and the pose: of a bake, only what has

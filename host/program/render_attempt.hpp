@@ -86,7 +86,6 @@ private:
     bool moves_;          // vertices do, between frames
     AntiradianceFrames exchanges_;
     RenderRecord record_;
-    double first_refine_ms_ = 0.0;
     // Of the last four samples, in turns: the first ones take longer, and every second or fourth
     // may draw shadow maps.
     std::array<double, 4> refine_ms_{};

@@ -87,7 +87,7 @@ std::optional<Planned> use_rest(const cl::Device& device, const Planned& planned
         // Settings err by more in some scenes than where that was measured; samples, as they do
         // here. So finer settings are taken where they are expected to err about as little, unless
         // what they err by is known of this scene.
-        const double about = found.doubt && plan.indirect_error ? 1.0 : 1.1;
+        const double about = found.doubt && plan.indirect_error ? 1.0 : 1.25;
         double least = error_with_samples(*error, *sampling, left);
         for (const double share : {0.2, 0.35, 0.5, 0.75, 1.0}) {
             const std::optional<Plan> next = next_within(share);
@@ -212,7 +212,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         spent += attempt->seconds();
         if (budget) {
             constexpr double looking = 0.1;      // of the budget, at what samples bring
-            constexpr std::uint32_t enough = 4;  // of them
+            constexpr std::uint32_t enough = 5;  // of them
             if (attempt->seconds() <= *budget - spent)
                 attempt->refine(looking * *budget, 2, 0.0, enough);
             next = use_rest(session.device, *planned, attempt->outcome(),

@@ -15,10 +15,12 @@ struct Sampling {
     double error = 0.0, count = 1.0, seconds = 0.0;
 };
 
-// Of so many samples, that come after the picture of the first and take so long together, the next
-// one makes what those after it have: it counts where there is no other.
-inline double seconds_each(double count, double next, double all) {
-    return count > 2.0 ? (all - next) / (count - 2.0) : all;
+// How long a sample takes, of as many as there are, up to four: the first ones make what others
+// have, and some share their light of the sky in parts, so it is the least.
+inline double time_each(const std::array<double, 4>& before, std::size_t count) {
+    const auto end =
+        before.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(count, 1, 4));
+    return *std::min_element(before.begin(), end);
 }
 
 // How long the next sample takes, at most, by those before it: the last one, the one before and

@@ -19,10 +19,11 @@ TEST(Sampling, AddsToTheErrorOfSettings) {
     EXPECT_DOUBLE_EQ(error_with_samples(0.0, one, -3.0), 0.8);  // no time is left
 }
 
-TEST(Sampling, TakesAsLongAsWithoutWhatIsMadeOnce) {
-    EXPECT_DOUBLE_EQ(seconds_each(2.0, 0.5, 0.5), 0.5);
-    EXPECT_DOUBLE_EQ(seconds_each(3.0, 0.5, 0.75), 0.25);
-    EXPECT_DOUBLE_EQ(seconds_each(6.0, 0.5, 1.5), 0.25);
+TEST(Sampling, TakesAsLongAsWithoutWhatTheFirstOnesMake) {
+    EXPECT_EQ(time_each({90.0, 0.0, 0.0, 0.0}, 1), 90.0);
+    EXPECT_EQ(time_each({90.0, 30.0, 40.0, 0.0}, 3), 30.0);
+    EXPECT_EQ(time_each({90.0, 30.0, 40.0, 10.0}, 4), 10.0);
+    EXPECT_EQ(time_each({9.0, 30.0, 40.0, 10.0}, 5), 9.0);  // the fifth, in the first one's place
 }
 
 // Finer settings leave less time: which is best depends on what a sample brings.
