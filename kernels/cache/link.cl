@@ -11,7 +11,7 @@
 // (microfacet.clh). Pixels whose rays go beneath the surface that the record stands on bring nothing,
 // but count in the sum of form factors. E has no direct light but that of the sky. Of bright parts of
 // the sky that pixels are lit by directions of, `bright` says what they bring. Sample points of emissive
-// surfaces, of which there may be hundreds, take turns from one block of 16 pixels to the next.
+// surfaces, of which there may be hundreds, take turns in blocks of 16 pixels (link_turn).
 //
 // Work size    1D, one work-item a record; any local size; tail guarded
 // Writes       its own row and its own base light
