@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <future>
 #include <thread>
@@ -25,7 +26,7 @@ inline void on_threads(int threads, const std::function<void(int)>& work) {
     for (std::future<void>& other : others) other.get();
 }
 
-// Calls work(i) for i in 0 to count - 1, on all cores, of which each takes so many at once.
+// Calls work(i) for i in 0 to count - 1, on all cores; each takes `at_once` of them at a time.
 template <typename Work>
 void for_each_of(std::size_t count, std::size_t at_once, const Work& work) {
     const std::size_t shares = (count + at_once - 1) / at_once;

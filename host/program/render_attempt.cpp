@@ -119,9 +119,6 @@ void RenderAttempt::refine(double seconds, std::uint32_t least, double error, st
     constexpr double unknown = 0.25;  // of the picture, before the first
     std::uint32_t looked = 2;         // at the error
     while (renderer_.samples() < most && !interrupted()) {
-        const auto back = [&](std::size_t samples) {
-            return refine_ms_[(turn_ + 4 - samples) % 4];
-        };
         const double next = spent > 0.0
                                 ? next_sample({back(1), back(2), back(4)}, refined_, 1e3 * known_)
                                 : 1e3 * unknown * this->seconds();
@@ -169,7 +166,7 @@ std::optional<double> RenderAttempt::expected_error() const {
 std::optional<Sampling> RenderAttempt::sampling() const {
     if (!(record_.refine_ms > 0.0)) return std::nullopt;
     return Sampling{renderer_.sampling_error(), static_cast<double>(renderer_.samples()),
-                    1e-3 * time_each(refine_ms_, refined_)};
+                    1e-3 * time_each({back(1), back(2), back(3), back(4)}, refined_)};
 }
 
 // A frame's time has all in it that follows from the lights and the pose: of a bake, only what has

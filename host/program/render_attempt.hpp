@@ -65,6 +65,7 @@ private:
     void prepare(const Progress& progress);
     // ms that a picture or a sample takes; compiling meanwhile counts as time of building.
     double time_apart(const std::function<void()>& draw);
+    double back(std::size_t samples) const { return refine_ms_[(turn_ + 4 - samples) % 4]; }
     void follow(const Motion::Step& step, bool vectors);
     void render(int frame);
     void tune(const TuningTarget& target);

@@ -212,7 +212,7 @@ void render_planned(const RenderFlags& flags, const Session& session, const Prog
         spent += attempt->seconds();
         if (budget) {
             constexpr double looking = 0.1;      // of the budget, at what samples bring
-            constexpr std::uint32_t enough = 5;  // of them
+            constexpr std::uint32_t enough = 6;  // of them
             if (attempt->seconds() <= *budget - spent)
                 attempt->refine(looking * *budget, 2, 0.0, enough);
             next = use_rest(session.device, *planned, attempt->outcome(),

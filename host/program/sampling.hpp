@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace clgi::program {
 
@@ -15,19 +16,23 @@ struct Sampling {
     double error = 0.0, count = 1.0, seconds = 0.0;
 };
 
-// How long a sample takes, of as many as there are, up to four: the first ones make what others
-// have, and some share their light of the sky in parts, so it is the least.
+// How long samples take, by as many as were made, of which up to four are known, the last one
+// first: the least mean of two in a row. Every second one may draw shadow maps; the first four of a
+// picture have their directions of the sky in parts, which takes longer, and one that something
+// else held up is no measure of others.
 inline double time_each(const std::array<double, 4>& before, std::size_t count) {
-    const auto end =
-        before.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(count, 1, 4));
-    return *std::min_element(before.begin(), end);
+    if (count < 2) return before[0];
+    double out = std::numeric_limits<double>::max();
+    for (std::size_t k = 1; k < std::min(count, before.size()); ++k)
+        out = std::min(out, 0.5 * (before[k - 1] + before[k]));
+    return out;
 }
 
 // How long the next sample takes, at most, by those before it: the last one, the one before and
 // the one four before. The first makes what those after it have, and is no measure of them where
 // one of another picture is known (each).
 inline double next_sample(const std::array<double, 3>& before, std::size_t count, double each) {
-    constexpr double slower = 1.5;
+    constexpr double slower = 2.0;
     if (count == 1 && each > 0.0) return std::min(before[0], slower * each);
     return *std::max_element(before.begin(), before.end());
 }

@@ -64,11 +64,13 @@ std::vector<OptionRow> of_pictures() {
                    "Pixels per side of the shadow map of a spot or directional light", 1, 8192),
                [](O& o) -> Number { return &o.picture.emitters.shadow_size; },
                {[](O& o) -> Number { return &o.light_atlas.emitters.shadow_size; }}),
-        number(
-            row("face-size", "N", shown | of_bakes,
-                "Pixels per side of a cube or hemicube face, for point and area lights", 1, 4096),
-            [](O& o) -> Number { return &o.picture.emitters.face_size; },
-            {[](O& o) -> Number { return &o.light_atlas.emitters.face_size; }}),
+        number(row("face-size", "N", shown | of_bakes,
+                   "Pixels per side of a cube or hemicube face, for point and area lights; cache: "
+                   "half "
+                   "as many for area lights",
+                   1, 4096),
+               [](O& o) -> Number { return &o.picture.emitters.face_size; },
+               {[](O& o) -> Number { return &o.light_atlas.emitters.face_size; }}),
         number(row("area-samples", "N", shown | of_bakes,
                    "Sample points on all emissive surfaces together", 0, 4096),
                [](O& o) -> Number { return &o.picture.emitters.area_samples; },

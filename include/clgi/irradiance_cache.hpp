@@ -36,7 +36,8 @@ struct IrradianceCacheOptions {
     // those within the scene's focus by points with shadow maps (EmitterOptions::area_samples),
     // whose shadows are sharper.
     bool emission = false;
-    // But environment_lights: the sky lights by hemicubes. build.storage is full.
+    // But environment_lights: the sky lights by hemicubes. build.storage is full. Where
+    // emitters.area_size is 0 it is area_face(emitters.face_size).
     PictureOptions picture;
 
     // Side of hemicubes as they are drawn, pixels. Where there is a sky, small faces are drawn
@@ -48,10 +49,11 @@ struct IrradianceCacheOptions {
     }
     // Side of the faces of shadow maps of points on emissive surfaces, pixels, where point lights
     // have so many. Each point has a part of a lamp's light, so its shadows need not be as sharp.
-    static int area_face(int face_size) { return (face_size + 1) / 2; }
+    static int area_face(int face_size) { return face_size / 2 + face_size % 2; }
     // How many points on emissive surfaces light a pixel of a hemicube, in turns: in finer ones
     // there are more pixels for each point.
-    int samples_at_once() const { return std::clamp(64 / face, 1, 4); }
+    static constexpr int most_at_once = 4;
+    int samples_at_once() const { return std::clamp(64 / std::max(face, 1), 1, most_at_once); }
     // Of what records bring each other, the largest buffer, at most: blocks of pixels have up to
     // four records, and refined ones bring others nothing.
     double transport_bytes() const {

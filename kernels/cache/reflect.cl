@@ -179,7 +179,7 @@ kernel void cache_reflect(
             pixel.window.w = CUBE_FOOTPRINT;
             pixel.right.w = pixel.up.w = 0.5f * sqrt(rays.angle);
             Surface surface = link_hits(&world, &pixel, &sight, 0.25f * rays.angle,
-                                        first / CLGI_WIDTH + n, info.flags, &packet);
+                                        first / 16 + lobes.first_direction + n, info.flags, &packet);
             float found[3][CLGI_WIDTH];
             reflect_lanes(cache_light(&packet.share, light, tree.stride), found);
             PixelLobe next;

@@ -46,6 +46,7 @@ inline EmitterOptions random_emitters(Choices& choices) {
     out.vpls = choices.option(choices.integer(0, 60), {-1, -1000});
     out.shadow_size = choices.option(choices.any_of({16, 33, 64}), {0, -1, 1, 1 << 20});
     out.face_size = choices.option(choices.any_of({16, 31, 64}), {0, -1, 1, 1 << 20});
+    out.area_size = choices.option(choices.any_of({0, 15, 64}), {-1, 1 << 20});
     out.area_samples = choices.option(choices.integer(1, 6), {0, -1});
     out.environment_lights = choices.option(choices.integer(0, 6), {-1, 1 << 20});
     out.replicate = choices.one_in(4) ? 7u : 0u;

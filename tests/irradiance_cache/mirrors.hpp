@@ -85,7 +85,7 @@ struct Mirrors {
             test::upload(std::vector<float>(RADIANCE_PLANES * pixel_stride, 0.5f));
         const cl::Buffer bad = test::upload(std::vector<std::uint32_t>{0});
         CachePasses(test::programs(), test::usual_build())
-            .reflect(test::device().queue, of_lobes, params, tree, scene, no_emitters(), b,
+            .reflect(test::device().queue, of_lobes, params, tree, scene, emitters, b,
                      {gbuffer, sky, radiance, bad})
             .wait();
         non_finite = test::download<std::uint32_t>(bad, 1)[0];
@@ -106,6 +106,7 @@ struct Mirrors {
     CacheParams params{};
     std::vector<float> light;  // [3][record_stride] exposed lux
     cl::Buffer sky;
+    EmitterBuffers emitters = no_emitters();
     std::uint32_t non_finite = 0;
 };
 

@@ -317,6 +317,39 @@ TEST(Reflect, LeavesItsSurface) {
         EXPECT_NEAR(found.y, wanted, 0.02 * wanted);
 }
 
+// What a ray meets is lit by one of two lights, taken twice; the next sample's ray has the other
+// one.
+TEST(Reflect, ShowsLightsInTurns) {
+    Box box(false);
+    Mirrors& lit = box.lit;
+    std::vector<Emitter> two(2, Emitter{});
+    for (Emitter& one : two) {
+        one.kind = EMITTER_DIRECTIONAL;
+        one.axis = glm::vec4(0.0f, 1.0f, 0.0f, 0.0f);  // on the wall above
+    }
+    two[0].intensity = glm::vec4(3.0f, 0.0f, 1.0f, 0.0f);
+    two[1].intensity = glm::vec4(0.0f, 2.0f, 4.0f, 0.0f);
+    lit.emitters.emitters = test::upload(two);
+    lit.of_lobes.directions = 1;
+    lit.of_lobes.shared = 8;
+    const Point point{{0, -0.5, 0}, {0, 1, 0}, glm::dvec3(0.9, 0.6, 0.3), 6, -1};
+    const auto found = [&](std::uint32_t lights, std::uint32_t step) {
+        lit.params.emitter_count = lights;
+        lit.params.emitter_step = step;
+        glm::dvec3 sum(0.0);
+        for (lit.of_lobes.first_direction = 0; lit.of_lobes.first_direction < 64;
+             ++lit.of_lobes.first_direction)
+            sum += lit.reflected({point})[0];
+        return sum;
+    };
+    const glm::dvec3 without = found(0, 1), wanted = found(2, 1) - without,
+                     in_turns = found(2, 2) - without;
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_GT(wanted[c], 0.0) << c;
+        EXPECT_NEAR(in_turns[c], wanted[c], 0.1 * wanted[c]) << c;
+    }
+}
+
 TEST(Reflect, CountsWhatIsNotFinite) {
     Box box(false);
     box.lit.set_light(3, glm::dvec3(std::numeric_limits<double>::quiet_NaN()));

@@ -62,32 +62,36 @@ struct TwoRecords {
     CacheBuffers b;
 };
 
-// Two records at the origin that look up, their hemicubes, in which nothing is drawn, and what link
+// Records at the origin that look up, their hemicubes, in which nothing is drawn, and what link
 // writes.
-inline void look_up(CacheBuffers& b, std::uint32_t size) {
+inline void look_up(CacheBuffers& b, std::uint32_t size, std::uint32_t count = 2) {
     const cl::CommandQueue& queue = test::device().queue;
-    b.views = test::empty<View>(10);
-    b.visibility = test::upload(std::vector<std::uint64_t>(6 * size * size, ~std::uint64_t{0}));
+    b.views = test::empty<View>(5 * count);
+    b.visibility =
+        test::upload(std::vector<std::uint64_t>(3 * size * size * count, ~std::uint64_t{0}));
     b.sky = test::empty<float>(4);
-    b.rows = test::empty<float>(6 * plane);
+    b.rows = test::empty<float>(3 * plane * count);
     b.base = test::empty<float>(3 * plane);
     b.light = test::upload(std::vector<float>(3 * plane, 0.0f));
     for (cl::Buffer* light : {&b.reflected, &b.bright, &b.next, &b.shown})
         *light = test::empty<float>(3 * plane);
     std::vector<float> records(RECORD_PLANES * plane, 0.0f);
-    for (std::uint32_t i = 0; i < 2; ++i)
+    std::vector<std::uint32_t> all(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        all[i] = i;
         for (const std::uint32_t normal : {RECORD_NORMAL, RECORD_GEOMETRIC})
             records[(normal + 1) * plane + i] = 1.0f;
+    }
     b.planes = test::upload(records);
     CubeParams of{};
-    of.point_count = 2;
+    of.point_count = count;
     of.faces = 5;
     of.size = size;
     of.stride = plane;
     of.near = 1e-4f;
     of.turned = 1;
     GBufferPasses(test::programs(), test::usual_build())
-        .cubes(queue, of, b.planes, test::upload(std::vector<std::uint32_t>{0, 1}), b.views);
+        .cubes(queue, of, b.planes, test::upload(all), b.views);
 }
 
 }  // namespace clgi

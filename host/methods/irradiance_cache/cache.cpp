@@ -52,7 +52,8 @@ IrradianceCacheOptions checked(IrradianceCacheOptions options, const DeviceScene
     if (options.emission) options.picture.emitters.area_samples = 0;
     options.picture.emitters.focused = true;
     EmitterOptions& lights = options.picture.emitters;
-    lights.area_size = IrradianceCacheOptions::area_face(lights.face_size);
+    if (lights.area_size == 0)
+        lights.area_size = IrradianceCacheOptions::area_face(lights.face_size);
     return options;
 }
 
@@ -202,6 +203,11 @@ void IrradianceCache::State::add_to(BufferTable& table) {
               blocks(options.picture.width) * blocks(options.picture.height) * word);
 }
 
+void IrradianceCache::State::take_turns(CacheParams& params, int at_once) {
+    const std::uint32_t points = params.emitter_count - params.whole_emitters - params.skipped;
+    params.emitter_step = std::max(1u, points / static_cast<std::uint32_t>(at_once));
+}
+
 CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count) const {
     CacheParams out{};
     out.first = static_cast<std::uint32_t>(first);
@@ -231,8 +237,7 @@ CacheParams IrradianceCache::State::params(std::size_t first, std::size_t count)
     out.whole_emitters = static_cast<std::uint32_t>(set.lamps) + directions - out.skipped;
     out.spots = has_tiles ? 1 : 0;
     out.lobes = scene.has_lobes() ? 1 : 0;
-    out.emitter_step = std::max(1u, (out.emitter_count - out.whole_emitters - out.skipped) /
-                                        static_cast<std::uint32_t>(options.samples_at_once()));
+    take_turns(out, IrradianceCacheOptions::most_at_once);
     return out;
 }
 

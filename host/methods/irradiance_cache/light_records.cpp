@@ -54,6 +54,7 @@ void IrradianceCache::State::link(std::size_t first, std::uint32_t thin) {
     const std::size_t count = records.size() - first;
     CacheParams of = params(first, count);
     of.thin = thin;
+    take_turns(of, options.samples_at_once());
     record("cache.link", count, [&](const WaitList& wait) {
         return passes.link(record.queue(), of, tree, scene, picture.emitter_buffers(), b, wait);
     });

@@ -49,6 +49,8 @@ struct IrradianceCache::State {
     };
     void draw_cubes(const Hemicubes& of);
     CacheParams params(std::size_t first, std::size_t count) const;
+    // So many points on emissive surfaces light what a block shows.
+    static void take_turns(CacheParams& params, int at_once);
     // What the records from `first` on see becomes up to `count` more records.
     void meet(std::size_t first, std::size_t count);
     void choose(const View& view);

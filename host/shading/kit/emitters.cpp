@@ -22,7 +22,7 @@ Emitters::Emitters(const DeviceScene& scene, const EmitterOptions& options, Pixe
 }
 
 void Emitters::add_to(BufferTable& table) {
-    const char* lower = "emitters.shadow_size, face_size or area_samples";
+    const char* lower = "emitters.shadow_size, face_size, area_size or area_samples";
     table.add(buffers_.emitters, "emitters", lower, capacity_.emitters * sizeof(Emitter));
     table.add(buffers_.views, "the emitters' views", lower, capacity_.views * sizeof(View));
     table.add(buffers_.visibility, "the emitters' shadow maps", lower,

@@ -343,7 +343,8 @@ EmitterSet make_emitters(const DeviceScene& scene, const EmitterOptions& options
     if (out.capacity.pixels > most_pixels)
         throw Error(
             "emitters: the sources' views have more than 2^30 pixels; fewer "
-            "area_samples or environment_lights, or smaller shadow_size and face_size needed");
+            "area_samples or environment_lights, or smaller shadow_size, face_size and area_size "
+            "needed");
     std::erase_if(sources, [](const Source& source) { return !(source.power > 0.0); });
     if (sources.empty()) return out;
     const auto of_group = [&](Group group) {

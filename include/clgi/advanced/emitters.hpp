@@ -22,7 +22,7 @@ struct EmitterOptions {
     int shadow_size = 512;  // pixels per side of a spot or directional light's map
     int face_size = 256;    // pixels per side of a cube or hemicube face
     int area_samples = 16;  // sample points on all emissive surfaces together
-    int area_size = 0;      // as face_size, of their hemicubes; 0: the same
+    int area_size = 0;      // as face_size, of the maps of sample points; 0: the same
     bool focused = false;   // of surfaces within the scene's focus alone
     // Directional lights that approximate the environment [Debevec05]; in replicates and later
     // samples as many that are drawn from it.
