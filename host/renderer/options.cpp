@@ -66,8 +66,7 @@ std::vector<OptionRow> of_pictures() {
                {[](O& o) -> Number { return &o.light_atlas.emitters.shadow_size; }}),
         number(row("face-size", "N", shown | of_bakes,
                    "Pixels per side of a cube or hemicube face, for point and area lights; cache: "
-                   "half "
-                   "as many for area lights",
+                   "half as many for area lights",
                    1, 4096),
                [](O& o) -> Number { return &o.picture.emitters.face_size; },
                {[](O& o) -> Number { return &o.light_atlas.emitters.face_size; }}),
