@@ -37,10 +37,11 @@ kernel void cache_spots(
     uint width = view.width / SPOT_TILES, height = view.height / SPOT_TILES, passed = 0;
     Vpl out;
     out.position = out.normal = out.flux = (float4)(0.0f);
+    SpotTriangle before = {-1, false};
     for (uint k = 0; k < width * height; ++k) {
         SpotTexel texel = spot_texel(emitter, &view, &whole, sample.tile % SPOT_TILES * width + k % width,
-                                     sample.tile / SPOT_TILES * height + k / width, visibility,
-                                     seen, wanted + light_view * tiles, triangles, positions);
+                                     sample.tile / SPOT_TILES * height + k / width, &before,
+                                     visibility, seen, wanted + light_view * tiles, triangles, positions);
         if (texel.triangle < 0 || passed++ < sample.rank) continue;
         Surface surface = view_surface(&view, packet_splat(texel.x), packet_splat(texel.y),
                                        (intp)(texel.triangle), &scene, info.flags);

@@ -40,6 +40,29 @@ TEST(SpotTiles, AreChosenWhereLittleIsLit) {
                 << row << " " << column;
 }
 
+// Of two views, of which a texel of the second sends four times as much: 10 + 4 * 5 of
+// 10 + 30 + 4 * (5 + 15) are in chosen tiles, a quarter.
+TEST(SpotTiles, HaveVplsByTheRootOfTheirPower) {
+    std::vector<std::uint32_t> count(SPOT_TILES_A_VIEW, 0), chosen(SPOT_TILES_A_VIEW, 0);
+    LitPower lit;
+    EXPECT_EQ(lit.vpls(128), 128u);  // of nothing
+    chosen[3] = chosen[9] = 1;
+    count[3] = 10;
+    lit.add(1.0, count.data(), chosen.data());
+    EXPECT_EQ(lit.vpls(128), 128u);
+    count[3] = 0;
+    count[7] = 30;
+    lit.add(1.0, count.data(), chosen.data());
+    count[7] = 15;
+    count[9] = 5;
+    lit.add(4.0, count.data(), chosen.data());
+    EXPECT_EQ(lit.vpls(128), 64u);
+    EXPECT_EQ(lit.vpls(101), 51u);  // rounded up
+    EXPECT_EQ(lit.vpls(20), 16u);   // some at least,
+    EXPECT_EQ(lit.vpls(7), 7u);     // as far as there are so many
+    EXPECT_EQ(lit.vpls(0), 0u);
+}
+
 TEST(SpotTiles, AreLookedAtMoreClosely) {
     std::vector<std::uint32_t> count(SPOT_TILES_A_VIEW, 0), chosen(SPOT_TILES_A_VIEW, 1);
     View whole{};

@@ -38,6 +38,21 @@ void choose_tiles(const std::uint32_t* count, const float* area, std::uint32_t t
         }
 }
 
+void LitPower::add(double texel_power, const std::uint32_t* count, const std::uint32_t* chosen) {
+    for (std::size_t k = 0; k < spot_tiles; ++k) {
+        all_ += texel_power * count[k];
+        if (chosen[k]) chosen_ += texel_power * count[k];
+    }
+}
+
+std::size_t LitPower::vpls(std::size_t most) const {
+    constexpr std::size_t least = 16;
+    if (!(chosen_ < all_)) return most;  // also of nothing, or what is not finite
+    const double root = std::sqrt(chosen_ / all_);
+    const auto out = static_cast<std::size_t>(std::ceil(root * static_cast<double>(most)));
+    return std::clamp(out, std::min(least, most), most);
+}
+
 std::vector<View> zoomed(const View& whole, const std::uint32_t* count,
                          const std::uint32_t* chosen) {
     std::vector<Box> boxes;

@@ -19,6 +19,20 @@ constexpr std::size_t spot_tiles = SPOT_TILES_A_VIEW;
 void choose_tiles(const std::uint32_t* count, const float* area, std::uint32_t texels_a_tile,
                   float side, std::uint32_t* chosen);
 
+// What views of lights light, by the power that one texel of each sends, about.
+class LitPower {
+public:
+    // count, chosen: [SPOT_TILES_A_VIEW] of a view.
+    void add(double texel_power, const std::uint32_t* count, const std::uint32_t* chosen);
+    // How many of `most` VPLs stand for what is lit in chosen tiles: all where these have all of
+    // the power, and else by the root of their share of it, but 16 where `most` allows. Each of the
+    // fewer VPLs then stands for less of all light than each of all of them would.
+    std::size_t vpls(std::size_t most) const;
+
+private:
+    double all_ = 0.0, chosen_ = 0.0;
+};
+
 // Parts of the view that hold the chosen tiles in which something is lit, and those beside them:
 // what is lit may go on there between texels. None overlap.
 std::vector<View> zoomed(const View& whole, const std::uint32_t* count,

@@ -108,44 +108,51 @@ void IrradianceCache::State::find_spots(bool finely) {
     found.spots = 0;
     has_tiles = false;
     const EmitterSet& emitters = picture.emitters();
-    const std::vector<SpotView> of = spot_views(emitters.emitters, emitters.lamps);
+    std::vector<SpotView> of = spot_views(emitters.emitters, emitters.lamps);
     if (!casts_spots() || of.empty()) return;
     Recorder& record = picture.record();
     mark_sides(finely);
     std::vector<std::uint32_t> tiles(emitters.views.size() * spot_tiles, 1);
     grow(b.by_spots, tiles.size() * sizeof(std::uint32_t));
     spot.wanted = b.by_spots;
-    std::vector<View> whole_views;
-    for (const SpotView& one : of) whole_views.push_back(emitters.views[one.light_view]);
-    std::vector<View> views = whole_views;
-    const SpotTally all = tally_spots(of, views, tiles);
+    std::vector<View> views;
+    for (const SpotView& one : of) views.push_back(emitters.views[one.light_view]);
+    SpotTally all = tally_spots(of, views, tiles);
 
+    const auto texel_power = [&](const SpotView& one, const View& view) {
+        return luminance(glm::dvec3(emitters.emitters[one.emitter].intensity)) * view.right.w *
+               view.up.w;
+    };
     const float side = 2.0f * scene.frame().detail / static_cast<float>(options.face);
     const std::uint32_t a_tile = spot_size / SPOT_TILES * (spot_size / SPOT_TILES);
     std::fill(tiles.begin(), tiles.end(), 0u);
     std::vector<SpotView> parts;
-    views.clear();
+    std::vector<View> part_views;
+    LitPower lit;
     for (std::size_t v = 0; v < of.size(); ++v) {
         std::uint32_t* chosen = tiles.data() + of[v].light_view * spot_tiles;
-        const std::uint32_t* count = all.count.data() + v * spot_tiles;
+        std::uint32_t* count = all.count.data() + v * spot_tiles;
         choose_tiles(count, all.area.data() + v * spot_tiles, a_tile, side, chosen);
-        for (const View& part : zoomed(whole_views[v], count, chosen)) {
-            views.push_back(part);
+        lit.add(texel_power(of[v], views[v]), count, chosen);
+        for (const View& part : zoomed(views[v], count, chosen)) {
+            part_views.push_back(part);
             parts.push_back(of[v]);
         }
+        for (std::size_t tile = 0; tile < spot_tiles; ++tile)
+            if (!chosen[tile]) count[tile] = 0;
     }
-    if (parts.size() > most_views) {
-        parts = of;
-        views = whole_views;
-    }
-    const SpotTally finer = tally_spots(parts, views, tiles);
     has_tiles = true;
+    if (finely && parts.size() <= most_views) {
+        of = std::move(parts);
+        views = std::move(part_views);
+        all = tally_spots(of, views, tiles);
+    } else {
+        write_tiles(tiles);
+    }
     std::vector<double> power;
-    for (std::size_t v = 0; v < parts.size(); ++v)
-        power.push_back(luminance(glm::dvec3(emitters.emitters[parts[v].emitter].intensity)) *
-                        views[v].right.w * views[v].up.w);
+    for (std::size_t v = 0; v < of.size(); ++v) power.push_back(texel_power(of[v], views[v]));
     const std::vector<SpotSample> samples =
-        spot_samples(power, finer.count, static_cast<std::size_t>(options.spots));
+        spot_samples(power, all.count, lit.vpls(static_cast<std::size_t>(options.spots)));
     if (samples.empty()) return;
     spots.sample_count = static_cast<std::uint32_t>(samples.size());
     record.write(spot.samples, samples.data(), samples.size() * sizeof(SpotSample));
@@ -153,7 +160,7 @@ void IrradianceCache::State::find_spots(bool finely) {
         return passes.spots(record.queue(), spots, spot_size, scene, picture.emitter_buffers(),
                             spot, wait);
     });
-    scatter_spots();
+    scatter_spots(lit.vpls(scattered));
     found.spots = spots.sample_count;
 }
 
@@ -185,12 +192,16 @@ void IrradianceCache::State::mark_sides(bool finely) {
     }
 }
 
+void IrradianceCache::State::write_tiles(const std::vector<std::uint32_t>& tiles) {
+    picture.record().write(b.by_spots, tiles.data(), tiles.size() * sizeof(std::uint32_t));
+}
+
 // Draws the views; `tiles` say what counts.
 IrradianceCache::State::SpotTally IrradianceCache::State::tally_spots(
     const std::vector<SpotView>& of, std::vector<View>& views,
     const std::vector<std::uint32_t>& tiles) {
     Recorder& record = picture.record();
-    record.write(b.by_spots, tiles.data(), tiles.size() * sizeof(std::uint32_t));
+    write_tiles(tiles);
     spots.view_count = static_cast<std::uint32_t>(of.size());
     SpotTally out;
     out.count.resize(of.size() * spot_tiles);
@@ -236,8 +247,8 @@ void IrradianceCache::State::draw_hemicubes(const std::vector<Vpl>& vpls, std::s
 }
 
 // What VPLs light close by, where no record stands, as inside the wall around a hole, are further
-// VPLs. What they light elsewhere has records.
-void IrradianceCache::State::scatter_spots() {
+// VPLs, `most` of each reflection. What they light elsewhere has records.
+void IrradianceCache::State::scatter_spots(std::size_t most) {
     Recorder& record = picture.record();
     std::vector<Vpl> all(spots.sample_count);
     const WaitList pending = record.waits();
@@ -277,7 +288,7 @@ void IrradianceCache::State::scatter_spots() {
             next.push_back(out);
         }
         first = all.size();
-        next = thinned(next, scattered);
+        next = thinned(next, most);
         all.insert(all.end(), next.begin(), next.end());
         draw_hemicubes(all, first);
     }

@@ -125,9 +125,10 @@ struct IrradianceCache::State {
     };
     SpotTally tally_spots(const std::vector<SpotView>& of, std::vector<View>& views,
                           const std::vector<std::uint32_t>& tiles);
+    void write_tiles(const std::vector<std::uint32_t>& tiles);
     void mark_sides(bool finely);  // that records see
     void draw_hemicubes(const std::vector<Vpl>& vpls, std::size_t first);
-    void scatter_spots();
+    void scatter_spots(std::size_t most);
 
     const DeviceScene& scene;
     IrradianceCacheOptions options;
