@@ -24,9 +24,9 @@ struct IrradianceCacheOptions {
     int refined = 300;
     int face = 32;    // pixels, side of a hemicube's face; a multiple of 8, 8 to 256
     int bounces = 0;  // reflections of light before it reaches a record; 0: until it rests
-    // VPLs in what lights light of small places, such as the sun's spot behind a hole, which would
-    // fall between the pixels of hemicubes; 0 to 1024. Of at most 32 views of lights: directional
-    // lights have one, then come spots, then point lights with six.
+    // VPLs, at most, in what lights light of small places, as the sun does behind a hole, which
+    // would fall between the pixels of hemicubes; 0 to 1024. Of at most 32 views of lights:
+    // directional lights have one, then come spots, then point lights with six.
     int spots = 128;
     // Directions of the sky that each sample of a picture but the first takes, with shadow maps,
     // for light of the sky between records; 0 to 4096. 0, or a picture of one sample: by hemicubes

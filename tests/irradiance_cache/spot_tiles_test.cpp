@@ -45,22 +45,29 @@ TEST(SpotTiles, AreChosenWhereLittleIsLit) {
 TEST(SpotTiles, HaveVplsByTheRootOfTheirPower) {
     std::vector<std::uint32_t> count(SPOT_TILES_A_VIEW, 0), chosen(SPOT_TILES_A_VIEW, 0);
     LitPower lit;
-    EXPECT_EQ(lit.vpls(128), 128u);  // of nothing
+    EXPECT_EQ(lit.vpls(128, 1), 128u);  // of nothing
     chosen[3] = chosen[9] = 1;
     count[3] = 10;
     lit.add(1.0, count.data(), chosen.data());
-    EXPECT_EQ(lit.vpls(128), 128u);
+    EXPECT_EQ(lit.vpls(128, 1), 128u);
     count[3] = 0;
     count[7] = 30;
     lit.add(1.0, count.data(), chosen.data());
     count[7] = 15;
     count[9] = 5;
     lit.add(4.0, count.data(), chosen.data());
-    EXPECT_EQ(lit.vpls(128), 64u);
-    EXPECT_EQ(lit.vpls(101), 51u);  // rounded up
-    EXPECT_EQ(lit.vpls(20), 16u);   // some at least,
-    EXPECT_EQ(lit.vpls(7), 7u);     // as far as there are so many
-    EXPECT_EQ(lit.vpls(0), 0u);
+    EXPECT_EQ(lit.vpls(128, 1), 64u);
+    EXPECT_EQ(lit.vpls(128, 40), 80u);  // two for each place
+    EXPECT_EQ(lit.vpls(101, 1), 51u);   // rounded up
+    EXPECT_EQ(lit.vpls(20, 1), 16u);    // some at least,
+    EXPECT_EQ(lit.vpls(7, 1), 7u);      // as far as there are so many
+    EXPECT_EQ(lit.vpls(0, 1), 0u);
+    leave_chosen(count.data(), chosen.data());
+    EXPECT_EQ(count[7], 0u);
+    EXPECT_EQ(count[9], 5u);
+    count[3] = 1;
+    lit.add(std::numeric_limits<double>::quiet_NaN(), count.data(), chosen.data());
+    EXPECT_EQ(lit.vpls(128, 1), 128u);
 }
 
 TEST(SpotTiles, AreLookedAtMoreClosely) {

@@ -86,6 +86,43 @@ void expect_light(const CachePicture& found, const glm::dvec3& wanted, double wi
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c] / wanted[c], 1.0, within) << c;
 }
 
+struct Opening {
+    double left, right, near, far;  // along x and z
+};
+
+// 42 holes of 20 cm, 1.8 m apart, and a large one; all in a roof without thickness.
+std::vector<Opening> add_sieve(Hall& of) {
+    constexpr double hole = 0.2, apart = 1.8, edge = 0.5;
+    const double y = of.height;
+    const auto add = [&](double x0, double x1, double z0, double z1) {
+        test::add_quad(of.scene, {{{x0, y, z0}, {x1, y, z0}, {x1, y, z1}, {x0, y, z1}}},
+                       of.coloured);
+    };
+    std::vector<std::vector<Opening>> rows;
+    for (int row = 0; row < 7; ++row) {
+        rows.emplace_back();
+        for (int k = 0; k < 6; ++k)
+            rows.back().push_back({1.0 + apart * k, 1.0 + apart * k + hole, 1.0 + apart * row,
+                                   1.0 + apart * row + hole});
+    }
+    rows.push_back({{3.0, 8.0, 12.4, 13.8}});
+    std::vector<Opening> out;
+    double z = -edge;
+    for (const std::vector<Opening>& row : rows) {
+        add(-edge, of.width + edge, z, row[0].near);
+        double x = -edge;
+        for (const Opening& one : row) {
+            add(x, one.left, one.near, one.far);
+            x = one.right;
+            out.push_back(one);
+        }
+        add(x, of.width + edge, row[0].near, row[0].far);
+        z = row[0].far;
+    }
+    add(-edge, of.width + edge, z, of.length + edge);
+    return out;
+}
+
 CLGI_IN_BOTH_MATHS(Spots);
 
 // Through a hole of 10 cm in a thin roof, onto the floor.
@@ -125,6 +162,28 @@ TEST_P(Spots, InAHoleLightAHall) {
     EXPECT_GT(found.status.spots, 600u);                 // with those that others light
     static const glm::dvec3 truth = traced(lamps, 768);  // few paths enter the hole
     expect_light(found, truth, 0.15);
+}
+
+// More small places than are drawn closely, beside a large one that records resolve.
+TEST_P(Spots, OfManyHolesLightAHall) {
+    Hall of = hall(1.0, 0.2);
+    const std::vector<Opening> openings = add_sieve(of);
+    Scene lamps = of.scene;
+    const glm::dvec3 way(0.1, -1.0, -0.05);
+    of.scene.lights = {sun(way)};
+    const double x = of.height * way.x, z = of.height * way.z, y = 1e-3;
+    for (const Opening& one : openings)
+        add_lit(lamps,
+                {{{one.left + x, y, one.far + z},
+                  {one.right + x, y, one.far + z},
+                  {one.right + x, y, one.near + z},
+                  {one.left + x, y, one.near + z}}},
+                1.0 / glm::length(way));
+    const CachePicture found = pictured(of.scene, cache_options(150, 300));
+    EXPECT_GE(found.status.spots, 80u);   // two for each
+    EXPECT_LT(found.status.spots, 128u);  // small places have a fifth of the light
+    static const glm::dvec3 truth = traced(lamps, 256);
+    expect_light(found, truth, 0.06);
 }
 
 // Fewer records than VPLs that others light; and a picture without any record after it.

@@ -45,12 +45,17 @@ void LitPower::add(double texel_power, const std::uint32_t* count, const std::ui
     }
 }
 
-std::size_t LitPower::vpls(std::size_t most) const {
-    constexpr std::size_t least = 16;
+std::size_t LitPower::vpls(std::size_t most, std::size_t places) const {
+    const std::size_t least = std::max(std::size_t{16}, 2 * places);
     if (!(chosen_ < all_)) return most;  // also of nothing, or what is not finite
     const double root = std::sqrt(chosen_ / all_);
     const auto out = static_cast<std::size_t>(std::ceil(root * static_cast<double>(most)));
     return std::clamp(out, std::min(least, most), most);
+}
+
+void leave_chosen(std::uint32_t* count, const std::uint32_t* chosen) {
+    for (std::size_t k = 0; k < spot_tiles; ++k)
+        if (!chosen[k]) count[k] = 0;
 }
 
 std::vector<View> zoomed(const View& whole, const std::uint32_t* count,

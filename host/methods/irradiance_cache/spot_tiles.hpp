@@ -24,14 +24,18 @@ class LitPower {
 public:
     // count, chosen: [SPOT_TILES_A_VIEW] of a view.
     void add(double texel_power, const std::uint32_t* count, const std::uint32_t* chosen);
-    // How many of `most` VPLs stand for what is lit in chosen tiles: all where these have all of
-    // the power, and else by the root of their share of it, but 16 where `most` allows. Each of the
-    // fewer VPLs then stands for less of all light than each of all of them would.
-    std::size_t vpls(std::size_t most) const;
+    // How many of `most` VPLs stand for what is lit in chosen tiles, which is so many places: all
+    // where these have all of the power, and else by the root of their share of it, but two for
+    // each place, and 16, where `most` allows. Each of the fewer VPLs then stands for less of all
+    // light than each of all of them would.
+    std::size_t vpls(std::size_t most, std::size_t places) const;
 
 private:
     double all_ = 0.0, chosen_ = 0.0;
 };
+
+// Leaves of the texels of a view those in chosen tiles.
+void leave_chosen(std::uint32_t* count, const std::uint32_t* chosen);
 
 // Parts of the view that hold the chosen tiles in which something is lit, and those beside them:
 // what is lit may go on there between texels. None overlap.

@@ -138,11 +138,11 @@ void IrradianceCache::State::find_spots(bool finely) {
             part_views.push_back(part);
             parts.push_back(of[v]);
         }
-        for (std::size_t tile = 0; tile < spot_tiles; ++tile)
-            if (!chosen[tile]) count[tile] = 0;
+        leave_chosen(count, chosen);
     }
     has_tiles = true;
-    if (finely && parts.size() <= most_views) {
+    const std::size_t places = parts.size();
+    if (finely && places <= most_views) {
         of = std::move(parts);
         views = std::move(part_views);
         all = tally_spots(of, views, tiles);
@@ -152,7 +152,7 @@ void IrradianceCache::State::find_spots(bool finely) {
     std::vector<double> power;
     for (std::size_t v = 0; v < of.size(); ++v) power.push_back(texel_power(of[v], views[v]));
     const std::vector<SpotSample> samples =
-        spot_samples(power, all.count, lit.vpls(static_cast<std::size_t>(options.spots)));
+        spot_samples(power, all.count, lit.vpls(static_cast<std::size_t>(options.spots), places));
     if (samples.empty()) return;
     spots.sample_count = static_cast<std::uint32_t>(samples.size());
     record.write(spot.samples, samples.data(), samples.size() * sizeof(SpotSample));
@@ -160,7 +160,7 @@ void IrradianceCache::State::find_spots(bool finely) {
         return passes.spots(record.queue(), spots, spot_size, scene, picture.emitter_buffers(),
                             spot, wait);
     });
-    scatter_spots(lit.vpls(scattered));
+    scatter_spots(lit.vpls(scattered, places));
     found.spots = spots.sample_count;
 }
 

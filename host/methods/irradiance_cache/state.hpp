@@ -17,7 +17,7 @@
 namespace clgi {
 
 constexpr std::uint32_t picks_per_record = 16;
-constexpr std::size_t scattered = 64;  // VPLs that others light, of each reflection
+constexpr std::size_t scattered = 64;  // VPLs that others light, at most, of each reflection
 
 // VPLs in small lit places, with those that others light; 0 without.
 std::size_t most_vpls(const IrradianceCacheOptions& options);
