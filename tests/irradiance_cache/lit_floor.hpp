@@ -15,7 +15,8 @@
 namespace clgi::test::lit_floor {
 
 inline const glm::dvec3 floor_albedo(0.2, 0.5, 0.7);
-inline constexpr double slope = 0.3;  // of the floor along x
+inline constexpr double slope = 0.3;       // of the floor along x
+inline constexpr double plate_end = 0.11;  // along x; tiles show it and the floor
 inline constexpr std::uint32_t spot_view_size = 256, places = 16, face = 32;
 
 // A tilted floor of 4 x 4 m and a plate over a part of it.
@@ -25,7 +26,7 @@ inline Scene floor_and_plate() {
     test::add_quad(scene, {at(-2, 2), at(2, 2), at(2, -2), at(-2, -2)});
     Material dark;
     dark.base_color = glm::vec4(0.9f, 0.9f, 0.9f, 1.0f);
-    test::add_box(scene, {-3, 2, -3}, {0, 2.1, 3}, 1, test::add_material(scene, dark));
+    test::add_box(scene, {-3, 2, -3}, {plate_end, 2.1, 3}, 1, test::add_material(scene, dark));
     return scene;
 }
 
@@ -196,7 +197,7 @@ inline double lit_section() {
     double area = 0.0;
     for (int i = 0; i < steps; ++i) {  // nothing depends on z: the plate is wider than the floor
         const double x = -2.0 + 4.0 * (i + 0.5) / steps, up = 2.1 - slope * x;
-        if (x - up * 0.3 > 0.0) area += 4.0 / steps * 4.0 * std::hypot(1.0, slope);
+        if (x - up * 0.3 > plate_end) area += 4.0 / steps * 4.0 * std::hypot(1.0, slope);
     }
     return area * -glm::dot(way, normal);
 }

@@ -31,6 +31,16 @@ TEST_P(SpotPasses, MarkTheSidesThatRecordsSee) {
 TEST_P(SpotPasses, TallyWhatIsLitAndSeen) {
     LitFloor of(sun());
     EXPECT_NEAR(of.tallied(), lit_section(), 0.01 * lit_section());
+    // Texels of the floor's two triangles, also in tiles that show the plate besides.
+    const auto count = read<std::uint32_t>(of.spot.count, SPOT_TILES_A_VIEW);
+    std::uint32_t shown = 0;
+    for (const std::uint64_t word :
+         read<std::uint64_t>(of.spot.visibility, spot_view_size * spot_view_size)) {
+        const auto triangle = static_cast<std::uint32_t>(word);
+        if (triangle != ~0u && of.scene->triangle_order()[triangle] < 2) ++shown;
+    }
+    EXPECT_GT(shown, 1000u);
+    EXPECT_EQ(std::accumulate(count.begin(), count.end(), 0u), shown);
     // Every other tile alone, then the others.
     double sum = 0.0;
     for (const std::size_t odd : {0, 1}) {

@@ -164,13 +164,14 @@ TEST_P(Spots, InAHoleLightAHall) {
     expect_light(found, truth, 0.15);
 }
 
-// More small places than are drawn closely, beside a large one that records resolve.
+// More small places than are drawn closely, beside a large one that records resolve; another sun
+// lights the outside alone.
 TEST_P(Spots, OfManyHolesLightAHall) {
     Hall of = hall(1.0, 0.2);
     const std::vector<Opening> openings = add_sieve(of);
     Scene lamps = of.scene;
     const glm::dvec3 way(0.1, -1.0, -0.05);
-    of.scene.lights = {sun(way)};
+    of.scene.lights = {sun({1.0, 0.0, 0.2}), sun(way)};
     const double x = of.height * way.x, z = of.height * way.z, y = 1e-3;
     for (const Opening& one : openings)
         add_lit(lamps,
